@@ -1,0 +1,10 @@
+# The warnings that our own code is held to; generated parsers get none.
+set(TARTAN_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wundef
+    -Wpointer-arith -Wwrite-strings -Wcast-qual -Wformat=2)
+if(TARTAN_WERROR)
+  list(APPEND TARTAN_WARNINGS -Werror)
+endif()
+
+function(tartan_warnings target)
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:C>:${TARTAN_WARNINGS}>)
+endfunction()

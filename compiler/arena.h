@@ -1,0 +1,23 @@
+/* Memory of one compilation: allocate at will, free all at once. Everything that the compiler makes of a source
+ * (AST, checked program) lives in one arena. */
+#ifndef TARTAN_COMPILER_ARENA_H
+#define TARTAN_COMPILER_ARENA_H
+
+#include <stddef.h>
+
+typedef struct tn_arena tn_arena;
+
+tn_arena *tn_arena_new(void); /* NULL where out of memory */
+void tn_arena_free(tn_arena *arena);
+
+/* Zeroed memory, aligned for any type; NULL where out of memory, which is remembered. */
+void *tn_arena_alloc(tn_arena *arena, size_t size);
+char *tn_arena_copy(tn_arena *arena, const char *text, size_t length); /* with a zero byte after it */
+
+/* Did any allocation fail? */
+int tn_arena_failed(const tn_arena *arena);
+
+#define TN_NEW(arena, type) ((type *)tn_arena_alloc((arena), sizeof(type)))
+#define TN_NEW_ARRAY(arena, type, count) ((type *)tn_arena_alloc((arena), sizeof(type) * (count)))
+
+#endif

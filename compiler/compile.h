@@ -1,0 +1,38 @@
+/* Compiling: a source file and all that it uses, to a module's bytes.
+ *
+ * The way through: grammar/ parses each file into an AST (ast.h), `use` imports are followed (import.h), names, schemas,
+ * specifiers and expressions are checked (check_*.h) into a program (program.h), which is emitted (emit.h). Errors of all
+ * files are collected; nothing is emitted where there is one.
+ */
+#ifndef TARTAN_COMPILER_COMPILE_H
+#define TARTAN_COMPILER_COMPILE_H
+
+#include "compiler/arena.h"
+#include "compiler/diagnostic.h"
+#include "compiler/program.h"
+
+typedef struct tn_compile_options {
+    const char *const *stdlib_dirs; /* where `use "name"` without slash or extension is looked for, in order */
+    size_t stdlib_dir_count;
+    bool warnings_are_errors;
+} tn_compile_options;
+
+typedef struct tn_compilation {
+    tn_sources sources;
+    tn_diagnostics diagnostics;
+    tn_arena *arena;
+    tn_program *program; /* checked; NULL where there were errors */
+    uint8_t *module;     /* bytes of the module, owned; NULL where there were errors */
+    size_t module_size;
+} tn_compilation;
+
+/* Compiles the file at `path` ("-": standard input). The result's diagnostics say what is wrong; returns TN_OK, or TN_INVALID
+ * where there is an error, TN_IO where the named file itself cannot be read (reported as a diagnostic too). Free with tn_compilation_clear in any case. */
+tn_status tn_compile_file(const char *path, const tn_compile_options *options, tn_compilation *compilation);
+
+/* The same from memory; `path` is its name in diagnostics and where relative imports start. */
+tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options, tn_compilation *compilation);
+
+void tn_compilation_clear(tn_compilation *compilation);
+
+#endif

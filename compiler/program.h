@@ -1,0 +1,35 @@
+/* What remains of a compilation beside the module: the test blocks, with their plans resolved to tray numbers, for `tartan test`. */
+#ifndef TARTAN_COMPILER_PROGRAM_H
+#define TARTAN_COMPILER_PROGRAM_H
+
+#include "compiler/source.h"
+
+typedef enum tn_expectation { TN_EXPECT_MATCH, TN_EXPECT_REJECT, TN_EXPECT_KEEP, TN_EXPECT_DROP } tn_expectation;
+
+typedef struct tn_test_case {
+    tn_expectation expectation;
+    const uint8_t *values;      /* [tray][field]: index of the value within its field */
+    size_t length;              /* trays */
+    const char *doc;            /* or NULL */
+    const char *const *by;      /* drop ... by NAME, NAME: clause names; all must be among the reasons */
+    size_t by_count;
+    tn_span span;
+} tn_test_case;
+
+typedef struct tn_test_block {
+    const char *subject;        /* name of the rule or library */
+    bool is_library;
+    uint32_t index;             /* of its RULE or LIBRARY record */
+    uint32_t schema;            /* of its SCHEMA record */
+    bool imported;
+    const tn_test_case *cases;
+    size_t case_count;
+    tn_span span;
+} tn_test_block;
+
+typedef struct tn_program {
+    const tn_test_block *tests;
+    size_t test_count;
+} tn_program;
+
+#endif

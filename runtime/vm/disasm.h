@@ -1,0 +1,12 @@
+/* Lists a module in text: tables, then each function's code beside the source lines it comes from. */
+#ifndef TARTAN_VM_DISASM_H
+#define TARTAN_VM_DISASM_H
+
+#include <stdio.h>
+
+#include "runtime/vm/module.h"
+
+/* Writes the listing to `out`; false where writing failed. */
+bool tn_module_disassemble(const tn_module *module, FILE *out);
+
+#endif

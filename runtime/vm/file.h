@@ -1,0 +1,31 @@
+/* Whole files in, whole files out: reading with a limit, and writing beside the target and renaming,
+ * so that a crash never leaves half a file. */
+#ifndef TARTAN_VM_FILE_H
+#define TARTAN_VM_FILE_H
+
+#include <stdio.h>
+
+#include "runtime/vm/error.h"
+
+/* Reads a whole file ("-" is standard input) of at most `limit` bytes. The caller frees *bytes with
+ * free(); a zero byte follows the contents and is not counted. E0901 unreadable, E0804 too large. */
+tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error);
+
+/* An output file under construction. */
+typedef struct tn_output {
+    FILE *stream;      /* write here */
+    const char *path;  /* the target, borrowed: must outlive the output; "-" is standard output */
+    char *temporary;   /* owned; NULL for standard output */
+} tn_output;
+
+/* Opens a temporary file beside `path`. */
+tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
+
+/* Flushes, syncs and renames it over its target. On failure the temporary file is removed and the target
+ * stays as it was. A closed pipe on standard output is TN_IO with code 903. */
+tn_status tn_output_commit(tn_output *output, tn_error *error);
+
+/* Gives up: removes the temporary file. Harmless after a commit. */
+void tn_output_discard(tn_output *output);
+
+#endif
