@@ -26,13 +26,18 @@ typedef struct tn_schema {
     uint32_t *value_start;          /* per field (and one past the last): index of its first value in `values` */
     uint32_t tray_count;            /* legal trays */
     uint8_t *tray_values;           /* [tray][field]: index of the value within its field */
+    uint64_t *tray_masks;           /* [tray][mask word]: one bit per value that the tray has, as in a specifier */
     uint32_t *tray_of_code;         /* all combinations in order -> tray, or TN_NO_TRAY */
     uint64_t code_count;            /* combinations, legal or not */
-    const uint32_t *forbids;        /* unused where forbid_count is 0: indices into the module's SPEC records */
 } tn_schema;
 
-/* Makes a schema ready. max_codes bounds the combinations (0: TN_SCHEMA_CODES_DEFAULT); E0803 past it. */
+/* Makes a schema ready; index: of the SCHEMA record. max_codes bounds the combinations (0: TN_SCHEMA_CODES_DEFAULT) and
+ * with them the memory of their tables; E0803 past it. E0703 where a module's tables are not as a schema needs them.
+ * The caller frees *schema with tn_schema_free. */
 #define TN_SCHEMA_CODES_DEFAULT (1u << 20)
+#define TN_FIELD_VALUES_MAX 256u                      /* a value's index is held in a byte */
+#define TN_SCHEMA_BYTES_MAX (UINT64_C(1) << 28)       /* of the tables of trays */
+#define TN_SCHEMA_CHECKS_MAX (UINT64_C(1) << 31)      /* combinations held against `forbid`s, in mask words */
 tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **schema, tn_error *error);
 void tn_schema_free(tn_schema *schema);
 
@@ -40,6 +45,12 @@ void tn_schema_free(tn_schema *schema);
 static inline uint32_t tn_tray_value(const tn_schema *schema, tn_tray tray, uint32_t field)
 {
     return schema->tray_values[(size_t)tray * schema->field_count + field];
+}
+
+/* The words of a tray's values: mask_words of them, in the order of a specifier's. */
+static inline const uint64_t *tn_tray_mask(const tn_schema *schema, tn_tray tray)
+{
+    return schema->tray_masks + (size_t)tray * schema->mask_words;
 }
 
 /* The record of that value. */
@@ -60,10 +71,16 @@ bool tn_spec_meets(const tn_schema *schema, uint32_t spec, tn_tray tray);
 /* The field named so, or UINT32_MAX. */
 uint32_t tn_schema_field(const tn_schema *schema, const char *name);
 
+/* Word `word` of a specifier (an index into the module's SPEC records). */
+static inline uint64_t tn_spec_word(const tn_module *module, uint32_t spec, uint32_t word)
+{
+    return (uint64_t)module->MASK_records[module->SPEC_records[spec].mask_first + word].bits;
+}
+
 /* The first field of kind TN_FIELD_LENGTH (what `total` adds), or UINT32_MAX. */
 uint32_t tn_schema_length_field(const tn_schema *schema);
 
-/* The greatest common divisor of a field's lengths, at least 1 nm. */
+/* The greatest common divisor of a field's lengths (a zone's depths), at least 1 nm. */
 int64_t tn_schema_length_unit(const tn_schema *schema, uint32_t field);
 
 #endif

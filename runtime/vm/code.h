@@ -1,0 +1,69 @@
+/* Reading the code of a verified module, one instruction at a time. */
+#ifndef TARTAN_VM_CODE_H
+#define TARTAN_VM_CODE_H
+
+#include "runtime/vm/module.h"
+#include "runtime/vm/opcodes.h"
+
+/* An instruction with its operands in the order of its row; 0 where it has none. */
+typedef struct tn_instruction {
+    tn_opcode opcode;
+    uint32_t length; /* bytes */
+    int64_t first;
+    int64_t second;
+} tn_instruction;
+
+static inline uint32_t tn_code_u32(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static inline int64_t tn_code_i64(const uint8_t *bytes)
+{
+    return (int64_t)((uint64_t)tn_code_u32(bytes) | (uint64_t)tn_code_u32(bytes + 4) << 32);
+}
+
+/* How an opcode's operands are laid out. */
+static inline tn_operands tn_code_operands(uint8_t opcode)
+{
+    static const uint8_t kinds[TN_OPCODE_COUNT] = {
+#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) TN_OPERANDS_##OPERANDS,
+#include "runtime/vm/opcodes.def"
+#undef X
+    };
+    return (tn_operands)kinds[opcode];
+}
+
+/* The instruction at a byte offset of the code section, which must be one that verifying has seen. */
+static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
+{
+    const uint8_t *bytes = code + offset;
+    tn_instruction instruction = {.opcode = (tn_opcode)bytes[0], .length = 1};
+    switch (tn_code_operands(bytes[0])) {
+    case TN_OPERANDS_NONE:
+        break;
+    case TN_OPERANDS_SPEC:
+    case TN_OPERANDS_FUNC:
+    case TN_OPERANDS_COND:
+        instruction.first = tn_code_u32(bytes + 1);
+        instruction.length = 5;
+        break;
+    case TN_OPERANDS_FIELD_COND:
+        instruction.first = tn_code_u32(bytes + 1);
+        instruction.second = tn_code_u32(bytes + 5);
+        instruction.length = 9;
+        break;
+    case TN_OPERANDS_INT:
+        instruction.first = tn_code_i64(bytes + 1);
+        instruction.length = 9;
+        break;
+    case TN_OPERANDS_INT2:
+        instruction.first = tn_code_i64(bytes + 1);
+        instruction.second = tn_code_i64(bytes + 9);
+        instruction.length = 17;
+        break;
+    }
+    return instruction;
+}
+
+#endif
