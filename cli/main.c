@@ -1,0 +1,92 @@
+/* tartan: picks the command, reads its options, runs it. */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/help.h"
+#include "cli/options.h"
+#include "cli/session.h"
+
+/* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
+static int written(void)
+{
+    const tn_settings settings = {0};
+    tn_session session;
+    tn_output output;
+    tn_session_begin(&session, &settings);
+    if (tn_session_output(&session, NULL, &output))
+        tn_session_commit(&session, &output);
+    return tn_session_end(&session);
+}
+
+static int refuse(const tn_settings *settings, const tn_error *error)
+{
+    tn_session session;
+    tn_session_begin(&session, settings);
+    tn_session_fail(&session, error);
+    return tn_session_end(&session);
+}
+
+static int unknown_command(const char *name)
+{
+    const tn_settings settings = {0};
+    const char *names[64];
+    for (size_t i = 0; i < tn_command_count; i++)
+        names[i] = tn_commands[i]->name;
+    tn_error error;
+    tn_fail(&error, TN_INVALID, E_USAGE,
+            name[0] == '-' ? "`tartan` has no option %.60s" : "there is no command `%.60s`", name);
+    const char *near = tn_nearest(name, names, tn_command_count);
+    if (near)
+        tn_error_help(&error, "did you mean `tartan %s`?", near);
+    else
+        tn_error_help(&error, "`tartan help` lists the commands");
+    return refuse(&settings, &error);
+}
+
+static int help(const char *name)
+{
+    const tn_command *command = name ? tn_command_find(name) : NULL;
+    if (name && !command)
+        return unknown_command(name);
+    if (command)
+        tn_help_command(command, stdout);
+    else
+        tn_help_overview(stdout);
+    return written();
+}
+
+static int run(const tn_command *command, int count, char **words)
+{
+    tn_settings settings = {0};
+    tn_error error;
+    int exit_code;
+    if (tn_options_parse(command, count, words, &settings, &error) != TN_OK)
+        exit_code = refuse(&settings, &error);
+    else if (settings.help)
+        exit_code = help(command->name);
+    else
+        exit_code = command->run(command, &settings);
+    tn_settings_clear(&settings);
+    return exit_code;
+}
+
+int main(int argc, char **argv)
+{
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as EPIPE, which commands end on quietly */
+    if (argc < 2) {
+        tn_help_overview(stderr);
+        return TN_EXIT_USAGE;
+    }
+    const char *name = argv[1];
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        return help(NULL);
+    if (strcmp(name, "help") == 0)
+        return help(argc > 2 ? argv[2] : NULL);
+    if (strcmp(name, "--version") == 0) {
+        puts("tartan " TARTAN_VERSION);
+        return written();
+    }
+    const tn_command *command = tn_command_find(name);
+    return command ? run(command, argc - 2, argv + 2) : unknown_command(name);
+}

@@ -1,0 +1,106 @@
+/* The command line: each command is a row of data (tn_command) with a table of its options, from which parsing,
+ * `--help` and the manual pages all come.
+ *
+ * Parsing writes into a tn_settings at the offset that the option's row names. Texts are borrowed from argv.
+ */
+#ifndef TARTAN_CLI_OPTIONS_H
+#define TARTAN_CLI_OPTIONS_H
+
+#include <stdio.h>
+
+#include "runtime/vm/error.h"
+
+typedef struct tn_option_list {
+    const char **items;
+    size_t count;
+} tn_option_list;
+
+typedef struct tn_option_number {
+    bool given;
+    uint64_t value;
+} tn_option_number;
+
+typedef struct tn_option_range {
+    bool given;
+    uint64_t low, high;
+} tn_option_range;
+
+/* What a row writes into the settings. */
+typedef enum tn_option_kind {
+    TN_OPTION_FLAG,   /* bool */
+    TN_OPTION_TEXT,   /* const char * */
+    TN_OPTION_LIST,   /* tn_option_list; may be repeated */
+    TN_OPTION_NUMBER, /* tn_option_number, from `low` to `high` */
+    TN_OPTION_RANGE,  /* tn_option_range, written a..b or a, from `low` to `high` */
+    TN_OPTION_RANK,   /* const char *: decimal digits, as many as one likes */
+    TN_OPTION_CHOICE, /* int: index of the word among `choices` */
+} tn_option_kind;
+
+typedef struct tn_option {
+    const char *name;     /* without the dashes */
+    char letter;          /* of the short form, or 0 */
+    const char *argument; /* what help calls the argument; NULL for a flag */
+    const char *help;
+    tn_option_kind kind;
+    size_t offset;       /* in tn_settings */
+    const char *choices; /* "text|json" */
+    uint64_t low, high;  /* bounds; high 0: none */
+} tn_option;
+
+/* Every option's value, zero where it was not given. */
+typedef struct tn_settings {
+    tn_option_list operands;
+    bool help;
+    int diagnostics; /* 0 text, 1 json */
+    bool werror;
+
+    const char *library;
+    tn_option_list rules;
+    tn_option_range trays;
+    tn_option_number max_length, max_states, threads;
+    int engine; /* a tn_engine */
+    int format, input_format;
+    int on_error; /* 0 stop, 1 skip */
+
+    const char *output, *dropped;
+    bool json, mirror, resume;
+    const char *from, *to;
+    tn_option_number limit, seed, length, per_length, sample;
+
+    tn_option_number columns, scale, dpi;
+    const char *page, *title;
+} tn_settings;
+
+typedef struct tn_command {
+    const char *name;
+    const char *summary;     /* one line, no full stop */
+    const char *usage;       /* the words after "tartan NAME", one form a line */
+    const char *description; /* paragraphs; wrapped by help */
+    const char *example;     /* lines, commands start with "$ " */
+    const tn_option *options;
+    size_t option_count;
+    const char *operands; /* what an operand is called in errors */
+    size_t operands_min, operands_max;
+    int (*run)(const struct tn_command *command, const tn_settings *settings);
+} tn_command;
+
+/* All commands, in the order that help lists them. */
+extern const tn_command *const tn_commands[];
+extern const size_t tn_command_count;
+
+/* The command named so, or NULL. */
+const tn_command *tn_command_find(const char *name);
+
+/* Options that every command has; parsing and help add them to the command's own. */
+extern const tn_option tn_common_options[];
+extern const size_t tn_common_option_count;
+
+/* Reads the words after the command's name. TN_INVALID (E0904) says what is wrong and what was probably meant; what was
+ * read before stays in the settings. Clear the settings in any case. */
+tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error);
+void tn_settings_clear(tn_settings *settings);
+
+/* Reads a number or a range as the options do; false where the text is not one. */
+bool tn_number_read(const char *text, uint64_t *value);
+
+#endif

@@ -1,0 +1,33 @@
+#include "driver/findings.h"
+
+bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)
+{
+    const tn_map_record *map =
+        opened->module && offset != TN_NO_OFFSET ? tn_module_place(opened->module, offset) : NULL;
+    if (!map || map->file >= opened->compilation.sources.count)
+        return false;
+    *span = (tn_span){map->file, map->begin, map->end};
+    return true;
+}
+
+static void place(const tn_opened *opened, const tn_error *error, tn_diagnostic *diagnostic)
+{
+    diagnostic->has_span = tn_code_span(opened, error->code_offset, &diagnostic->span);
+}
+
+tn_diagnostic *tn_finding_error(tn_opened *opened, const tn_error *error)
+{
+    tn_diagnostic *diagnostic = tn_report_error(&opened->compilation.diagnostics, error, NULL, NULL, 0);
+    place(opened, error, diagnostic);
+    return diagnostic;
+}
+
+tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *diagnostic = tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "%s", error->message);
+    place(opened, error, diagnostic);
+    if (error->help[0])
+        tn_help(list, diagnostic, "%s", error->help);
+    return diagnostic;
+}

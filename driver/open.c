@@ -1,0 +1,84 @@
+#include "driver/open.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/stdlib_dirs.h"
+#include "runtime/vm/file.h"
+
+static void start(const char *path, tn_opened *opened)
+{
+    *opened = (tn_opened){.path = path};
+    tn_diagnostics_init(&opened->compilation.diagnostics, &opened->compilation.sources);
+}
+
+static tn_status refuse(tn_opened *opened, const tn_error *error)
+{
+    tn_report_error(&opened->compilation.diagnostics, error, opened->path, NULL, 0);
+    return error->status;
+}
+
+static tn_status compile(tn_opened *opened, const uint8_t *bytes, size_t size, bool warnings_are_errors)
+{
+    tn_stdlib_dirs found;
+    tn_error error;
+    tn_status status = tn_stdlib_dirs_find(&found, &error);
+    if (status == TN_OK) {
+        tn_compile_options options = {(const char *const *)found.dirs, found.count, warnings_are_errors};
+        tn_diagnostics_clear(&opened->compilation.diagnostics);
+        status = tn_compile_text(opened->path, (const char *)bytes, size, &options, &opened->compilation);
+    } else {
+        refuse(opened, &error);
+    }
+    tn_stdlib_dirs_clear(&found);
+    if (status != TN_OK)
+        return status;
+    opened->compiled = true;
+    status = tn_module_load(opened->compilation.module, opened->compilation.module_size, NULL, &opened->module, &error);
+    return status == TN_OK ? TN_OK : refuse(opened, &error);
+}
+
+/* A module brings its sources along: findings then show the same lines as when it was compiled. */
+static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
+{
+    tn_error error;
+    tn_status status = tn_module_load(bytes, size, NULL, &opened->module, &error);
+    const tn_module *module = opened->module;
+    for (size_t i = 0; status == TN_OK && i < module->SOURCE_count; i++) {
+        const char *text = tn_text(module, module->SOURCE_records[i].text);
+        uint32_t file;
+        status = tn_sources_add(&opened->compilation.sources, tn_text(module, module->SOURCE_records[i].path), text,
+                                strlen(text), &file, &error);
+    }
+    return status == TN_OK ? TN_OK : refuse(opened, &error);
+}
+
+tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
+                        tn_opened *opened)
+{
+    start(path, opened);
+    return tn_module_has_magic(bytes, size) ? load(opened, bytes, size)
+                                            : compile(opened, bytes, size, warnings_are_errors);
+}
+
+tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_error error;
+    tn_status status = tn_file_read(path, tn_module_limits_default().bytes, &bytes, &size, &error);
+    if (status != TN_OK) {
+        start(path, opened);
+        return refuse(opened, &error);
+    }
+    status = tn_open_bytes(path, bytes, size, warnings_are_errors, opened);
+    free(bytes);
+    return status;
+}
+
+void tn_close(tn_opened *opened)
+{
+    tn_module_free(opened->module);
+    tn_compilation_clear(&opened->compilation);
+    *opened = (tn_opened){0};
+}
