@@ -18,27 +18,28 @@ typedef uint32_t tn_tray;
 typedef struct tn_schema {
     const tn_module *module;
     const tn_schema_record *record;
-    const tn_field_record *fields;  /* record->field_count of them */
-    const tn_value_record *values;  /* the schema's first value; all of its values follow */
+    const tn_field_record *fields; /* record->field_count of them */
+    const tn_value_record *values; /* the schema's first value; all of its values follow */
     uint32_t field_count;
-    uint32_t value_count;           /* over all fields */
-    uint32_t mask_words;            /* words of a specifier of this schema */
-    uint32_t *value_start;          /* per field (and one past the last): index of its first value in `values` */
-    uint32_t tray_count;            /* legal trays */
-    uint8_t *tray_values;           /* [tray][field]: index of the value within its field */
-    uint64_t *tray_masks;           /* [tray][mask word]: one bit per value that the tray has, as in a specifier */
-    uint32_t *tray_of_code;         /* all combinations in order -> tray, or TN_NO_TRAY */
-    uint64_t code_count;            /* combinations, legal or not */
+    uint32_t value_count;   /* over all fields */
+    uint32_t mask_words;    /* words of a specifier of this schema */
+    uint32_t *value_start;  /* per field (and one past the last): index of its first value in `values` */
+    uint32_t tray_count;    /* legal trays */
+    uint8_t *tray_values;   /* [tray][field]: index of the value within its field */
+    uint64_t *tray_masks;   /* [tray][mask word]: one bit per value that the tray has, as in a specifier */
+    uint32_t *tray_of_code; /* all combinations in order -> tray, or TN_NO_TRAY */
+    uint64_t code_count;    /* combinations, legal or not */
 } tn_schema;
 
 /* Makes a schema ready; index: of the SCHEMA record. max_codes bounds the combinations (0: TN_SCHEMA_CODES_DEFAULT) and
  * with them the memory of their tables; E0803 past it. E0703 where a module's tables are not as a schema needs them.
  * The caller frees *schema with tn_schema_free. */
 #define TN_SCHEMA_CODES_DEFAULT (1u << 20)
-#define TN_FIELD_VALUES_MAX 256u                      /* a value's index is held in a byte */
-#define TN_SCHEMA_BYTES_MAX (UINT64_C(1) << 28)       /* of the tables of trays */
-#define TN_SCHEMA_CHECKS_MAX (UINT64_C(1) << 31)      /* combinations held against `forbid`s, in mask words */
-tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **schema, tn_error *error);
+#define TN_FIELD_VALUES_MAX 256u                 /* a value's index is held in a byte */
+#define TN_SCHEMA_BYTES_MAX (UINT64_C(1) << 28)  /* of the tables of trays */
+#define TN_SCHEMA_CHECKS_MAX (UINT64_C(1) << 31) /* combinations held against `forbid`s, in mask words */
+tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **schema,
+                        tn_error *error);
 void tn_schema_free(tn_schema *schema);
 
 /* The value (index within the field) that a tray has in a field. */

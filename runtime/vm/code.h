@@ -34,6 +34,22 @@ static inline tn_operands tn_code_operands(uint8_t opcode)
     return (tn_operands)kinds[opcode];
 }
 
+typedef struct tn_opcode_effect {
+    uint8_t pops;
+    uint8_t pushes;
+} tn_opcode_effect;
+
+/* What an opcode does to the stack. */
+static inline tn_opcode_effect tn_code_effect(uint8_t opcode)
+{
+    static const tn_opcode_effect effects[TN_OPCODE_COUNT] = {
+#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) {POPS, PUSHES},
+#include "runtime/vm/opcodes.def"
+#undef X
+    };
+    return effects[opcode];
+}
+
 /* The instruction at a byte offset of the code section, which must be one that verifying has seen. */
 static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
 {
