@@ -12,12 +12,13 @@ void tn_arena_free(tn_arena *arena);
 
 /* Zeroed memory, aligned for any type; NULL where out of memory, which is remembered. */
 void *tn_arena_alloc(tn_arena *arena, size_t size);
-char *tn_arena_copy(tn_arena *arena, const char *text, size_t length); /* with a zero byte after it */
+void *tn_arena_alloc_array(tn_arena *arena, size_t size, size_t count); /* count items of that size */
+char *tn_arena_copy(tn_arena *arena, const char *text, size_t length);  /* with a zero byte after it */
 
 /* Did any allocation fail? */
 int tn_arena_failed(const tn_arena *arena);
 
 #define TN_NEW(arena, type) ((type *)tn_arena_alloc((arena), sizeof(type)))
-#define TN_NEW_ARRAY(arena, type, count) ((type *)tn_arena_alloc((arena), sizeof(type) * (count)))
+#define TN_NEW_ARRAY(arena, type, count) ((type *)tn_arena_alloc_array((arena), sizeof(type), (count)))
 
 #endif

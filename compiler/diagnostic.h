@@ -35,19 +35,20 @@ typedef struct tn_diagnostic_note {
 
 typedef struct tn_diagnostic {
     tn_severity severity;
-    uint32_t code;       /* a tn_code */
+    uint32_t code; /* a tn_code */
     bool has_span;
     tn_span span;
     char *message;
     tn_diagnostic_note *notes;
     size_t note_count;
-    char *help;          /* or NULL */
-    char *replacement;   /* a text that, put in the span's place, applies the help; or NULL */
+    char *help;        /* or NULL */
+    char *replacement; /* a text that, put in the span's place, applies the help; or NULL */
     /* a place in an input that is not a source (a plan file): path and line as text; line 0 where it has none */
     char *input_path;
     uint64_t input_line;
     uint32_t input_column, input_column_end;
-    char *input_text;
+    char *input_text; /* that line */
+    size_t order;     /* in which it was added */
 } tn_diagnostic;
 
 typedef struct tn_diagnostics {
@@ -55,8 +56,10 @@ typedef struct tn_diagnostics {
     tn_diagnostic *items;
     size_t count, capacity;
     size_t error_count, warning_count;
-    size_t error_limit;  /* further errors are counted but not kept; 0: 100 */
-    bool failed;         /* out of memory while collecting */
+    size_t error_limit;    /* further errors (and further warnings) are counted but not kept; 0: 100 */
+    size_t dropped;        /* past the limit */
+    bool failed;           /* out of memory while collecting */
+    tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
 } tn_diagnostics;
 
 void tn_diagnostics_init(tn_diagnostics *list, tn_sources *sources);
@@ -71,8 +74,10 @@ tn_diagnostic *tn_report(tn_diagnostics *list, tn_code code, tn_span span, const
 tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* From an error of the runtime: message, help and code; with the input's path, line and text where it has a place. */
-tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path, const char *input_text, size_t input_size);
+/* From an error of the runtime: message, help and code. Where it has a place, input_path names the input that it is in
+ * and input_text is the line (input_size bytes, without its line end); both may be NULL. */
+tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
+                               const char *input_text, size_t input_size);
 
 void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *span, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -86,15 +91,19 @@ void tn_diagnostics_sort(tn_diagnostics *list);
 void tn_code_name(uint32_t code, char name[8]);
 
 typedef struct tn_show_options {
-    bool json;   /* one JSON array of objects */
+    bool json; /* one JSON array of objects */
     bool colour;
 } tn_show_options;
 
-/* Writes all of them (library code does not choose the stream). JSON objects: {"severity","code","message","file","line",
- * "column","end_line","end_column","notes":[{"message","file","line","column"}],"help"}. */
+/* Writes all of them (library code does not choose the stream). JSON objects:
+ * {"severity","code","message","file","line",
+ * "column","end_line","end_column","notes":[{"message","file","line","column"}],"help","replacement"}; what an item
+ * does not have is null. What is not text (control characters, broken UTF-8, direction overrides) is shown as U+FFFD.
+ */
 void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out);
 
-/* The candidate nearest to `word` by edit distance (Damerau-Levenshtein), or NULL where none is near enough to suggest. */
+/* The candidate nearest to `word` by edit distance (insert, delete, replace, swap neighbours; case does not count), the
+ * first of several; NULL where none is near enough to suggest. */
 const char *tn_nearest(const char *word, const char *const *candidates, size_t count);
 
 #endif

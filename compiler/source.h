@@ -15,8 +15,8 @@ typedef struct tn_span {
 } tn_span;
 
 typedef struct tn_source {
-    char *path;  /* as the user wrote it, or as it was found: shown in diagnostics */
-    char *text;  /* followed by two zero bytes (flex scans in place) */
+    char *path; /* as the user wrote it, or as it was found: shown in diagnostics */
+    char *text; /* followed by two zero bytes (flex scans in place) */
     size_t size;
     uint32_t *line_starts; /* byte offset of each line; found when first needed */
     size_t line_count;
@@ -29,18 +29,21 @@ typedef struct tn_sources {
 
 #define TN_SOURCE_BYTES_MAX (16u << 20)
 
-/* Adds a copy of a text; its index in *file. TN_LIMIT past TN_SOURCE_BYTES_MAX. */
-tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file, tn_error *error);
+/* Adds a copy of a text; its index in *file. TN_LIMIT (E0804) past TN_SOURCE_BYTES_MAX. */
+tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file,
+                         tn_error *error);
 void tn_sources_clear(tn_sources *sources);
 
 typedef struct tn_place {
     const char *path;
     size_t line, column;         /* of the span's begin, from 1; columns count bytes */
     size_t end_line, end_column; /* of its end */
-    const char *line_text;       /* the line of `begin`, not zero-ended */
+    const char *line_text;       /* the line of `begin`, without its line end, not zero-ended */
     size_t line_size;
 } tn_place;
 
+/* Where a span is. Spans past the end of the text are cut there; a byte order mark is not counted; the place in a file
+ * that is not there is line 0. */
 tn_place tn_sources_place(tn_sources *sources, tn_span span);
 
 static inline tn_span tn_span_join(tn_span first, tn_span last)

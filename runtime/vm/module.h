@@ -1,6 +1,6 @@
 /* A module: what the compiler makes of a set of source files and what the engines run.
  *
- * On disk (.tnb): a 40-byte header (magic, format version, number of sections, file size,
+ * On disk (.tnb): a 32-byte header (layout.h: magic, format version, number of sections, file size,
  * hash), a table of sections {u32 number, u32 zero, u64 offset, u64 size}, the sections.
  * All little-endian; places are offsets, never pointers. Section 0 is the strings (UTF-8,
  * each ended by a zero byte; offset 0 is the empty string), section 1 the code; the others
@@ -85,6 +85,11 @@ typedef struct tn_module {
     uint64_t hash; /* the file's */
 } tn_module;
 
+/* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
+#define TN_FIELDS_MAX 64u   /* fields of a schema */
+#define TN_VALUES_MAX 255u  /* values of a field: engines number them in a byte */
+#define TN_NAME_MAX 255u    /* bytes of a name or spelling */
+
 /* Bounds that loading enforces. tn_module_limits_default() gives the defaults. */
 typedef struct tn_module_limits {
     size_t bytes;      /* of the file: 256 MiB */
@@ -111,7 +116,8 @@ static inline const char *tn_text(const tn_module *module, tn_string string)
     return module->strings + string;
 }
 
-/* The source place of the instruction at `offset` of the code section, or NULL. */
+/* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction before
+ * it in the same function that has one; NULL where there is none. */
 const tn_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 #endif

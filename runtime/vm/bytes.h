@@ -1,0 +1,35 @@
+/* Little-endian numbers in bytes, on any machine and at any alignment. */
+#ifndef TARTAN_VM_BYTES_H
+#define TARTAN_VM_BYTES_H
+
+#include <stdint.h>
+
+static inline uint32_t tn_get_u32(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static inline uint64_t tn_get_u64(const uint8_t *bytes)
+{
+    return (uint64_t)tn_get_u32(bytes) | (uint64_t)tn_get_u32(bytes + 4) << 32;
+}
+
+static inline int64_t tn_get_i64(const uint8_t *bytes)
+{
+    uint64_t value = tn_get_u64(bytes);
+    return value <= INT64_MAX ? (int64_t)value : -(int64_t)~value - 1;
+}
+
+static inline void tn_put_u32(uint8_t *bytes, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (uint8_t)(value >> (8 * i));
+}
+
+static inline void tn_put_u64(uint8_t *bytes, uint64_t value)
+{
+    for (int i = 0; i < 8; i++)
+        bytes[i] = (uint8_t)(value >> (8 * i));
+}
+
+#endif
