@@ -1,0 +1,46 @@
+# The front door. Everything else is CMake: see CMakePresets.json.
+PREFIX ?= /usr/local
+DESTDIR ?=
+CMAKE_FLAGS ?=
+JOBS ?= $(shell nproc)
+FUZZ_SECONDS ?= 600
+
+.PHONY: help packages build demo check bench fuzz install uninstall clean
+
+help:
+	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
+	@echo 'make check       build everything and run every test'
+	@echo 'make bench       print how fast it is here'
+	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
+	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
+	@echo 'make uninstall   remove what make install put there'
+	@echo 'make clean       remove what was built'
+
+packages:
+	@tools/install-packages packages.txt
+
+build: packages
+	@mkdir -p build
+	@cmake --preset release -DCMAKE_INSTALL_PREFIX='$(PREFIX)' $(CMAKE_FLAGS) >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@cmake --build build -j $(JOBS)
+
+demo: build
+	@tools/demo build/tartan demo
+
+check: build
+	@ctest --test-dir build --output-on-failure -j $(JOBS)
+
+bench: build
+	@bench/run build
+
+fuzz: packages
+	@tools/fuzz $(FUZZ_SECONDS)
+
+install: build
+	@DESTDIR='$(DESTDIR)' cmake --install build
+
+uninstall:
+	@DESTDIR='$(DESTDIR)' cmake -P cmake/uninstall.cmake
+
+clean:
+	@rm -rf build build-asan build-fuzz demo
