@@ -1,0 +1,47 @@
+# What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib, the manual pages.
+#
+# libtartan-runtime loads and runs modules; libtartan can compile too and holds the runtime whole: a program links the one or the other.
+include(CMakePackageConfigHelpers)
+
+set(TARTAN_RUNTIME_OBJECTS $<TARGET_OBJECTS:tartan-runtime-core>)
+set(TARTAN_OBJECTS ${TARTAN_RUNTIME_OBJECTS} $<TARGET_OBJECTS:tartan-grammar> $<TARGET_OBJECTS:tartan-compiler-core>
+    $<TARGET_OBJECTS:tartan-driver-core>)
+set(TARTAN_LIBRARY_NEEDS PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
+    Threads::Threads m)
+set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")
+set(TARTAN_PC_LIBS "${OpenMP_C_FLAGS} -pthread -lm")
+
+# Before 1.0 the soname holds major and minor: every minor version may break the ABI.
+set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+function(tartan_library name objects)
+  foreach(kind shared static)
+    set(target lib${name}-${kind})
+    string(TOUPPER ${kind} type)
+    add_library(${target} ${type} ${objects})
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} EXPORT_NAME ${name}-${kind} LINKER_LANGUAGE C)
+    target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_link_libraries(${target} PRIVATE ${TARTAN_LIBRARY_NEEDS})
+    install(TARGETS ${target} EXPORT tartan-targets
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endforeach()
+  set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${TARTAN_SOVERSION})
+  target_link_options(lib${name}-shared PRIVATE -Wl,--no-undefined)
+  set(TARTAN_PC_NAME ${name})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/tartan.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+tartan_library(tartan-runtime "${TARTAN_RUNTIME_OBJECTS}")
+tartan_library(tartan "${TARTAN_OBJECTS}")
+
+install(TARGETS tartan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY include/tartan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY stdlib DESTINATION ${CMAKE_INSTALL_DATADIR}/tartan FILES_MATCHING PATTERN "*.plan")
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(TARTAN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tartan)
+install(EXPORT tartan-targets NAMESPACE tartan:: DESTINATION ${TARTAN_PACKAGE_DIR})
+configure_package_config_file(cmake/tartanConfig.cmake.in ${PROJECT_BINARY_DIR}/tartanConfig.cmake INSTALL_DESTINATION ${TARTAN_PACKAGE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tartanConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tartanConfig.cmake ${PROJECT_BINARY_DIR}/tartanConfigVersion.cmake DESTINATION ${TARTAN_PACKAGE_DIR})

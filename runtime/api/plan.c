@@ -1,0 +1,65 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/api/api.h"
+#include "runtime/plan/text.h"
+
+const char *tartan_schema_name(const tartan_schema *schema)
+{
+    const tn_schema *s = tn_api_schema(schema);
+    return tn_text(s->module, s->record->name);
+}
+
+uint32_t tartan_schema_tray_count(const tartan_schema *schema)
+{
+    return tn_api_schema(schema)->tray_count;
+}
+
+tartan_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tartan_error *error)
+{
+    for (size_t i = 0; i < length; i++)
+        if (trays[i] >= schema->tray_count)
+            return tn_api_refuse(
+                error, TARTAN_INVALID, "tray %zu of the plan has number %u, and schema '%s' has trays 0 to %u", i + 1,
+                (unsigned)trays[i], tn_text(schema->module, schema->record->name), (unsigned)schema->tray_count - 1);
+    return TARTAN_OK;
+}
+
+tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, size_t size, uint32_t *trays,
+                               size_t capacity, size_t *length, tartan_error *error)
+{
+    tn_plan plan = {0};
+    tn_error found;
+    tn_status status = tn_plan_parse_line(tn_api_schema(schema), line, size, capacity, &plan, &found);
+    if (status == TN_OK) {
+        if (plan.length)
+            memcpy(trays, plan.trays, plan.length * sizeof *trays);
+        *length = plan.length;
+    }
+    free(plan.trays);
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+}
+
+tartan_status tartan_plan_write(const tartan_schema *schema, const uint32_t *trays, size_t length, char **line,
+                                tartan_error *error)
+{
+    tartan_status status = tn_api_trays(tn_api_schema(schema), trays, length, error);
+    if (status != TARTAN_OK)
+        return status;
+    tn_buffer text = {0};
+    /* The empty plan writes nothing, and is still a text. */
+    if (!tn_buffer_append(&text, "", 0) || !tn_plan_write_line(tn_api_schema(schema), trays, length, &text) ||
+        !text.data) {
+        free(text.data);
+        tn_error found;
+        tn_fail_memory(&found);
+        return tn_api_fail(&found, error);
+    }
+    *line = text.data;
+    return TARTAN_OK;
+}
+
+void tartan_text_free(char *text)
+{
+    free(text);
+}
