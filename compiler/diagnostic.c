@@ -33,7 +33,7 @@ void tn_diagnostics_clear(tn_diagnostics *list)
 }
 
 /* The text in memory of its own, or NULL (remembered). */
-static char *print(tn_diagnostics *list, const char *format, va_list args)
+__attribute__((format(printf, 2, 0))) static char *print(tn_diagnostics *list, const char *format, va_list args)
 {
     char *text;
     if (vasprintf(&text, format, args) < 0) {

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "compiler/diagnostic_text.h"
+#include "runtime/vm/utf8.h"
 
 /* Tabs are shown as blanks up to the next multiple of TAB_STOP; of a longer line than LINE_COLUMNS a window is shown
  * that begins CONTEXT_CHARACTERS before the mark. */

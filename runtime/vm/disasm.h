@@ -6,7 +6,8 @@
 
 #include "runtime/vm/module.h"
 
-/* Writes the listing to `out`; false where writing failed. */
+/* Writes the listing to `out`; false where writing failed or memory ran out. Texts from the module are shortened and
+ * cleaned of what would upset a terminal. */
 bool tn_module_disassemble(const tn_module *module, FILE *out);
 
 #endif

@@ -8,17 +8,18 @@
 #include "runtime/vm/error.h"
 
 /* Reads a whole file ("-" is standard input) of at most `limit` bytes. The caller frees *bytes with
- * free(); a zero byte follows the contents and is not counted. E0901 unreadable, E0804 too large. */
+ * free(); a zero byte follows the contents and is not counted. E0901 unreadable (TN_IO), E0804 too large (TN_LIMIT). */
 tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error);
 
 /* An output file under construction. */
 typedef struct tn_output {
-    FILE *stream;      /* write here */
-    const char *path;  /* the target, borrowed: must outlive the output; "-" is standard output */
-    char *temporary;   /* owned; NULL for standard output */
+    FILE *stream;     /* write here */
+    const char *path; /* the target, borrowed: must outlive the output; "-" is standard output */
+    char *temporary;  /* owned; NULL for standard output and for devices and pipes, which are written to directly */
+    char *target;     /* owned; what `path` names, links followed */
 } tn_output;
 
-/* Opens a temporary file beside `path`. */
+/* Opens a temporary file beside `path`. E0902 where that cannot be written. */
 tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
 
 /* Flushes, syncs and renames it over its target. On failure the temporary file is removed and the target

@@ -1,16 +1,19 @@
 /* Text on its way to a reader: decoding, display columns, and what must not reach a terminal. Internal to the
  * compiler's diagnostics. */
-#ifndef TARTAN_COMPILER_DIAGNOSTIC_TEXT_H
-#define TARTAN_COMPILER_DIAGNOSTIC_TEXT_H
+#ifndef TARTAN_VM_UTF8_H
+#define TARTAN_VM_UTF8_H
 
 #include <stdio.h>
 
-#include "compiler/source.h"
+#include "runtime/vm/error.h"
 
 #define TN_REPLACEMENT 0xFFFDu
 
 /* Reads one character; *size is its bytes (at least 1). Broken UTF-8 is one byte and TN_REPLACEMENT. */
 uint32_t tn_utf8_read(const char *text, size_t left, size_t *size);
+
+/* Is the text UTF-8, without surrogates or overlong forms? Zero bytes are allowed. */
+bool tn_is_utf8(const char *text, size_t size);
 
 /* Columns that a character takes on a terminal: 0 for combining marks, 2 for wide East Asian characters and pictures.
  */

@@ -1,4 +1,4 @@
-#include "compiler/diagnostic_text.h"
+#include "runtime/vm/utf8.h"
 
 #include <string.h>
 
@@ -23,6 +23,14 @@ uint32_t tn_utf8_read(const char *text, size_t left, size_t *size)
         return TN_REPLACEMENT;
     *size = length;
     return character;
+}
+
+bool tn_is_utf8(const char *text, size_t size)
+{
+    for (size_t i = 0, step; i < size; i += step)
+        if (tn_utf8_read(text + i, size - i, &step) == TN_REPLACEMENT && step == 1)
+            return false;
+    return true;
 }
 
 typedef struct tn_range {

@@ -1,0 +1,373 @@
+#include "runtime/vm/disasm.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/vm/bytes.h"
+#include "runtime/vm/opcodes.h"
+#include "runtime/vm/utf8.h"
+
+/* What is listed of one text: a module from anywhere must not make the listing endless. */
+enum { TEXT_SHOWN = 240 };
+
+typedef struct tn_lister {
+    const tn_module *module;
+    FILE *out;
+    uint32_t **line_starts; /* per source, found when first needed */
+    size_t *line_counts;
+    uint32_t shown_file; /* the source line that was shown last */
+    size_t shown_line;
+} tn_lister;
+
+/* A line under construction that is cut where it grows too long. */
+typedef struct tn_phrase {
+    char text[TEXT_SHOWN + 1];
+    size_t size;
+    bool cut;
+} tn_phrase;
+
+static void say(tn_phrase *phrase, const char *text)
+{
+    if (phrase->cut)
+        return;
+    size_t size = strlen(text);
+    if (size > TEXT_SHOWN - 3 - phrase->size) {
+        phrase->cut = true;
+        text = "...";
+        size = 3;
+    }
+    memcpy(phrase->text + phrase->size, text, size + 1);
+    phrase->size += size;
+}
+
+static void write_text(tn_lister *lister, const char *text)
+{
+    size_t size = strnlen(text, TEXT_SHOWN + 1);
+    bool cut = size > TEXT_SHOWN;
+    tn_write_clean(lister->out, text, cut ? TEXT_SHOWN : size);
+    if (cut)
+        fputs("...", lister->out);
+}
+
+static void write_name(tn_lister *lister, tn_string name)
+{
+    write_text(lister, tn_text(lister->module, name));
+}
+
+static void write_doc(tn_lister *lister, tn_string doc)
+{
+    if (doc == 0)
+        return;
+    fputs(" \"", lister->out);
+    write_name(lister, doc);
+    fputc('"', lister->out);
+}
+
+static void write_place(tn_lister *lister, uint32_t file, uint32_t begin, uint32_t end)
+{
+    fprintf(lister->out, "  source %u bytes %u..%u\n", file, begin, end);
+}
+
+/* ---- specifiers */
+
+static bool has_bit(const tn_module *module, const tn_spec_record *spec, uint32_t bit)
+{
+    uint64_t word = (uint64_t)module->MASK_records[spec->mask_first + bit / 64].bits;
+    return word >> (bit % 64) & 1;
+}
+
+/* "width 4'|8'": the values of one field that the specifier allows; nothing where it allows all. */
+static void describe_field(const tn_module *module, const tn_spec_record *spec, const tn_field_record *field,
+                           uint32_t first_bit, tn_phrase *phrase)
+{
+    uint32_t allowed = 0;
+    for (uint32_t i = 0; i < field->value_count; i++)
+        allowed += has_bit(module, spec, first_bit + i);
+    if (allowed == field->value_count)
+        return;
+    say(phrase, phrase->size ? ", " : "");
+    say(phrase, tn_text(module, field->name));
+    say(phrase, allowed ? " " : " none");
+    const char *between = "";
+    for (uint32_t i = 0; i < field->value_count && !phrase->cut; i++) {
+        if (!has_bit(module, spec, first_bit + i))
+            continue;
+        say(phrase, between);
+        say(phrase, tn_text(module, module->VALUE_records[field->value_first + i].spelling));
+        between = "|";
+    }
+}
+
+static void describe_spec(const tn_module *module, uint32_t index, tn_phrase *phrase)
+{
+    const tn_spec_record *spec = &module->SPEC_records[index];
+    const tn_schema_record *schema = &module->SCHEMA_records[spec->schema];
+    uint32_t first_value = module->FIELD_records[schema->field_first].value_first;
+    for (uint32_t i = 0; i < schema->field_count && !phrase->cut; i++) {
+        const tn_field_record *field = &module->FIELD_records[schema->field_first + i];
+        describe_field(module, spec, field, field->value_first - first_value, phrase);
+    }
+    if (phrase->size == 0)
+        say(phrase, "any tray");
+}
+
+static void write_spec(tn_lister *lister, uint32_t index)
+{
+    tn_phrase phrase = {0};
+    describe_spec(lister->module, index, &phrase);
+    write_text(lister, phrase.text);
+}
+
+/* ---- tables */
+
+static void list_header(tn_lister *lister)
+{
+    const tn_module *module = lister->module;
+    fprintf(lister->out, "module: format %u, hash %016llx\n", TN_MODULE_FORMAT, (unsigned long long)module->hash);
+    for (size_t i = 0; i < module->PRODUCER_count; i++) {
+        fputs("written by ", lister->out);
+        write_name(lister, module->PRODUCER_records[i].version);
+        fprintf(lister->out, " from sources with hash %016llx\n",
+                (unsigned long long)module->PRODUCER_records[i].sources_hash);
+    }
+    for (size_t i = 0; i < module->SOURCE_count; i++) {
+        fprintf(lister->out, "source %zu  ", i);
+        write_name(lister, module->SOURCE_records[i].path);
+        fprintf(lister->out, "\n");
+    }
+}
+
+static void list_value(tn_lister *lister, const tn_value_record *value)
+{
+    static const char *const roles[] = {"", ", solid", ", void", ", absent"};
+    fputs("      ", lister->out);
+    write_name(lister, value->spelling);
+    fputs("  (", lister->out);
+    write_name(lister, value->name);
+    fprintf(lister->out, ", %lld nm%s)", (long long)value->length, roles[value->role]);
+    write_doc(lister, value->doc);
+    fputc('\n', lister->out);
+}
+
+static void list_field(tn_lister *lister, uint32_t index)
+{
+    static const char *const kinds[] = {"length", "choice", "flag", "zone"};
+    static const char *const roles[] = {
+        "", ", role length", ", role level", ", role public-end", ", role great-hall", ", role band"};
+    const tn_field_record *field = &lister->module->FIELD_records[index];
+    fprintf(lister->out, "  field %u  ", index);
+    write_name(lister, field->name);
+    fprintf(lister->out, ": %s%s", kinds[field->kind], roles[field->role]);
+    write_doc(lister, field->doc);
+    fputc('\n', lister->out);
+    for (uint32_t i = 0; i < field->value_count; i++)
+        list_value(lister, &lister->module->VALUE_records[field->value_first + i]);
+}
+
+static void list_schema(tn_lister *lister, uint32_t index)
+{
+    const tn_schema_record *schema = &lister->module->SCHEMA_records[index];
+    fprintf(lister->out, "\nschema %u  ", index);
+    write_name(lister, schema->name);
+    write_doc(lister, schema->doc);
+    write_place(lister, schema->file, schema->begin, schema->end);
+    for (uint32_t i = 0; i < schema->field_count; i++)
+        list_field(lister, schema->field_first + i);
+    for (uint32_t i = 0; i < schema->forbid_count; i++)
+        fprintf(lister->out, "  forbids specifier %u\n", schema->forbid_first + i);
+}
+
+static void list_specs(tn_lister *lister)
+{
+    if (lister->module->SPEC_count > 0)
+        fputs("\nspecifiers\n", lister->out);
+    for (uint32_t i = 0; i < lister->module->SPEC_count; i++) {
+        fprintf(lister->out, "  %u  ", i);
+        write_spec(lister, i);
+        fputc('\n', lister->out);
+    }
+}
+
+static void list_rules(tn_lister *lister)
+{
+    if (lister->module->RULE_count > 0)
+        fputs("\nrules\n", lister->out);
+    for (size_t i = 0; i < lister->module->RULE_count; i++) {
+        const tn_rule_record *rule = &lister->module->RULE_records[i];
+        fprintf(lister->out, "  %zu  ", i);
+        write_name(lister, rule->name);
+        write_doc(lister, rule->doc);
+        fprintf(lister->out, ": whole function %u, holds function %u%s", rule->whole, rule->holds,
+                rule->flags & TN_IMPORTED ? ", imported" : "");
+        write_place(lister, rule->file, rule->begin, rule->end);
+    }
+}
+
+static void list_library(tn_lister *lister, size_t index)
+{
+    static const char *const kinds[] = {"require", "total", "prune"};
+    const tn_library_record *library = &lister->module->LIBRARY_records[index];
+    fprintf(lister->out, "\nlibrary %zu  ", index);
+    write_name(lister, library->name);
+    write_doc(lister, library->doc);
+    fputs(" using ", lister->out);
+    write_name(lister, lister->module->SCHEMA_records[library->schema].name);
+    fprintf(lister->out, ": %u..%u trays%s", library->trays_min, library->trays_max,
+            library->flags & TN_IMPORTED ? ", imported" : "");
+    write_place(lister, library->file, library->begin, library->end);
+    for (uint32_t i = 0; i < library->clause_count; i++) {
+        const tn_clause_record *clause = &lister->module->CLAUSE_records[library->clause_first + i];
+        fprintf(lister->out, "  %s ", kinds[clause->kind]);
+        write_name(lister, clause->name);
+        write_doc(lister, clause->doc);
+        fprintf(lister->out, ": function %u", clause->holds);
+        write_place(lister, clause->file, clause->begin, clause->end);
+    }
+}
+
+/* ---- source lines beside code */
+
+/* Finds where a source's lines start, once; without memory for that, no lines are shown. */
+static bool index_lines(tn_lister *lister, uint32_t file)
+{
+    if (lister->line_starts[file])
+        return true;
+    const char *text = tn_text(lister->module, lister->module->SOURCE_records[file].text);
+    size_t count = 1;
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        count++;
+    uint32_t *starts = malloc(count * sizeof *starts);
+    if (!starts)
+        return false;
+    size_t line = 0;
+    starts[line++] = 0;
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        starts[line++] = (uint32_t)(at + 1 - text);
+    lister->line_starts[file] = starts;
+    lister->line_counts[file] = count;
+    return true;
+}
+
+/* Shows the line that a place begins in, unless it was the last one shown. */
+static void show_source(tn_lister *lister, const tn_map_record *place)
+{
+    if (!place || !index_lines(lister, place->file))
+        return;
+    const uint32_t *starts = lister->line_starts[place->file];
+    size_t low = 0, high = lister->line_counts[place->file];
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (starts[middle] <= place->begin)
+            low = middle;
+        else
+            high = middle;
+    }
+    if (lister->shown_file == place->file && lister->shown_line == low + 1)
+        return;
+    lister->shown_file = place->file;
+    lister->shown_line = low + 1;
+    const char *text = tn_text(lister->module, lister->module->SOURCE_records[place->file].text) + starts[low];
+    size_t size = 0;
+    while (size < TEXT_SHOWN && text[size] && text[size] != '\n' && text[size] != '\r')
+        size++;
+    fputs("  ; ", lister->out);
+    write_name(lister, lister->module->SOURCE_records[place->file].path);
+    fprintf(lister->out, ":%zu: ", low + 1);
+    tn_write_clean(lister->out, text, size);
+    fputs(size == TEXT_SHOWN ? "...\n" : "\n", lister->out);
+}
+
+/* ---- code */
+
+static void write_function(tn_lister *lister, uint32_t index)
+{
+    static const char *const kinds[] = {"whole", "holds", "condition"};
+    const tn_function_record *function = &lister->module->FUNCTION_records[index];
+    fprintf(lister->out, "function %u (%s", index, kinds[function->kind]);
+    if (function->name != 0) {
+        fputc(' ', lister->out);
+        write_name(lister, function->name);
+    }
+    fputc(')', lister->out);
+}
+
+static void write_operands(tn_lister *lister, const tn_opcode_info *info, const uint8_t *operands)
+{
+    FILE *out = lister->out;
+    switch (info->operands) {
+    case TN_OPERANDS_NONE:
+        break;
+    case TN_OPERANDS_SPEC:
+        fprintf(out, "spec %u  ", tn_get_u32(operands));
+        write_spec(lister, tn_get_u32(operands));
+        break;
+    case TN_OPERANDS_FUNC:
+    case TN_OPERANDS_COND:
+        write_function(lister, tn_get_u32(operands));
+        break;
+    case TN_OPERANDS_FIELD_COND:
+        fprintf(out, "field %u (", tn_get_u32(operands));
+        write_name(lister, lister->module->FIELD_records[tn_get_u32(operands)].name);
+        fputs("), ", out);
+        write_function(lister, tn_get_u32(operands + 4));
+        break;
+    case TN_OPERANDS_INT:
+        fprintf(out, "%lld", (long long)tn_get_i64(operands));
+        break;
+    case TN_OPERANDS_INT2:
+        fprintf(out, "%lld, %lld", (long long)tn_get_i64(operands), (long long)tn_get_i64(operands + 8));
+        break;
+    }
+}
+
+static void list_function(tn_lister *lister, uint32_t index)
+{
+    const tn_module *module = lister->module;
+    const tn_function_record *function = &module->FUNCTION_records[index];
+    fputc('\n', lister->out);
+    write_function(lister, index);
+    if (function->kind != TN_FUNCTION_CONDITION) {
+        fputs(" of ", lister->out);
+        write_name(lister, module->SCHEMA_records[function->schema].name);
+    }
+    fprintf(lister->out, ", stack %u\n", function->stack_max);
+    lister->shown_line = 0;
+    for (uint32_t offset = function->code_begin; offset < function->code_end;) {
+        const tn_opcode_info *info = tn_opcode_describe(module->code[offset]);
+        show_source(lister, tn_module_place(module, offset));
+        bool bare = info->operands == TN_OPERANDS_NONE;
+        fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s ", offset, info->name);
+        write_operands(lister, info, module->code + offset + 1);
+        fputc('\n', lister->out);
+        offset += info->length;
+    }
+}
+
+static void list_module(tn_lister *lister)
+{
+    const tn_module *module = lister->module;
+    list_header(lister);
+    for (uint32_t i = 0; i < module->SCHEMA_count; i++)
+        list_schema(lister, i);
+    list_specs(lister);
+    list_rules(lister);
+    for (size_t i = 0; i < module->LIBRARY_count; i++)
+        list_library(lister, i);
+    for (uint32_t i = 0; i < module->FUNCTION_count && !ferror(lister->out); i++)
+        list_function(lister, i);
+}
+
+bool tn_module_disassemble(const tn_module *module, FILE *out)
+{
+    tn_lister lister = {.module = module, .out = out};
+    lister.line_starts = calloc(module->SOURCE_count + 1, sizeof *lister.line_starts);
+    lister.line_counts = calloc(module->SOURCE_count + 1, sizeof *lister.line_counts);
+    bool ready = lister.line_starts && lister.line_counts;
+    if (ready)
+        list_module(&lister);
+    for (size_t i = 0; lister.line_starts && i < module->SOURCE_count; i++)
+        free(lister.line_starts[i]);
+    free(lister.line_starts);
+    free(lister.line_counts);
+    return ready && !ferror(out);
+}
