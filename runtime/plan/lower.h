@@ -1,0 +1,24 @@
+/* Lowers rule functions to automata over tray classes: plans that the function holds of as a whole.
+ *
+ * A lowering keeps the automata of the functions met so far, in each direction in which they are called, so that
+ * functions that many rules share are lowered once. It owns them, borrows the classes, and belongs to one thread.
+ */
+#ifndef TARTAN_PLAN_LOWER_H
+#define TARTAN_PLAN_LOWER_H
+
+#include "runtime/plan/classes.h"
+#include "runtime/plan/dfa.h"
+
+typedef struct tn_lowering tn_lowering;
+
+/* max_states: of any intermediate automaton (0: TN_STATES_DEFAULT). The classes must be those of the functions to be
+ * lowered. */
+tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_lowering **lowering, tn_error *error);
+void tn_lowering_free(tn_lowering *lowering);
+
+/* The minimal automaton, over the classes, of the plans whose whole stretch [0, N) is in the function's relation. The
+ * caller frees *out. TN_LIMIT (E0802) where an intermediate automaton passes the bounds; the error's code_offset is the
+ * instruction in whose construction that was. */
+tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
+#endif
