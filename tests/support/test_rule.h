@@ -71,7 +71,7 @@ void test_rule_emit(tn_builder *builder, const test_rule *rule, uint32_t *whole,
 uint32_t test_rule_add(tn_builder *builder, const char *name, const test_rule *rule);
 
 /* ---- the brute force */
-#define TEST_LENGTH_MAX 12
+#define TEST_LENGTH_MAX 70 /* past one word of a row */
 
 typedef struct test_plan {
     uint32_t length;
@@ -84,11 +84,12 @@ void test_plan_random(test_random *random, const tn_schema *schema, uint32_t len
 /* The plan as values from tray numbers. */
 void test_plan_of(const tn_schema *schema, const tn_tray *trays, uint32_t length, test_plan *plan);
 
+/* Some megabytes: allocate it. */
 typedef struct test_brute {
     const test_schema *schema;
     const test_plan *plan;
-    /* [node][judgement][reversed][i][j]: 0 unknown, 1 false, 2 true */
-    int8_t memo[TEST_NODES_MAX][2][2][TEST_LENGTH_MAX + 1][TEST_LENGTH_MAX + 1];
+    /* [node][judgement][reversed][i][j] for the plan's length: 0 unknown, 1 false, 2 true */
+    int8_t memo[TEST_NODES_MAX * 4 * (TEST_LENGTH_MAX + 1) * (TEST_LENGTH_MAX + 1)];
 } test_brute;
 
 /* Starts on a rule and a plan. */

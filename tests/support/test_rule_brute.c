@@ -151,9 +151,15 @@ static bool decide_holds(test_brute *brute, const test_rule *rule, bool reversed
     return false;
 }
 
+static int8_t *place(test_brute *brute, uint32_t node, uint32_t judgement, bool reversed, uint32_t i, uint32_t j)
+{
+    size_t side = brute->plan->length + 1u;
+    return &brute->memo[((((size_t)node * 2 + judgement) * 2 + reversed) * side + i) * side + j];
+}
+
 static bool whole(test_brute *brute, const test_rule *rule, bool reversed, uint32_t i, uint32_t j)
 {
-    int8_t *memo = &brute->memo[rule->id][0][reversed][i][j];
+    int8_t *memo = place(brute, rule->id, 0, reversed, i, j);
     if (*memo == 0)
         *memo = decide_whole(brute, rule, reversed, i, j) ? 2 : 1;
     return *memo == 2;
@@ -161,7 +167,7 @@ static bool whole(test_brute *brute, const test_rule *rule, bool reversed, uint3
 
 static bool holds(test_brute *brute, const test_rule *rule, bool reversed, uint32_t i, uint32_t j)
 {
-    int8_t *memo = &brute->memo[rule->id][1][reversed][i][j];
+    int8_t *memo = place(brute, rule->id, 1, reversed, i, j);
     if (*memo == 0)
         *memo = decide_holds(brute, rule, reversed, i, j) ? 2 : 1;
     return *memo == 2;
@@ -171,7 +177,7 @@ void test_brute_start(test_brute *brute, const test_schema *schema, const test_p
 {
     brute->schema = schema;
     brute->plan = plan;
-    memset(brute->memo, 0, sizeof brute->memo);
+    memset(brute->memo, 0, (size_t)TEST_NODES_MAX * 4 * (plan->length + 1u) * (plan->length + 1u));
 }
 
 bool test_brute_whole(test_brute *brute, const test_rule *rule, uint32_t i, uint32_t j)
