@@ -14,6 +14,7 @@
 #include <stdio.h>
 
 #include "compiler/source.h"
+#include "runtime/vm/nearest.h"
 
 typedef enum tn_severity { TN_NOTE, TN_WARNING, TN_ERROR } tn_severity;
 
@@ -102,8 +103,5 @@ typedef struct tn_show_options {
  */
 void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out);
 
-/* The candidate nearest to `word` by edit distance (insert, delete, replace, swap neighbours; case does not count), the
- * first of several; NULL where none is near enough to suggest. */
-const char *tn_nearest(const char *word, const char *const *candidates, size_t count);
 
 #endif

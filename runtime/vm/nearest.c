@@ -1,5 +1,6 @@
-#include "compiler/diagnostic.h"
+#include "runtime/vm/nearest.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* Longer words are no slips of the pen. */
