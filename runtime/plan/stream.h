@@ -1,0 +1,104 @@
+/* Streams of plans: reading them from files of any of the formats of docs/plan-files.md, and writing them.
+ *
+ * Both sides use constant memory, whatever the number of plans. A reader or a writer belongs to one thread; it borrows
+ * the schema (and a writer the texts of its metadata only while it is opened).
+ */
+#ifndef TARTAN_PLAN_STREAM_H
+#define TARTAN_PLAN_STREAM_H
+
+#include <gmp.h>
+
+#include "runtime/plan/text.h"
+
+typedef enum tn_plan_format {
+    TN_FORMAT_AUTO,  /* reading: found out from the first bytes; writing: SQLite for .sqlite and .db, else plan lines */
+    TN_FORMAT_LINES, /* plan lines */
+    TN_FORMAT_JSON,  /* JSON lines */
+    TN_FORMAT_CSV,   /* a header, then a row a plan */
+    TN_FORMAT_BIN,   /* packed trays */
+    TN_FORMAT_SQLITE, /* a plan library */
+    TN_FORMAT_COUNT
+} tn_plan_format;
+
+/* "auto", "lines", "json", "csv", "bin", "sqlite". */
+const char *tn_plan_format_name(tn_plan_format format);
+
+/* The format named so; false where there is none. */
+bool tn_plan_format_find(const char *name, tn_plan_format *format);
+
+/* ---- reading */
+
+typedef struct tn_plan_reader tn_plan_reader;
+
+typedef struct tn_reader_options {
+    tn_plan_format format;
+    size_t max_length; /* trays of a plan; 0: 4,096. E0805 past it */
+    size_t max_line;   /* bytes of a line; 0: 1 MiB. E0605 past it */
+} tn_reader_options;
+
+/* Opens a file ("-": standard input, not for SQLite). `options` may be NULL. E0901 where it cannot be read, E0604 where
+ * it is none of the formats or made with another schema. Free with tn_plan_reader_free. */
+tn_status tn_plan_reader_open(const tn_schema *schema, const char *path, const tn_reader_options *options,
+                              tn_plan_reader **reader, tn_error *error);
+void tn_plan_reader_free(tn_plan_reader *reader);
+
+/* The next plan, valid until the next call; *plan is NULL at the end. Where one plan is bad (TN_INVALID, or TN_LIMIT
+ * with E0605 or E0805) the error has its line and column, and the caller may go on: the next call reads the next plan.
+ * After any other failure the reader is at its end. */
+tn_status tn_plan_reader_next(tn_plan_reader *reader, const tn_plan **plan, tn_error *error);
+
+/* The line of the plan read last, from 1 (its number in the file, where the format has no lines). */
+uint64_t tn_plan_reader_line(const tn_plan_reader *reader);
+
+/* That line as it was written, without its end; NULL where the format has no lines. Valid until the next call. */
+const char *tn_plan_reader_text(const tn_plan_reader *reader, size_t *size);
+
+/* The rank that the file gives the plan read last; false where it gives none. */
+bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank);
+
+/* The format that is being read; TN_FORMAT_LINES and TN_FORMAT_JSON may alternate in one file. */
+tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
+
+/* ---- writing */
+
+typedef struct tn_plan_writer tn_plan_writer;
+
+/* What a library file says of how it was made. NULL texts are left out. */
+typedef struct tn_plan_metadata {
+    const char *library;      /* its name */
+    const char *library_hash; /* tn_library_hash */
+    const char *rules_hash;   /* of the rule files' texts, hexadecimal */
+    const char *rules_path;
+    const char *version; /* the compiler's */
+    const char *command; /* what was asked for: "enumerate --from 10", "sample 100 --seed 3" */
+} tn_plan_metadata;
+
+typedef struct tn_writer_options {
+    tn_plan_format format;
+    tn_plan_metadata metadata;
+    bool resume;    /* go on with the SQLite library at the path, if there is one */
+    uint32_t batch; /* plans a transaction; 0: 50,000 */
+} tn_writer_options;
+
+/* Opens a file to write plans to ("-": standard output, not for SQLite). A SQLite library that is there is replaced, or
+ * with `resume` gone on with: E0606 where it was made from other rules or by another command. A file that is there and
+ * is no library is refused (E0902). */
+tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const tn_writer_options *options,
+                              tn_plan_writer **writer, tn_error *error);
+
+/* Plans that a resumed library holds already, and the rank of the last of them; 0 where it is new. */
+uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank);
+
+/* Appends a plan. Ranks must ascend. */
+tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
+                               tn_error *error);
+
+/* Finishes the file, which is then in place and whole. The writer may only be freed after, whatever the result. A
+ * closed pipe is TN_IO with E0903. */
+tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error);
+
+/* Frees the writer. Where it was not closed, a SQLite library keeps its whole batches, to be resumed; any other file is
+ * given up. */
+void tn_plan_writer_free(tn_plan_writer *writer);
+
+#endif
