@@ -40,7 +40,7 @@ install: build
 	@DESTDIR='$(DESTDIR)' cmake --install build
 
 uninstall:
-	@DESTDIR='$(DESTDIR)' cmake -P cmake/uninstall.cmake
+	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
 	@rm -rf build build-asan build-fuzz demo

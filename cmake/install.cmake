@@ -9,6 +9,7 @@ set(TARTAN_OBJECTS ${TARTAN_RUNTIME_OBJECTS} $<TARGET_OBJECTS:tartan-grammar> $<
 set(TARTAN_LIBRARY_NEEDS PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
     Threads::Threads m)
 set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")
+file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(TARTAN_PC_LIBS "${OpenMP_C_FLAGS} -pthread -lm")
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.

@@ -1,9 +1,8 @@
-# Removes the files of the last `make install` (its manifest), then the folders of ours that this leaves empty.
-set(manifest "${CMAKE_CURRENT_LIST_DIR}/../build/install_manifest.txt")
-if(NOT EXISTS "${manifest}")
-  message(FATAL_ERROR "Nothing is known to be installed: there is no ${manifest}")
+# Removes the files that an install's manifest lists, then the folders of ours that this leaves empty: cmake -DMANIFEST=FILE -P uninstall.cmake
+if(NOT EXISTS "${MANIFEST}")
+  message(FATAL_ERROR "Nothing is known to be installed: there is no ${MANIFEST}")
 endif()
-file(STRINGS "${manifest}" files)
+file(STRINGS "${MANIFEST}" files)
 set(folders "")
 foreach(file ${files})
   file(REMOVE "$ENV{DESTDIR}${file}")

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# What is installed serves a program elsewhere: by pkg-config and by CMake, shared and static; and it can be removed again.
+set -euo pipefail
+build=$(dirname "$TARTAN")
+scratch=$(mktemp -d)
+manifest=$build/install_manifest.txt
+[ ! -e "$manifest" ] || cp "$manifest" "$scratch/manifest" # of an install that the user made
+finish() {
+    rm -f "$manifest"
+    [ ! -e "$scratch/manifest" ] || mv "$scratch/manifest" "$manifest"
+    rm -rf "$scratch"
+}
+trap finish EXIT
+fail() {
+    echo "$1"
+    exit 1
+}
+
+prefix=$scratch/prefix
+cmake --install "$build" --prefix "$prefix" >/dev/null
+libdir=$(dirname "$(find "$prefix" -name libtartan.a)")
+export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir TARTAN_PATH=$prefix/share/tartan/stdlib
+version=$(pkg-config --modversion tartan)
+[ "$(pkg-config --modversion tartan-runtime)" = "$version" ] || fail 'the two libraries are of different versions'
+case $("$prefix/bin/tartan" --version) in
+*"$version"*) ;;
+*) fail "the binary is not of version $version" ;;
+esac
+grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/tartan.h" || fail "the header is not of version $version"
+[ -e "$libdir/libtartan.so.${version%.*}" ] || fail 'the shared library has no versioned name'
+
+# Only the public interface is visible.
+for library in libtartan libtartan-runtime; do
+    other=$(nm -D --defined-only "$libdir/$library.so" | awk '{print $3}' | grep -vE '^tartan_|^_(init|fini)$|^__' || true)
+    [ -z "$other" ] || fail "$library.so exports more than tartan_*: $other"
+done
+
+# The header stands alone, also for C++.
+echo '#include <tartan/tartan.h>' >"$scratch/alone.c"
+cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
+c++ -x c++ -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
+
+# A sanitized library needs a sanitized program.
+read -ra flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:[^=]*=//p' "$build/CMakeCache.txt")"
+read -ra by_pkg_config <<<"$(pkg-config --cflags --libs tartan)"
+read -ra for_static <<<"$(pkg-config --cflags tartan) $(pkg-config --static --libs tartan | sed 's/-ltartan\b//')"
+cp examples/embed/embed.c examples/embed/narrow.plan "$scratch"
+cc "${flags[@]}" "$scratch/embed.c" "${by_pkg_config[@]}" -o "$scratch/shared"
+cc "${flags[@]}" "$scratch/embed.c" "$libdir/libtartan.a" "${for_static[@]}" -o "$scratch/static"
+
+cat >"$scratch/CMakeLists.txt" <<'LISTS'
+cmake_minimum_required(VERSION 3.16)
+project(embed C)
+find_package(tartan 0.1 REQUIRED)
+add_executable(with_cmake embed.c)
+target_link_libraries(with_cmake PRIVATE tartan::tartan)
+add_executable(with_cmake_static embed.c)
+target_link_libraries(with_cmake_static PRIVATE tartan::tartan-static)
+LISTS
+cmake -S "$scratch" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_FLAGS="${flags[*]}" >/dev/null
+cmake --build "$scratch/build" >/dev/null
+
+printf "8' single public - dense:4' open:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' empty\n" >"$scratch/plans"
+for program in shared static build/with_cmake build/with_cmake_static; do
+    "$scratch/$program" "$scratch/narrow.plan" <"$scratch/plans" >"$scratch/out.$(basename "$program")"
+    cmp "$scratch/out.shared" "$scratch/out.$(basename "$program")"
+done
+grep -q '^corridor matches 8' "$scratch/out.shared" || fail 'the program did not match the plan'
+grep -qE '^[0-9]+ plans, three of them:$' "$scratch/out.shared" || fail 'the program did not count the library'
+
+# The runtime alone runs a module.
+"$prefix/bin/tartan" build "$scratch/narrow.plan" -o "$scratch/narrow.tnb"
+cat >"$scratch/load.c" <<'PROGRAM'
+#include <stdio.h>
+#include <tartan/tartan.h>
+
+int main(int argc, char **argv)
+{
+    tartan_error error;
+    tartan_module *module;
+    tartan_library *library;
+    char *count;
+    if (argc != 2 || tartan_module_load_file(argv[1], &module, &error) != TARTAN_OK ||
+        tartan_library_open(module, "huts", &library, &error) != TARTAN_OK ||
+        tartan_library_count(library, TARTAN_ANY_LENGTH, &count, &error) != TARTAN_OK)
+        return 1;
+    printf("%s plans, three of them:\n", count);
+    tartan_text_free(count);
+    tartan_library_free(library);
+    tartan_module_free(module);
+    return 0;
+}
+PROGRAM
+read -ra runtime <<<"$(pkg-config --cflags --libs tartan-runtime)"
+cc "${flags[@]}" "$scratch/load.c" "${runtime[@]}" -o "$scratch/load"
+[ "$("$scratch/load" "$scratch/narrow.tnb")" = "$(grep plans, "$scratch/out.shared")" ] || fail 'the runtime counts otherwise'
+
+# The installed binary finds the stdlib by itself; what was installed goes again.
+env -u TARTAN_PATH "$prefix/bin/tartan" check "$scratch/narrow.plan"
+cmake -DMANIFEST="$manifest" -P cmake/uninstall.cmake
+left=$(find "$prefix" -type f -o -type l)
+[ -z "$left" ] || fail "uninstalling left: $left"

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Runs the examples of Markdown pages: docs.py [--update] PAGE...
+
+A ```console block holds commands (lines that start with "$ ") and under each what it prints, standard output and errors
+together; a line "..." stands for any number of lines. A ```plan block is a rule file: it must pass `tartan check`, and one
+whose first line is "# NAME.plan" is there under that name for the commands below it. Each page runs in a copy of its own
+folder. TARTAN is the binary. --update writes what is printed now into the pages.
+"""
+import os, re, shutil, subprocess, sys, tempfile
+
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.S | re.M)
+
+
+def run(command, folder):
+    path = os.path.dirname(os.path.abspath(os.environ["TARTAN"])) + os.pathsep + os.environ["PATH"]
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=dict(os.environ, PATH=path, NO_COLOR="1"),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+    return done.returncode, done.stdout.decode("utf-8", "replace")
+
+
+def steps(block):
+    """Yields (command, expected) of a console block."""
+    command, expected = None, []
+    for line in block.splitlines(keepends=True):
+        if line.startswith("$ "):
+            if command is not None:
+                yield command, "".join(expected)
+            command, expected = line[2:].rstrip("\n"), []
+        else:
+            expected.append(line)
+    if command is not None:
+        yield command, "".join(expected)
+
+
+def agrees(expected, printed):
+    pattern = "".join(r"(?:.*\n)*" if line == "...\n" else re.escape(line) for line in expected.splitlines(keepends=True))
+    return re.fullmatch(pattern, printed) is not None
+
+
+def complain(page, command, expected, printed):
+    print("%s: $ %s\n--- the page says\n%s--- it prints\n%s---" % (page, command, expected, printed))
+
+
+def console(page, block, folder, update):
+    """Returns (the block as it should be, number of failures)."""
+    out, failures = "", 0
+    for command, expected in steps(block):
+        _, printed = run(command, folder)
+        if not agrees(expected, printed):
+            if update:
+                expected = printed
+            else:
+                complain(page, command, expected, printed)
+                failures += 1
+        out += "$ " + command + "\n" + expected
+    return out, failures
+
+
+def rules(page, block, folder):
+    named = re.match(r"# (\S+\.plan)\n", block)
+    name = named.group(1) if named else "block.plan"
+    with open(os.path.join(folder, name), "w") as file:
+        file.write(block)
+    code, printed = run("tartan check " + name, folder)
+    if code != 0:
+        complain(page, "tartan check " + name, "", block + printed)
+    return code != 0
+
+
+def check(page, update):
+    text = open(page).read()
+    failures = 0
+    with tempfile.TemporaryDirectory() as top:
+        folder = os.path.join(top, "here")
+        if "examples" in page.split(os.sep):
+            shutil.copytree(os.path.dirname(page), folder)
+        else:
+            os.mkdir(folder)
+
+        def one(match):
+            nonlocal failures
+            kind, block = match.groups()
+            if kind == "console":
+                block, failed = console(page, block, folder, update)
+                failures += failed
+            elif kind == "plan":
+                failures += rules(page, block, folder)
+            return "```%s\n%s```" % (kind, block)
+
+        new = BLOCK.sub(one, text)
+    if update and new != text:
+        open(page, "w").write(new)
+    return failures
+
+
+def main(words):
+    update = "--update" in words
+    pages = [word for word in words if word != "--update"]
+    if not pages or "TARTAN" not in os.environ:
+        sys.exit(__doc__)
+    failures = sum(check(page, update) for page in pages)
+    if failures:
+        sys.exit("%d examples do not do what their page says" % failures)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
