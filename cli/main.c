@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/help.h"
+#include "cli/manual.h"
 #include "cli/options.h"
 #include "cli/session.h"
 
@@ -44,12 +45,17 @@ static int unknown_command(const char *name)
     return refuse(&settings, &error);
 }
 
-static int help(const char *name)
+/* `manual`: as a manual page (the build installs them), not for reading here. */
+static int help(const char *name, bool manual)
 {
     const tn_command *command = name ? tn_command_find(name) : NULL;
     if (name && !command)
         return unknown_command(name);
-    if (command)
+    if (manual && command)
+        tn_manual_command(command, stdout);
+    else if (manual)
+        tn_manual_overview(stdout);
+    else if (command)
         tn_help_command(command, stdout);
     else
         tn_help_overview(stdout);
@@ -64,7 +70,7 @@ static int run(const tn_command *command, int count, char **words)
     if (tn_options_parse(command, count, words, &settings, &error) != TN_OK)
         exit_code = refuse(&settings, &error);
     else if (settings.help)
-        exit_code = help(command->name);
+        exit_code = help(command->name, false);
     else
         exit_code = command->run(command, &settings);
     tn_settings_clear(&settings);
@@ -80,9 +86,11 @@ int main(int argc, char **argv)
     }
     const char *name = argv[1];
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-        return help(NULL);
-    if (strcmp(name, "help") == 0)
-        return help(argc > 2 ? argv[2] : NULL);
+        return help(NULL, false);
+    if (strcmp(name, "help") == 0) {
+        bool manual = argc > 2 && strcmp(argv[2], "--man") == 0;
+        return help(argc > 2 + manual ? argv[2 + manual] : NULL, manual);
+    }
     if (strcmp(name, "--version") == 0) {
         puts("tartan " TARTAN_VERSION);
         return written();
