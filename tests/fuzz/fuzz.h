@@ -1,0 +1,10 @@
+/* What a fuzz target defines: one input in, 0 out. A mistake shows as a crash, a sanitizer's report or an abort. */
+#ifndef TARTAN_TESTS_FUZZ_H
+#define TARTAN_TESTS_FUZZ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+#endif

@@ -1,0 +1,99 @@
+/* Loading and running any bytes as a module. The hash is made right first, so that what is behind it is reached. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/library.h"
+#include "runtime/plan/rules.h"
+#include "runtime/vm/builder.h"
+#include "runtime/vm/disasm.h"
+#include "runtime/vm/random.h"
+#include "tests/fuzz/fuzz.h"
+
+enum { HEADER_BYTES = 40, PLANS = 8, PLAN_TRAYS = 6, STATES = 200, RULES = 32, CODES = 4096, LENGTH = 12 };
+
+static void disassemble(const tn_module *module)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        tn_module_disassemble(module, out);
+        fclose(out);
+    }
+    free(text);
+}
+
+/* Both engines on a few plans; where both answer, they answer the same. */
+static void match(const tn_schema *schema, uint32_t function)
+{
+    tn_rules *vm = NULL, *dfa = NULL;
+    tn_matcher *by_vm = NULL, *by_dfa = NULL;
+    tn_error error;
+    bool both =
+        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_VM, STATES, LENGTH}, &vm, &error) == TN_OK &&
+        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_DFA, STATES, LENGTH}, &dfa, &error) == TN_OK &&
+        tn_matcher_new(vm, &by_vm, &error) == TN_OK && tn_matcher_new(dfa, &by_dfa, &error) == TN_OK;
+    for (uint64_t i = 0; both && i < PLANS; i++) {
+        tn_tray trays[PLAN_TRAYS];
+        size_t length = i % (PLAN_TRAYS + 1);
+        for (size_t k = 0; k < length; k++)
+            trays[k] = (tn_tray)(tn_random64(function, i, k) % schema->tray_count);
+        uint64_t one = 0, other = 0;
+        if (tn_match(by_vm, trays, length, &one, &error) == TN_OK &&
+            tn_match(by_dfa, trays, length, &other, &error) == TN_OK && one != other) {
+            fprintf(stderr, "the engines decide differently\n");
+            abort();
+        }
+    }
+    tn_matcher_free(by_vm);
+    tn_matcher_free(by_dfa);
+    tn_rules_free(vm);
+    tn_rules_free(dfa);
+}
+
+static void count(const tn_schema *schema, uint32_t index)
+{
+    tn_library *library;
+    tn_error error;
+    tn_library_options options = {.max_states = STATES, .max_length = LENGTH, .max_table = 1u << 20};
+    if (tn_library_new(schema, index, &options, &library, &error) != TN_OK)
+        return;
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, TN_ALL_LENGTHS, kept);
+    mpz_clear(kept);
+    tn_library_free(library);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    uint8_t *bytes = malloc(size ? size : 1);
+    if (!bytes)
+        return 0;
+    if (size)
+        memcpy(bytes, data, size);
+    if (size >= HEADER_BYTES)
+        tn_module_rehash(bytes, size);
+    tn_module *module;
+    tn_error error;
+    tn_module_limits limits = {.bytes = 1u << 20, .records = 10000, .stack = 64};
+    if (tn_module_load(bytes, size, &limits, &module, &error) == TN_OK) {
+        disassemble(module);
+        for (size_t i = 0; i < module->SCHEMA_count; i++) {
+            tn_schema *schema;
+            if (tn_schema_new(module, (uint32_t)i, CODES, &schema, &error) != TN_OK)
+                continue;
+            for (size_t r = 0; r < module->RULE_count && r < RULES; r++)
+                if (module->RULE_records[r].schema == i && schema->tray_count > 0)
+                    match(schema, module->RULE_records[r].holds);
+            for (size_t l = 0; l < module->LIBRARY_count && l < RULES; l++)
+                if (module->LIBRARY_records[l].schema == i)
+                    count(schema, (uint32_t)l);
+            tn_schema_free(schema);
+        }
+        tn_module_free(module);
+    }
+    free(bytes);
+    return 0;
+}
