@@ -60,7 +60,7 @@ static bool chain_step(void *context, const uint32_t *key, size_t size, uint32_t
     return tn_key_push(next, phase + (column == chain->marker)) && tn_pairs_write(&chain->pairs, next);
 }
 
-static bool chain_accepts(void *context, const uint32_t *key, size_t size)
+static uint8_t chain_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_chain *chain = context;
     for (size_t i = 1; i < size; i += 2)

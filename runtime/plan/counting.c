@@ -266,7 +266,7 @@ static bool counting_step(void *context, const uint32_t *key, size_t size, uint3
     return finish_key(counting, phase, thread, running, next);
 }
 
-static bool counting_accepts(void *context, const uint32_t *key, size_t size)
+static uint8_t counting_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_counting *counting = context;
     if (size == 0 || key[PHASE] != 2)

@@ -72,13 +72,12 @@ static tn_status explorer_finish(const tn_explorer *explorer, tn_dfa **out, tn_e
         const uint32_t *key = tn_interned(&explorer->keys, s, &size);
         dfa->accept[s] = construction->accepts(construction->context, key, size);
     }
-    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
-    tn_dfa_free(dfa);
-    return status;
+    *out = dfa;
+    return TN_OK;
 }
 
-tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
-                     tn_bounds *bounds, tn_dfa **out, tn_error *error)
+tn_status tn_explore_raw(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
+                         tn_bounds *bounds, tn_dfa **out, tn_error *error)
 {
     tn_explorer explorer = {.construction = construction};
     tn_status status = explorer_run(&explorer, start, effort, bounds, error);
@@ -88,5 +87,16 @@ tn_status tn_explore(const tn_construction *construction, const tn_key *start, c
     free(explorer.current.data);
     free(explorer.next.data);
     free(explorer.delta);
+    return status;
+}
+
+tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
+                     tn_bounds *bounds, tn_dfa **out, tn_error *error)
+{
+    tn_dfa *raw = NULL;
+    tn_status status = tn_explore_raw(construction, start, effort, bounds, &raw, error);
+    if (status == TN_OK)
+        status = tn_dfa_minimise(raw, 0, out, error);
+    tn_dfa_free(raw);
     return status;
 }

@@ -12,12 +12,17 @@ typedef struct tn_construction {
     /* The key that a column leads to, in canonical form (`next` is empty to begin with); false where out of memory.
      * `size` words of `key` stay where they are during the call. */
     bool (*step)(void *context, const uint32_t *key, size_t size, uint32_t column, tn_key *next);
-    bool (*accepts)(void *context, const uint32_t *key, size_t size);
+    /* 1 where the key's state accepts, or (tn_explore_raw) any flags; called once for each state, in order. */
+    uint8_t (*accepts)(void *context, const uint32_t *key, size_t size);
 } tn_construction;
 
 /* The minimal automaton of a construction. A key's size and a construction's own count of steps (`*effort`, which step
  * adds to, or NULL) both count as work. */
 tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
                      tn_bounds *bounds, tn_dfa **out, tn_error *error);
+
+/* The same, as it was explored: neither minimal nor canonical, `accept` holding the flags. */
+tn_status tn_explore_raw(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
+                         tn_bounds *bounds, tn_dfa **out, tn_error *error);
 
 #endif

@@ -115,7 +115,7 @@ static bool guess_step(void *context, const uint32_t *key, size_t size, uint32_t
     return write_key(guess, phase, a, gap, next);
 }
 
-static bool guess_accepts(void *context, const uint32_t *key, size_t size)
+static uint8_t guess_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_guess *guess = context;
     if (size == 0 || (guess->marker != TN_NO_STATE && key[PHASE] != 2))

@@ -2,7 +2,8 @@
  * ranked, sampled and enumerated without generating and throwing away.
  *
  * Rank order: length, then tray by tray (tray numbers are schema order). Ranks start at 0.
- * A tn_library is immutable once opened and may be shared between threads; a tn_cursor belongs to one. It borrows the schema.
+ * A tn_library is immutable once opened and may be shared between threads; a tn_cursor belongs to one. It borrows the
+ * schema.
  */
 #ifndef TARTAN_PLAN_LIBRARY_H
 #define TARTAN_PLAN_LIBRARY_H
@@ -14,15 +15,16 @@
 typedef struct tn_library tn_library;
 
 typedef struct tn_library_options {
-    uint32_t max_states;     /* of any intermediate automaton; 0: TN_STATES_DEFAULT */
-    bool override_trays;     /* take the lengths below instead of the library's own */
+    uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT */
+    bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
-    uint32_t max_length;     /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
-    uint64_t max_table;      /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
+    uint32_t max_length; /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
+    uint64_t max_table;  /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
 } tn_library_options;
 
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */
-tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_library_options *options, tn_library **library, tn_error *error);
+tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_library_options *options,
+                         tn_library **library, tn_error *error);
 void tn_library_free(tn_library *library);
 
 /* States of the minimal complete automaton of the kept plans, without the length bounds. */
@@ -31,7 +33,8 @@ uint32_t tn_library_min(const tn_library *library);
 uint32_t tn_library_max(const tn_library *library);
 const tn_schema *tn_library_schema(const tn_library *library);
 
-/* Hash of the canonical meaning: schema, minimal automaton of the kept plans, lengths. Equal meaning, equal hash, on every machine. */
+/* Hash of the canonical meaning: schema, minimal automaton of the kept plans, lengths. Equal meaning, equal hash, on
+ * every machine. */
 void tn_library_hash(const tn_library *library, char hex[33]);
 
 /* Kept plans of one length, or (length = TN_ALL_LENGTHS) in all. */
@@ -42,13 +45,17 @@ tn_status tn_library_generated(const tn_library *library, uint32_t length, mpz_t
 /* The pruning clauses, in file order: CLAUSE record index, how many generated plans it prunes, how many only it prunes,
  * states of its minimal automaton. */
 size_t tn_library_prune_count(const tn_library *library);
-tn_status tn_library_prune(const tn_library *library, size_t i, uint32_t *clause, mpz_t prunes, mpz_t only, uint32_t *states, tn_error *error);
+tn_status tn_library_prune(const tn_library *library, size_t i, uint32_t *clause, mpz_t prunes, mpz_t only,
+                           uint32_t *states, tn_error *error);
 
 /* One of each mirror pair: kept plans w such that the reversed plan is not kept, or has no lower rank. */
 tn_status tn_library_kept_mirror(const tn_library *library, uint32_t length, mpz_t count, tn_error *error);
 
-/* Is the plan in the library? Where not, *clause is the CLAUSE record that it fails (UINT32_MAX: its length). */
+/* Is the plan in the library? */
 bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t length);
+
+/* The first clause (CLAUSE record) that keeps a plan of the library's lengths out of it; UINT32_MAX where none does. */
+uint32_t tn_library_failing(const tn_library *library, const tn_tray *trays, size_t length);
 
 /* The plan's rank. false where it is not in the library. */
 bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank);
@@ -56,13 +63,15 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
 /* The plan of a rank: fills trays (room for tn_library_max) and its length. false where rank >= the number kept. */
 bool tn_library_unrank(const tn_library *library, const mpz_t rank, tn_tray *trays, uint32_t *length);
 
-/* `count` distinct ranks, ascending, uniform over the plans of one length (or TN_ALL_LENGTHS): depends on (seed, arguments) alone.
- * ranks: an initialised array of `count`; *found < count where the library has fewer. */
-tn_status tn_library_sample(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks, size_t *found, tn_error *error);
+/* `count` distinct ranks, ascending, uniform over the plans of one length (or TN_ALL_LENGTHS): depends on (seed,
+ * arguments) alone. ranks: an initialised array of `count`; *found < count where the library has fewer. */
+tn_status tn_library_sample(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,
+                            size_t *found, tn_error *error);
 
 /* Walks the plans of the ranks [from, to) in order. */
 typedef struct tn_cursor tn_cursor;
-tn_status tn_cursor_new(const tn_library *library, const mpz_t from, const mpz_t to, tn_cursor **cursor, tn_error *error);
+tn_status tn_cursor_new(const tn_library *library, const mpz_t from, const mpz_t to, tn_cursor **cursor,
+                        tn_error *error);
 void tn_cursor_free(tn_cursor *cursor);
 /* The next plan, valid until the next call; false at the end. Ranks advance by one each time. */
 bool tn_cursor_next(tn_cursor *cursor, const tn_tray **trays, uint32_t *length);

@@ -1,0 +1,64 @@
+/* What a tn_library is made of, for the files that implement library.h. */
+#ifndef TARTAN_PLAN_LIBRARY_DATA_H
+#define TARTAN_PLAN_LIBRARY_DATA_H
+
+#include <pthread.h>
+
+#include "runtime/plan/classes.h"
+#include "runtime/plan/count.h"
+#include "runtime/plan/dfa.h"
+#include "runtime/plan/library.h"
+
+#define TN_LIBRARY_LENGTH_DEFAULT 4096u
+#define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
+
+/* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
+typedef struct tn_library_late {
+    pthread_mutex_t lock;
+    bool prunes_found;
+    mpz_t *prunes, *only; /* [prune_count] */
+    bool mirror_found;
+    mpz_t *mirror; /* [max + 1]: plans of a length less the second ones of mirror pairs */
+} tn_library_late;
+
+struct tn_library {
+    const tn_schema *schema;
+    const tn_library_record *record;
+    tn_classes *classes;
+    uint32_t max_states;
+    uint64_t max_table;
+    uint32_t min, max; /* of trays; min > max: no plan at all */
+    tn_dfa **clauses;  /* [record->clause_count], in file order */
+    size_t *prunes;    /* [prune_count]: which of the clauses */
+    size_t prune_count;
+    tn_dfa *generator; /* of what the requirements and totals leave */
+    tn_dfa *kept;
+    mpz_t *generated;      /* [max + 1]: by length */
+    uint32_t *tray_column; /* [trays]: column of `kept` */
+    tn_row *rows;          /* [max + 1]: kept plans by trays to come */
+    uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
+    uint32_t alive_words;
+    mpz_t *before;    /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
+    uint32_t stride;  /* trays between the marks of `passed` */
+    uint32_t *passed; /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
+    tn_library_late *late;
+};
+
+static inline bool tn_library_alive(const tn_library *library, uint32_t left, uint32_t state)
+{
+    return library->alive[(size_t)left * library->alive_words + state / 64] >> (state % 64) & 1;
+}
+
+static inline uint32_t tn_library_step(const tn_library *library, uint32_t state, tn_tray tray)
+{
+    return library->kept->delta[(size_t)state * library->kept->columns + library->tray_column[tray]];
+}
+
+/* An array of zeroed integers; NULL where out of memory. */
+mpz_t *tn_integers_new(size_t count);
+void tn_integers_free(mpz_t *integers, size_t count);
+
+/* Fills rows, alive, before, generated and passed (tables.c). */
+tn_status tn_library_tables(tn_library *library, tn_error *error);
+
+#endif

@@ -1,0 +1,133 @@
+/* The tables that a library is counted, ranked and enumerated with. */
+#include <stdlib.h>
+
+#include "runtime/plan/library_data.h"
+
+#define PASSED_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB of marks at most */
+
+static tn_status pass_table(const tn_library *library, uint64_t bytes, uint32_t length, tn_error *error)
+{
+    if (bytes <= library->max_table)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, 806, "the table of counts passes the limit of %llu bytes at plans of %u trays (%u states)",
+            (unsigned long long)library->max_table, length, library->kept->states);
+    tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-table");
+    return TN_LIMIT;
+}
+
+static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error *error)
+{
+    uint64_t bytes = 0;
+    for (uint32_t left = 0; left <= library->max; left++) {
+        tn_row *row = &library->rows[left];
+        tn_status status = left ? tn_row_next(edges, row - 1, row, error) : tn_row_first(edges, row, error);
+        bytes += tn_row_bytes(edges, row);
+        if (status == TN_OK)
+            status = pass_table(library, bytes, left, error);
+        if (status != TN_OK)
+            return status;
+    }
+    return TN_OK;
+}
+
+static bool is_zero(const mp_limb_t *value, size_t limbs)
+{
+    while (limbs > 0 && value[limbs - 1] == 0)
+        limbs--;
+    return limbs == 0;
+}
+
+static tn_status make_rows(tn_library *library, tn_error *error)
+{
+    uint64_t *weights = NULL;
+    tn_edges edges = {0};
+    size_t lengths = (size_t)library->max + 1;
+    uint32_t states = library->kept->states;
+    library->alive_words = states / 64 + 1;
+    library->rows = calloc(lengths, sizeof *library->rows);
+    library->alive = calloc(lengths * library->alive_words, sizeof *library->alive);
+    if (!library->rows || !library->alive)
+        return tn_fail_memory(error);
+    tn_status status = tn_column_weights(library->kept, library->classes, &weights, error);
+    if (status == TN_OK)
+        status = tn_edges_make(&edges, library->kept, weights, error);
+    if (status == TN_OK)
+        status = fill_rows(library, &edges, error);
+    for (size_t left = 0; status == TN_OK && left < lengths; left++)
+        for (uint32_t s = 0; s < states; s++)
+            if (!is_zero(tn_row_at(&library->rows[left], s), library->rows[left].limbs))
+                library->alive[left * library->alive_words + s / 64] |= UINT64_C(1) << (s % 64);
+    tn_edges_clear(&edges);
+    free(weights);
+    return status;
+}
+
+static tn_status make_totals(tn_library *library, tn_error *error)
+{
+    size_t lengths = (size_t)library->max + 1;
+    library->generated = tn_integers_new(lengths);
+    library->before = tn_integers_new(lengths + 1);
+    if (!library->generated || !library->before)
+        return tn_fail_memory(error);
+    for (uint32_t length = 0; length < lengths; length++) {
+        mpz_set(library->before[length + 1], library->before[length]);
+        if (length >= library->min)
+            tn_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
+    }
+    return tn_count_lengths(library->generator, library->classes, library->max, library->generated, error);
+}
+
+/* Marks how many trays of each column have passed, every so many trays. */
+static tn_status make_passed(tn_library *library, tn_error *error)
+{
+    uint32_t trays = library->schema->tray_count, columns = library->kept->columns;
+    library->stride = 1;
+    while (((uint64_t)trays / library->stride + 2) * columns > PASSED_ENTRIES_MAX)
+        library->stride *= 2;
+    library->tray_column = calloc((size_t)trays + 1, sizeof *library->tray_column);
+    library->passed = calloc(((size_t)trays / library->stride + 2) * columns, sizeof *library->passed);
+    uint32_t *count = calloc((size_t)columns + 1, sizeof *count);
+    bool ok = library->tray_column && library->passed && count;
+    for (tn_tray t = 0; ok && t <= trays; t++) {
+        for (uint32_t c = 0; t % library->stride == 0 && c < columns; c++)
+            library->passed[(size_t)(t / library->stride) * columns + c] = count[c];
+        if (t == trays)
+            break;
+        library->tray_column[t] = library->kept->column[library->classes->of_tray[t]];
+        count[library->tray_column[t]]++;
+    }
+    free(count);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_library_tables(tn_library *library, tn_error *error)
+{
+    tn_status status = make_rows(library, error);
+    if (status == TN_OK)
+        status = make_totals(library, error);
+    if (status == TN_OK)
+        status = make_passed(library, error);
+    return status;
+}
+
+/* ---- counts */
+
+void tn_library_kept(const tn_library *library, uint32_t length, mpz_t count)
+{
+    if (length == TN_ALL_LENGTHS)
+        mpz_set(count, library->before[library->max + 1]);
+    else if (length < library->min || length > library->max)
+        mpz_set_ui(count, 0);
+    else
+        mpz_sub(count, library->before[length + 1], library->before[length]);
+}
+
+tn_status tn_library_generated(const tn_library *library, uint32_t length, mpz_t count, tn_error *error)
+{
+    (void)error;
+    mpz_set_ui(count, 0);
+    for (uint32_t n = library->min; n <= library->max; n++)
+        if (length == TN_ALL_LENGTHS || length == n)
+            mpz_add(count, count, library->generated[n]);
+    return TN_OK;
+}
