@@ -53,4 +53,7 @@ bool tn_plan_write_line(const tn_schema *schema, const tn_tray *trays, size_t le
 bool tn_plan_write_json(const tn_schema *schema, const tn_tray *trays, size_t length,
                         tn_buffer *out); /* {"trays":[...]} */
 
+/* The list of trays alone: [{...}, ...]. */
+bool tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out);
+
 #endif

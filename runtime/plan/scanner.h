@@ -1,0 +1,42 @@
+/* Inside of tn_plan_scanner, for the parsers of plan lines and of JSON lines. */
+#ifndef TARTAN_PLAN_SCANNER_H
+#define TARTAN_PLAN_SCANNER_H
+
+#include "runtime/plan/text.h"
+#include "runtime/plan/value.h"
+
+/* Longer texts of trays are read value by value each time. */
+#define TN_TRAY_TEXT_MAX 240
+
+typedef struct tn_known_tray {
+    uint64_t hash;
+    uint32_t size; /* 0: nothing is known here */
+    tn_tray tray;
+} tn_known_tray;
+
+struct tn_plan_scanner {
+    const tn_schema *schema;
+    uint8_t *values;        /* one per field: of the tray in hand */
+    bool *given;            /* one per field: has JSON given it? */
+    tn_buffer unescaped[3]; /* texts that JSON writes with escapes */
+    /* Trays by the text that wrote them; without `known` nothing is remembered. A text has one place, and a later text
+     * that falls on the same place takes it. */
+    tn_known_tray *known;
+    char (*texts)[TN_TRAY_TEXT_MAX];
+    size_t known_count; /* a power of two */
+};
+
+/* The tray that this text wrote before, or TN_NO_TRAY; *hash is then for tn_scanner_learn. */
+tn_tray tn_scanner_recall(const tn_plan_scanner *scanner, const char *text, size_t size, uint64_t *hash);
+void tn_scanner_learn(tn_plan_scanner *scanner, const char *text, size_t size, uint64_t hash, tn_tray tray);
+
+/* Appends a tray to the plan; E0805 past max_trays, at `place`. */
+tn_status tn_scanner_add(tn_plan *plan, tn_tray tray, size_t max_trays, const tn_word *place, tn_error *error);
+
+/* What the two parsers do for a scanner, which need not remember. */
+tn_status tn_scanner_line(tn_plan_scanner *scanner, const char *line, size_t length, size_t max_trays, tn_plan *plan,
+                          tn_error *error);
+tn_status tn_scanner_json(tn_plan_scanner *scanner, const char *text, size_t length, size_t max_trays, tn_plan *plan,
+                          tn_error *error);
+
+#endif
