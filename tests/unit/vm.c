@@ -48,22 +48,22 @@ typedef struct trial {
     bool extensions;
 } trial;
 
-static void compare_rule(test_random *random, const test_schema *schema, const trial *trial, test_brute *brute)
+static void compare_rule(test_random *random, const test_schema *schema, const trial *how, test_brute *brute)
 {
     tn_builder *builder = tn_builder_new();
     assert_non_null(builder);
     uint32_t index = test_schema_add(builder, schema);
-    test_rule *rule = test_rule_random(random, schema, 1 + test_random_below(random, trial->depth), trial->extensions);
+    test_rule *rule = test_rule_random(random, schema, 1 + test_random_below(random, how->depth), how->extensions);
     uint32_t record = test_rule_add(builder, "r", rule);
     tn_module *module = test_module(builder);
     tn_schema *ready = test_schema_open(module, index);
     tn_plan_vm *vm = NULL;
     tn_error error;
     test_ok(tn_plan_vm_new(ready, 0, &vm, &error), &error);
-    for (uint32_t n = 0; n < trial->plans; n++) {
+    for (uint32_t n = 0; n < how->plans; n++) {
         test_plan plan;
         tn_tray trays[TEST_LENGTH_MAX];
-        uint32_t length = trial->shortest + n % (trial->longest - trial->shortest + 1);
+        uint32_t length = how->shortest + n % (how->longest - how->shortest + 1);
         test_plan_random(random, ready, length, &plan, trays);
         compare_plan(vm, &module->RULE_records[record], schema, rule, brute, &plan, trays);
     }
@@ -73,13 +73,13 @@ static void compare_rule(test_random *random, const test_schema *schema, const t
     test_rule_free(rule);
 }
 
-static void compare_many(uint64_t seed, uint32_t rules, const trial *trial)
+static void compare_many(uint64_t seed, uint32_t rules, const trial *how)
 {
     test_random random = {.seed = seed};
     test_brute *brute = malloc(sizeof *brute);
     assert_non_null(brute);
     for (uint32_t n = 0; n < rules; n++)
-        compare_rule(&random, n % 3 == 0 ? &test_schema_tiny : &test_schema_house, trial, brute);
+        compare_rule(&random, n % 3 == 0 ? &test_schema_tiny : &test_schema_house, how, brute);
     free(brute);
 }
 
