@@ -20,6 +20,8 @@
 #define TN_BLOCK_MAX ((size_t)1 << 20)
 #endif
 
+static const size_t block_max = TN_BLOCK_MAX;
+
 typedef struct tn_block {
     struct tn_block *next;
     size_t size, used;
@@ -59,8 +61,6 @@ static void *fail(tn_arena *arena)
 
 static tn_block *add_block(tn_arena *arena, size_t size)
 {
-    if (size > SIZE_MAX - sizeof(tn_block))
-        return NULL;
     tn_block *block = calloc(1, sizeof *block + size);
     if (!block)
         return NULL;
@@ -73,7 +73,7 @@ static tn_block *add_block(tn_arena *arena, size_t size)
 void *tn_arena_alloc(tn_arena *arena, size_t size)
 {
     size_t unit = _Alignof(max_align_t);
-    if (size > SIZE_MAX - unit)
+    if (size > PTRDIFF_MAX - sizeof(tn_block) - unit) /* no object is larger than PTRDIFF_MAX */
         return fail(arena);
     size_t rounded = size ? (size + unit - 1) / unit * unit : unit;
     tn_block *block = arena->blocks;
@@ -82,8 +82,8 @@ void *tn_arena_alloc(tn_arena *arena, size_t size)
         block = add_block(arena, wanted);
         if (!block)
             return fail(arena);
-        if (arena->block_size < TN_BLOCK_MAX)
-            arena->block_size *= 2;
+        size_t larger = arena->block_size * 2;
+        arena->block_size = larger < block_max ? larger : block_max;
     }
     void *memory = block->bytes + block->used;
     block->used = block->size - block->used < rounded ? block->size : block->used + rounded;

@@ -158,7 +158,7 @@ static void show_place(FILE *out, const char *path, size_t line, size_t column)
 static void show_head(tn_diagnostics *list, const tn_style *style, const tn_diagnostic *item, FILE *out)
 {
     fputs(style->place, out);
-    if (item->has_span) {
+    if (item->has_span && item->span.file < list->sources->count) {
         tn_place place = tn_sources_place(list->sources, item->span);
         show_place(out, place.path, place.line, place.column);
     } else if (item->input_line > 0) {
@@ -194,7 +194,7 @@ static void show_tail(tn_diagnostics *list, const tn_style *style, const tn_diag
     for (size_t i = 0; i < item->note_count; i++) {
         const tn_diagnostic_note *note = &item->notes[i];
         fprintf(out, "  %snote:%s ", style->note, style->end);
-        if (note->has_span) {
+        if (note->has_span && note->span.file < list->sources->count) {
             tn_place place = tn_sources_place(list->sources, note->span);
             show_place(out, place.path, place.line, place.column);
         }
@@ -251,7 +251,7 @@ static void json_span(tn_diagnostics *list, bool has_span, tn_span span, size_t 
     tn_place place = {0};
     if (has_span)
         place = tn_sources_place(list->sources, span);
-    json_place(out, has_span ? place.path : NULL,
+    json_place(out, place.line > 0 ? place.path : NULL,
                (const size_t[]){place.line, place.column, place.end_line, place.end_column}, count);
 }
 

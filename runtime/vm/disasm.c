@@ -63,9 +63,52 @@ static void write_doc(tn_lister *lister, tn_string doc)
     fputc('"', lister->out);
 }
 
-static void write_place(tn_lister *lister, uint32_t file, uint32_t begin, uint32_t end)
+/* ---- places */
+
+/* Finds where a source's lines start, once; without memory for that, no lines are shown. */
+static bool index_lines(tn_lister *lister, uint32_t file)
 {
-    fprintf(lister->out, "  source %u bytes %u..%u\n", file, begin, end);
+    if (lister->line_starts[file])
+        return true;
+    const char *text = tn_text(lister->module, lister->module->SOURCE_records[file].text);
+    size_t count = 1;
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        count++;
+    uint32_t *starts = malloc(count * sizeof *starts);
+    if (!starts)
+        return false;
+    size_t line = 0;
+    starts[line++] = 0;
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        starts[line++] = (uint32_t)(at + 1 - text);
+    lister->line_starts[file] = starts;
+    lister->line_counts[file] = count;
+    return true;
+}
+
+/* The line (from 0) of a source that holds a byte of it. */
+static size_t line_of(const tn_lister *lister, uint32_t file, uint32_t offset)
+{
+    const uint32_t *starts = lister->line_starts[file];
+    size_t low = 0, high = lister->line_counts[file];
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (starts[middle] <= offset)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Ends the line of a record with where it comes from. */
+static void write_place(tn_lister *lister, uint32_t file, uint32_t begin)
+{
+    fputs("  (", lister->out);
+    write_name(lister, lister->module->SOURCE_records[file].path);
+    if (index_lines(lister, file))
+        fprintf(lister->out, ":%zu", line_of(lister, file, begin) + 1);
+    fputs(")\n", lister->out);
 }
 
 /* ---- specifiers */
@@ -137,14 +180,18 @@ static void list_header(tn_lister *lister)
     }
 }
 
-static void list_value(tn_lister *lister, const tn_value_record *value)
+static void list_value(tn_lister *lister, tn_field_kind kind, const tn_value_record *value)
 {
     static const char *const roles[] = {"", ", solid", ", void", ", absent"};
     fputs("      ", lister->out);
     write_name(lister, value->spelling);
-    fputs("  (", lister->out);
-    write_name(lister, value->name);
-    fprintf(lister->out, ", %lld nm%s)", (long long)value->length, roles[value->role]);
+    if (kind == TN_FIELD_ZONE) {
+        fputs("  fill ", lister->out);
+        write_name(lister, value->name);
+        fprintf(lister->out, ", %lld nm%s", (long long)value->length, roles[value->role]);
+    } else if (kind == TN_FIELD_LENGTH) {
+        fprintf(lister->out, "  %lld nm", (long long)value->length);
+    }
     write_doc(lister, value->doc);
     fputc('\n', lister->out);
 }
@@ -161,7 +208,7 @@ static void list_field(tn_lister *lister, uint32_t index)
     write_doc(lister, field->doc);
     fputc('\n', lister->out);
     for (uint32_t i = 0; i < field->value_count; i++)
-        list_value(lister, &lister->module->VALUE_records[field->value_first + i]);
+        list_value(lister, (tn_field_kind)field->kind, &lister->module->VALUE_records[field->value_first + i]);
 }
 
 static void list_schema(tn_lister *lister, uint32_t index)
@@ -170,7 +217,7 @@ static void list_schema(tn_lister *lister, uint32_t index)
     fprintf(lister->out, "\nschema %u  ", index);
     write_name(lister, schema->name);
     write_doc(lister, schema->doc);
-    write_place(lister, schema->file, schema->begin, schema->end);
+    write_place(lister, schema->file, schema->begin);
     for (uint32_t i = 0; i < schema->field_count; i++)
         list_field(lister, schema->field_first + i);
     for (uint32_t i = 0; i < schema->forbid_count; i++)
@@ -199,7 +246,7 @@ static void list_rules(tn_lister *lister)
         write_doc(lister, rule->doc);
         fprintf(lister->out, ": whole function %u, holds function %u%s", rule->whole, rule->holds,
                 rule->flags & TN_IMPORTED ? ", imported" : "");
-        write_place(lister, rule->file, rule->begin, rule->end);
+        write_place(lister, rule->file, rule->begin);
     }
 }
 
@@ -214,65 +261,37 @@ static void list_library(tn_lister *lister, size_t index)
     write_name(lister, lister->module->SCHEMA_records[library->schema].name);
     fprintf(lister->out, ": %u..%u trays%s", library->trays_min, library->trays_max,
             library->flags & TN_IMPORTED ? ", imported" : "");
-    write_place(lister, library->file, library->begin, library->end);
+    write_place(lister, library->file, library->begin);
     for (uint32_t i = 0; i < library->clause_count; i++) {
         const tn_clause_record *clause = &lister->module->CLAUSE_records[library->clause_first + i];
         fprintf(lister->out, "  %s ", kinds[clause->kind]);
         write_name(lister, clause->name);
         write_doc(lister, clause->doc);
         fprintf(lister->out, ": function %u", clause->holds);
-        write_place(lister, clause->file, clause->begin, clause->end);
+        write_place(lister, clause->file, clause->begin);
     }
 }
 
 /* ---- source lines beside code */
-
-/* Finds where a source's lines start, once; without memory for that, no lines are shown. */
-static bool index_lines(tn_lister *lister, uint32_t file)
-{
-    if (lister->line_starts[file])
-        return true;
-    const char *text = tn_text(lister->module, lister->module->SOURCE_records[file].text);
-    size_t count = 1;
-    for (const char *at = text; (at = strchr(at, '\n')); at++)
-        count++;
-    uint32_t *starts = malloc(count * sizeof *starts);
-    if (!starts)
-        return false;
-    size_t line = 0;
-    starts[line++] = 0;
-    for (const char *at = text; (at = strchr(at, '\n')); at++)
-        starts[line++] = (uint32_t)(at + 1 - text);
-    lister->line_starts[file] = starts;
-    lister->line_counts[file] = count;
-    return true;
-}
 
 /* Shows the line that a place begins in, unless it was the last one shown. */
 static void show_source(tn_lister *lister, const tn_map_record *place)
 {
     if (!place || !index_lines(lister, place->file))
         return;
-    const uint32_t *starts = lister->line_starts[place->file];
-    size_t low = 0, high = lister->line_counts[place->file];
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (starts[middle] <= place->begin)
-            low = middle;
-        else
-            high = middle;
-    }
-    if (lister->shown_file == place->file && lister->shown_line == low + 1)
+    size_t line = line_of(lister, place->file, place->begin);
+    if (lister->shown_file == place->file && lister->shown_line == line + 1)
         return;
     lister->shown_file = place->file;
-    lister->shown_line = low + 1;
-    const char *text = tn_text(lister->module, lister->module->SOURCE_records[place->file].text) + starts[low];
+    lister->shown_line = line + 1;
+    const char *text = tn_text(lister->module, lister->module->SOURCE_records[place->file].text) +
+                       lister->line_starts[place->file][line];
     size_t size = 0;
     while (size < TEXT_SHOWN && text[size] && text[size] != '\n' && text[size] != '\r')
         size++;
     fputs("  ; ", lister->out);
     write_name(lister, lister->module->SOURCE_records[place->file].path);
-    fprintf(lister->out, ":%zu: ", low + 1);
+    fprintf(lister->out, ":%zu: ", line + 1);
     tn_write_clean(lister->out, text, size);
     fputs(size == TEXT_SHOWN ? "...\n" : "\n", lister->out);
 }
