@@ -1,10 +1,11 @@
 /* The arena: what it gives is zeroed, aligned, apart from everything else it gave, and stays. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "compiler/arena.h"
 

@@ -1,10 +1,11 @@
 /* Diagnostics: their text and JSON forms to the letter, their order, and the limit on their number. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "compiler/diagnostic.h"
 

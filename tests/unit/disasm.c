@@ -1,9 +1,10 @@
 /* The listing of a module, to the letter; and that nothing in a module makes it endless or upsets a terminal. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
 
 #include "runtime/vm/disasm.h"
 #include "tests/support/sample_module.h"

@@ -1,5 +1,4 @@
 /* Files: reading with a limit; writing that replaces the target whole or not at all. */
-#include <cmocka.h>
 #include <dirent.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -9,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <cmocka.h>
 
 #include "runtime/vm/file.h"
 

@@ -1,9 +1,10 @@
 /* Lengths: every form, exactly; what is none; what cannot be held. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "runtime/vm/length.h"
 

@@ -1,10 +1,11 @@
 /* Loading: a good module comes back as it was built; a damaged one is refused; a changed one with the right hash is
  * refused or harmless. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
 
 #include "runtime/vm/disasm.h"
 #include "runtime/vm/layout.h"

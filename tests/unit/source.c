@@ -1,10 +1,11 @@
 /* Source texts: lines and columns of byte ranges. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "compiler/source.h"
 

@@ -1,10 +1,11 @@
 /* UTF-8: what is text, how wide it is, and what is kept from a terminal. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "runtime/vm/utf8.h"
 

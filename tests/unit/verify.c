@@ -1,9 +1,10 @@
 /* The verifier: each rule that it enforces is broken once, in an otherwise good module. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
 
 #include "tests/support/sample_module.h"
 
