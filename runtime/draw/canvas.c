@@ -1,0 +1,212 @@
+#include "runtime/draw/canvas.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "runtime/draw/svg_ids.h"
+#include "runtime/vm/file.h"
+
+enum { DPI_DEFAULT = 150, SIDE_MAX = 32767 };
+
+/* Pictures carry no time, so that they can be made again bit for bit; PDF wants one, and this is the first it can hold.
+ */
+static const char constant_date[] = "2000-01-01T00:00:00Z";
+
+struct tn_canvas {
+    tn_canvas_format format;
+    cairo_surface_t *surface;
+    cairo_t *context;
+    tn_output output;
+    char *path;
+    char *text; /* of an SVG, until its ids are numbered */
+    size_t text_size, text_room;
+    bool out_of_memory;
+};
+
+tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error)
+{
+    static const char *const extensions[] = {
+        [TN_CANVAS_SVG] = ".svg", [TN_CANVAS_PNG] = ".png", [TN_CANVAS_PDF] = ".pdf"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++) {
+        if (strcasecmp(dot, extensions[i]) == 0) {
+            *format = (tn_canvas_format)i;
+            return TN_OK;
+        }
+    }
+    tn_status status = tn_fail(error, TN_INVALID, 904, "%.200s does not say what kind of picture it is to be", path);
+    tn_error_help(error, "end its name in .svg, .png or .pdf");
+    return status;
+}
+
+static cairo_status_t write_stream(void *closure, const unsigned char *data, unsigned int length)
+{
+    tn_canvas *canvas = closure;
+    return fwrite(data, 1, length, canvas->output.stream) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static cairo_status_t write_text(void *closure, const unsigned char *data, unsigned int length)
+{
+    tn_canvas *canvas = closure;
+    if (canvas->text_room - canvas->text_size < length) {
+        size_t room = (canvas->text_size + length) * 2;
+        char *text = realloc(canvas->text, room);
+        if (!text) {
+            canvas->out_of_memory = true;
+            return CAIRO_STATUS_NO_MEMORY;
+        }
+        canvas->text = text;
+        canvas->text_room = room;
+    }
+    memcpy(canvas->text + canvas->text_size, data, length);
+    canvas->text_size += length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+static tn_status new_image(tn_canvas *canvas, const tn_canvas_options *options, tn_error *error)
+{
+    double dpi = options->dpi ? options->dpi : DPI_DEFAULT, width = ceil(options->width * dpi / 72),
+           height = ceil(options->height * dpi / 72);
+    if (width > SIDE_MAX || height > SIDE_MAX || width * height > (double)TN_CANVAS_PIXELS_MAX) {
+        tn_status status = tn_fail(error, TN_LIMIT, 807,
+                                   "the picture would have %.0f x %.0f pixels; the limit is %d a side and %llu in all",
+                                   width, height, SIDE_MAX, (unsigned long long)TN_CANVAS_PIXELS_MAX);
+        tn_error_help(error, "draw fewer plans, lower --dpi (now %.0f), or make a .pdf, which has pages", dpi);
+        return status;
+    }
+    canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+    cairo_surface_set_device_scale(canvas->surface, dpi / 72, dpi / 72);
+    return TN_OK;
+}
+
+static void new_pdf(tn_canvas *canvas, const tn_canvas_options *options)
+{
+    canvas->surface = cairo_pdf_surface_create_for_stream(write_stream, canvas, options->width, options->height);
+    cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, constant_date);
+    cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_MOD_DATE, constant_date);
+    cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATOR, "tartan");
+    if (options->title)
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_TITLE, options->title);
+}
+
+static void begin_page(tn_canvas *canvas)
+{
+    cairo_set_source_rgb(canvas->context, 1, 1, 1);
+    cairo_paint(canvas->context);
+    cairo_set_source_rgb(canvas->context, 0, 0, 0);
+}
+
+static tn_status cairo_failed(tn_canvas *canvas, cairo_status_t status, tn_error *error)
+{
+    if (status == CAIRO_STATUS_NO_MEMORY || canvas->out_of_memory)
+        return tn_fail_memory(error);
+    if (status == CAIRO_STATUS_WRITE_ERROR)
+        return tn_fail(error, TN_IO, 902, "%.200s cannot be written", canvas->path);
+    return tn_fail(error, TN_INTERNAL, 0, "the picture cannot be drawn: %s", cairo_status_to_string(status));
+}
+
+static tn_status start(tn_canvas *canvas, const tn_canvas_options *options, tn_error *error)
+{
+    if (canvas->format == TN_CANVAS_PNG) {
+        tn_status status = new_image(canvas, options, error);
+        if (status != TN_OK)
+            return status;
+    } else if (canvas->format == TN_CANVAS_PDF) {
+        new_pdf(canvas, options);
+    } else {
+        canvas->surface = cairo_svg_surface_create_for_stream(write_text, canvas, options->width, options->height);
+    }
+    canvas->context = cairo_create(canvas->surface);
+    begin_page(canvas);
+    cairo_status_t status = cairo_status(canvas->context);
+    return status == CAIRO_STATUS_SUCCESS ? TN_OK : cairo_failed(canvas, status, error);
+}
+
+tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
+                        tn_error *error)
+{
+    tn_canvas *made = calloc(1, sizeof *made);
+    if (!made || !(made->path = strdup(path))) {
+        free(made);
+        return tn_fail_memory(error);
+    }
+    made->format = format;
+    tn_status status = tn_output_open(made->path, &made->output, error);
+    if (status != TN_OK) {
+        free(made->path);
+        free(made);
+        return status;
+    }
+    status = start(made, options, error);
+    if (status == TN_OK)
+        *canvas = made;
+    else
+        tn_canvas_free(made);
+    return status;
+}
+
+cairo_t *tn_canvas_context(const tn_canvas *canvas)
+{
+    return canvas->context;
+}
+
+tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_error *error)
+{
+    if (canvas->format != TN_CANVAS_PDF)
+        return tn_fail(error, TN_INTERNAL, 0, "only a PDF has more than one page");
+    cairo_show_page(canvas->context);
+    cairo_pdf_surface_set_size(canvas->surface, width, height);
+    begin_page(canvas);
+    cairo_status_t status = cairo_status(canvas->context);
+    return status == CAIRO_STATUS_SUCCESS ? TN_OK : cairo_failed(canvas, status, error);
+}
+
+static tn_status write_svg(tn_canvas *canvas, tn_error *error)
+{
+    char *text;
+    size_t size;
+    tn_status status = tn_svg_renumber(canvas->text, canvas->text_size, &text, &size, error);
+    if (status != TN_OK)
+        return status;
+    fwrite(text, 1, size, canvas->output.stream); /* committing reports what went wrong */
+    free(text);
+    return TN_OK;
+}
+
+tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
+{
+    cairo_show_page(canvas->context);
+    cairo_status_t drawn = cairo_status(canvas->context);
+    if (drawn == CAIRO_STATUS_SUCCESS && canvas->format == TN_CANVAS_PNG)
+        drawn = cairo_surface_write_to_png_stream(canvas->surface, write_stream, canvas);
+    cairo_surface_finish(canvas->surface);
+    if (drawn == CAIRO_STATUS_SUCCESS)
+        drawn = cairo_surface_status(canvas->surface);
+    /* A write error is left to the commit, which knows the reason. */
+    if (drawn != CAIRO_STATUS_SUCCESS && drawn != CAIRO_STATUS_WRITE_ERROR)
+        return cairo_failed(canvas, drawn, error);
+    tn_status status = canvas->format == TN_CANVAS_SVG ? write_svg(canvas, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_output_commit(&canvas->output, error);
+    if (status == TN_OK && drawn == CAIRO_STATUS_WRITE_ERROR)
+        status = cairo_failed(canvas, drawn, error);
+    return status;
+}
+
+void tn_canvas_free(tn_canvas *canvas)
+{
+    if (!canvas)
+        return;
+    if (canvas->context)
+        cairo_destroy(canvas->context);
+    if (canvas->surface)
+        cairo_surface_destroy(canvas->surface);
+    tn_output_discard(&canvas->output);
+    free(canvas->text);
+    free(canvas->path);
+    free(canvas);
+}

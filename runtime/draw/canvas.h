@@ -1,0 +1,45 @@
+/* A picture under construction: SVG, PNG or PDF by the file's extension, one cairo context for all three.
+ *
+ * Units are points (1/72 inch), y downwards. The file is written beside its target and renamed. The same drawing gives
+ * the same bytes for one version of cairo and one set of fonts: PDF dates are constant, SVG ids are numbered afresh. A
+ * canvas owns its context and its file; free it in any case.
+ */
+#ifndef TARTAN_DRAW_CANVAS_H
+#define TARTAN_DRAW_CANVAS_H
+
+#include <cairo.h>
+
+#include "runtime/vm/error.h"
+
+typedef struct tn_canvas tn_canvas;
+
+typedef enum tn_canvas_format { TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF } tn_canvas_format;
+
+/* The most pixels of a PNG: 4 bytes each while it is drawn. A side is limited to 32,767 by cairo. */
+#define TN_CANVAS_PIXELS_MAX UINT64_C(100000000)
+
+/* The format that a path's extension asks for (.svg, .png, .pdf, in any case); TN_INVALID (E0904) for another. */
+tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error);
+
+typedef struct tn_canvas_options {
+    double width, height; /* of the first page, in points */
+    uint32_t dpi;         /* of a PNG; 0: 150 */
+    const char *title;    /* for the file's metadata; or NULL */
+} tn_canvas_options;
+
+/* Starts a picture. E0902 where the file cannot be written, E0807 where a PNG would be too large. */
+tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
+                        tn_error *error);
+
+/* Draw here. White to begin with, black lines. */
+cairo_t *tn_canvas_context(const tn_canvas *canvas);
+
+/* Ends the page and starts another of this size. Only PDF has pages: TN_INTERNAL for the others. */
+tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_error *error);
+
+/* Writes the file. E0902 where that fails; the target is then as it was. */
+tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error);
+
+void tn_canvas_free(tn_canvas *canvas);
+
+#endif

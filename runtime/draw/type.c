@@ -1,0 +1,164 @@
+#include "runtime/draw/type.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_ROOM = 1024 };
+
+#define ELLIPSIS "\xe2\x80\xa6"
+
+/* How many bytes the UTF-8 character at `text` has, or 0 where there is none. Overlong forms and surrogates are none.
+ */
+static size_t utf8_size(const unsigned char *text)
+{
+    static const unsigned smallest[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (text[0] < 0x80)
+        return 1;
+    size_t size = text[0] >= 0xf0 && text[0] < 0xf5 ? 4 : text[0] >= 0xe0 ? 3 : text[0] >= 0xc2 ? 2 : 0;
+    if (!size || text[0] >= 0xf5)
+        return 0;
+    unsigned code = text[0] & (0xffu >> (size + 1));
+    for (size_t i = 1; i < size; i++) {
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (text[i] & 0x3fu);
+    }
+    return code < smallest[size] || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff ? 0 : size;
+}
+
+/* Copies what can be shown: cairo stops drawing for good at a text that is not UTF-8. */
+static void clean(const char *text, char out[TEXT_ROOM])
+{
+    const unsigned char *at = (const unsigned char *)text;
+    size_t used = 0;
+    while (*at && used + 5 < TEXT_ROOM) {
+        size_t size = utf8_size(at);
+        if (size && *at >= ' ')
+            memcpy(out + used, at, size);
+        else
+            out[used] = *at < ' ' ? ' ' : '?';
+        used += size ? size : 1;
+        at += size ? size : 1;
+    }
+    out[used] = '\0';
+}
+
+void tn_type_face(cairo_t *context, double size, bool bold)
+{
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(context, options);
+    cairo_font_options_destroy(options);
+    cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(context, size);
+}
+
+static double clean_width(cairo_t *context, const char *cleaned)
+{
+    cairo_text_extents_t extents;
+    cairo_text_extents(context, cleaned, &extents);
+    return extents.x_advance;
+}
+
+static void set_clean(cairo_t *context, double x, double baseline, tn_align align, const char *cleaned)
+{
+    if (!*cleaned)
+        return;
+    double shift = align == TN_ALIGN_LEFT ? 0 : clean_width(context, cleaned) * (align == TN_ALIGN_RIGHT ? 1 : 0.5);
+    cairo_move_to(context, x - shift, baseline);
+    cairo_show_text(context, cleaned);
+    cairo_new_path(context);
+}
+
+double tn_type_width(cairo_t *context, const char *text)
+{
+    char cleaned[TEXT_ROOM];
+    clean(text, cleaned);
+    return clean_width(context, cleaned);
+}
+
+void tn_type_line(cairo_t *context, double x, double baseline, tn_align align, const char *text)
+{
+    char cleaned[TEXT_ROOM];
+    clean(text, cleaned);
+    set_clean(context, x, baseline, align, cleaned);
+}
+
+/* Shortens a cleaned text until it and an ellipsis are at most `width`. `room`: of the buffer. */
+static void cut_off(cairo_t *context, char cleaned[TEXT_ROOM], double width)
+{
+    size_t length = strlen(cleaned);
+    while (length > 0) {
+        do
+            length--;
+        while (length > 0 && ((unsigned char)cleaned[length] & 0xc0) == 0x80);
+        while (length > 0 && cleaned[length - 1] == ' ')
+            length--;
+        strcpy(cleaned + length, ELLIPSIS);
+        if (clean_width(context, cleaned) <= width)
+            return;
+    }
+    cleaned[0] = '\0';
+}
+
+void tn_type_fit(cairo_t *context, double x, double baseline, tn_align align, double width, const char *text)
+{
+    char cleaned[TEXT_ROOM];
+    clean(text, cleaned);
+    if (clean_width(context, cleaned) > width)
+        cut_off(context, cleaned, width);
+    set_clean(context, x, baseline, align, cleaned);
+}
+
+/* How many bytes of a cleaned text fit on one line: whole words, at least one. */
+static size_t line_bytes(cairo_t *context, const char *text, double width)
+{
+    char line[TEXT_ROOM];
+    size_t fits = 0, length = strlen(text);
+    while (fits < length) {
+        size_t end = fits + (text[fits] == ' ');
+        end += strcspn(text + end, " ");
+        snprintf(line, sizeof line, "%.*s", (int)end, text);
+        if (fits && clean_width(context, line) > width)
+            break;
+        fits = end;
+    }
+    return fits;
+}
+
+unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double width, double leading,
+                           unsigned max_lines, const char *text)
+{
+    char cleaned[TEXT_ROOM], line[TEXT_ROOM];
+    clean(text, cleaned);
+    const char *at = cleaned;
+    unsigned lines = 0;
+    while (*at && lines < max_lines) {
+        size_t bytes = line_bytes(context, at, width);
+        bool last = lines + 1 == max_lines;
+        snprintf(line, sizeof line, "%.*s", (int)(last ? strlen(at) : bytes), at);
+        tn_type_fit(context, x, baseline + lines * leading, TN_ALIGN_LEFT, width, line);
+        at += bytes + (at[bytes] == ' ');
+        lines++;
+    }
+    return lines;
+}
+
+void tn_type_digits(cairo_t *context, double x, double baseline, const char *digits)
+{
+    cairo_font_extents_t font;
+    cairo_font_extents(context, &font);
+    size_t length = strlen(digits);
+    for (size_t i = 0; i < length;) {
+        char group[4];
+        size_t size = (length - i) % 3 ? (length - i) % 3 : 3;
+        snprintf(group, sizeof group, "%.*s", (int)size, digits + i);
+        tn_type_line(context, x, baseline, TN_ALIGN_LEFT, group);
+        x += tn_type_width(context, group) + font.height * 0.12;
+        i += size;
+    }
+}

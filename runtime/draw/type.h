@@ -1,0 +1,30 @@
+/* Lettering: setting short texts on a picture. Sizes in points; every text may be any bytes (what is not UTF-8 shows as
+ * `?`). */
+#ifndef TARTAN_DRAW_TYPE_H
+#define TARTAN_DRAW_TYPE_H
+
+#include <cairo.h>
+#include <stdbool.h>
+
+typedef enum tn_align { TN_ALIGN_LEFT, TN_ALIGN_CENTRE, TN_ALIGN_RIGHT } tn_align;
+
+/* Chooses the face: sans serif, unhinted, so that widths do not depend on the resolution. */
+void tn_type_face(cairo_t *context, double size, bool bold);
+
+double tn_type_width(cairo_t *context, const char *text);
+
+/* Sets a line at its baseline. */
+void tn_type_line(cairo_t *context, double x, double baseline, tn_align align, const char *text);
+
+/* The same, cut off with an ellipsis where it is wider than `width`. */
+void tn_type_fit(cairo_t *context, double x, double baseline, tn_align align, double width, const char *text);
+
+/* Sets words in lines of at most `width`, `leading` apart, `max_lines` at most (the last is cut off). Returns the
+ * number of lines set. */
+unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double width, double leading,
+                           unsigned max_lines, const char *text);
+
+/* Sets digits in groups of three, kept apart by a little space. */
+void tn_type_digits(cairo_t *context, double x, double baseline, const char *digits);
+
+#endif

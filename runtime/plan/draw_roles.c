@@ -1,0 +1,111 @@
+/* What a schema's roles mean for drawing it. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "runtime/plan/draw_parts.h"
+#include "runtime/vm/length.h"
+
+/* Can a band be absent, going by the roles and depths of its values? */
+static bool may_be_absent(const tn_schema *schema, uint32_t field)
+{
+    for (uint32_t v = schema->value_start[field]; v < schema->value_start[field + 1]; v++)
+        if (schema->values[v].role == TN_FILL_ABSENT || schema->values[v].length == 0)
+            return true;
+    return false;
+}
+
+static tn_length_style style_of(const tn_schema *schema, uint32_t field)
+{
+    const char *spelling = tn_text(schema->module, schema->values[schema->value_start[field]].name);
+    size_t length = strlen(spelling);
+    if (length < 2 || spelling[length - 1] != 'm')
+        return TN_STYLE_FEET;
+    return spelling[length - 2] == 'm'   ? TN_STYLE_MILLIMETRES
+           : spelling[length - 2] == 'c' ? TN_STYLE_CENTIMETRES
+                                         : TN_STYLE_METRES;
+}
+
+static void take_role(tn_draw_roles *roles, uint32_t field)
+{
+    const tn_field_record *record = &roles->schema->fields[field];
+    switch ((tn_field_role)record->role) {
+    case TN_ROLE_LENGTH:
+        if (record->kind == TN_FIELD_LENGTH && roles->length == TN_NO_FIELD)
+            roles->length = field;
+        break;
+    case TN_ROLE_LEVEL:
+        if (roles->level == TN_NO_FIELD)
+            roles->level = field;
+        break;
+    case TN_ROLE_PUBLIC_END:
+        if (record->kind == TN_FIELD_FLAG && roles->public_end == TN_NO_FIELD)
+            roles->public_end = field;
+        break;
+    case TN_ROLE_GREAT_HALL:
+        if (record->kind == TN_FIELD_FLAG && roles->great_hall == TN_NO_FIELD)
+            roles->great_hall = field;
+        break;
+    case TN_ROLE_BAND:
+        if (record->kind == TN_FIELD_ZONE && roles->band_count < TN_BANDS_MAX)
+            roles->bands[roles->band_count++] = field;
+        break;
+    case TN_ROLE_NONE:
+    case TN_FIELD_ROLE_COUNT:
+        break;
+    }
+}
+
+void tn_draw_roles_find(const tn_schema *schema, tn_draw_roles *roles)
+{
+    *roles = (tn_draw_roles){schema, .length = TN_NO_FIELD, .level = TN_NO_FIELD, .public_end = TN_NO_FIELD,
+                             .great_hall = TN_NO_FIELD};
+    for (uint32_t field = 0; field < schema->field_count; field++)
+        take_role(roles, field);
+    roles->to_scale = roles->length != TN_NO_FIELD && roles->band_count > 0;
+    while (roles->spine < roles->band_count && may_be_absent(schema, roles->bands[roles->spine]))
+        roles->spine++;
+    if (roles->spine == roles->band_count)
+        roles->spine = 0;
+    uint32_t length = roles->length != TN_NO_FIELD ? roles->length : tn_schema_length_field(schema);
+    if (length != TN_NO_FIELD)
+        roles->style = style_of(schema, length);
+}
+
+bool tn_draw_written(const tn_draw_roles *roles, uint32_t field)
+{
+    if (field == roles->length || field == roles->level || field == roles->public_end || field == roles->great_hall)
+        return false;
+    for (uint32_t b = 0; b < roles->band_count; b++)
+        if (roles->bands[b] == field)
+            return false;
+    return true;
+}
+
+/* A decimal number of `unit` nanometres, without trailing zeros. */
+static void write_decimal(int64_t nanometres, int64_t unit, const char *name, char *text, size_t size)
+{
+    char fraction[24];
+    int digits = snprintf(fraction, sizeof fraction, "%" PRId64, unit + nanometres % unit) - 1;
+    while (digits > 0 && fraction[digits] == '0')
+        digits--;
+    snprintf(text, size, "%" PRId64 "%s%.*s%s", nanometres / unit, digits ? "." : "", digits, fraction + 1, name);
+}
+
+void tn_draw_length(const tn_draw_roles *roles, int64_t nanometres, char *text, size_t size)
+{
+    switch (roles->style) {
+    case TN_STYLE_FEET:
+        tn_length_write(nanometres, text, size);
+        break;
+    case TN_STYLE_METRES:
+        write_decimal(nanometres, INT64_C(1000000000), "m", text, size);
+        break;
+    case TN_STYLE_CENTIMETRES:
+        write_decimal(nanometres, 10000000, "cm", text, size);
+        break;
+    case TN_STYLE_MILLIMETRES:
+        write_decimal(nanometres, 1000000, "mm", text, size);
+        break;
+    }
+}
