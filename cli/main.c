@@ -32,12 +32,12 @@ static int unknown_command(const char *name)
 {
     const tn_settings settings = {0};
     const char *names[64];
-    for (size_t i = 0; i < tn_command_count; i++)
+    for (size_t i = 0; i < tn_commands_count; i++)
         names[i] = tn_commands[i]->name;
     tn_error error;
     tn_fail(&error, TN_INVALID, E_USAGE,
             name[0] == '-' ? "`tartan` has no option %.60s" : "there is no command `%.60s`", name);
-    const char *near = tn_nearest(name, names, tn_command_count);
+    const char *near = tn_nearest(name, names, tn_commands_count);
     if (near)
         tn_error_help(&error, "did you mean `tartan %s`?", near);
     else

@@ -24,11 +24,11 @@ const tn_command *const tn_commands[] = {
 #include "cli/commands.def"
 #undef COMMAND
 };
-const size_t tn_command_count = OPTION_COUNT(tn_commands);
+const size_t tn_commands_count = OPTION_COUNT(tn_commands);
 
 const tn_command *tn_command_find(const char *name)
 {
-    for (size_t i = 0; i < tn_command_count; i++)
+    for (size_t i = 0; i < tn_commands_count; i++)
         if (strcmp(tn_commands[i]->name, name) == 0)
             return tn_commands[i];
     return NULL;

@@ -86,7 +86,7 @@ typedef struct tn_command {
 
 /* All commands, in the order that help lists them. */
 extern const tn_command *const tn_commands[];
-extern const size_t tn_command_count;
+extern const size_t tn_commands_count;
 
 /* The command named so, or NULL. */
 const tn_command *tn_command_find(const char *name);

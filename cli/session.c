@@ -41,6 +41,11 @@ bool tn_session_open(tn_session *session, const char *path)
     return session->opened.module != NULL;
 }
 
+void tn_session_status(tn_session *session, tn_status status)
+{
+    worsen(session, tn_exit_code(status));
+}
+
 tn_diagnostics *tn_session_diagnostics(tn_session *session)
 {
     return &session->opened.compilation.diagnostics;
@@ -56,17 +61,12 @@ void tn_session_fail(tn_session *session, const tn_error *error)
     worsen(session, error->code == E_USAGE ? TN_EXIT_USAGE : tn_exit_code(error->status));
 }
 
-static void format_message(char *text, size_t size, const char *format, va_list args)
-{
-    vsnprintf(text, size, format, args);
-}
-
 tn_diagnostic *tn_session_usage(tn_session *session, const char *format, ...)
 {
     char text[480];
     va_list args;
     va_start(args, format);
-    format_message(text, sizeof text, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
     worsen(session, TN_EXIT_USAGE);
     return tn_report_bare(tn_session_diagnostics(session), TN_ERROR, E_USAGE, "%s", text);
@@ -77,7 +77,7 @@ void tn_session_note(tn_session *session, const char *format, ...)
     char text[480];
     va_list args;
     va_start(args, format);
-    format_message(text, sizeof text, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
     tn_report_bare(tn_session_diagnostics(session), TN_NOTE, TN_CODE_NONE, "%s", text);
 }

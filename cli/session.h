@@ -43,6 +43,9 @@ tn_diagnostics *tn_session_diagnostics(tn_session *session);
 /* Records a failure. A closed pipe is not one: it ends the command quietly. */
 void tn_session_fail(tn_session *session, const tn_error *error);
 
+/* Takes note of a status whose diagnostic is there already. */
+void tn_session_status(tn_session *session, tn_status status);
+
 /* Records wrong usage, found after the options were read. */
 tn_diagnostic *tn_session_usage(tn_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -72,7 +72,7 @@ static tn_status new_image(tn_canvas *canvas, const tn_canvas_options *options, 
     double dpi = options->dpi ? options->dpi : DPI_DEFAULT, width = ceil(options->width * dpi / 72),
            height = ceil(options->height * dpi / 72);
     if (width > SIDE_MAX || height > SIDE_MAX || width * height > (double)TN_CANVAS_PIXELS_MAX) {
-        tn_status status = tn_fail(error, TN_LIMIT, 807,
+        tn_status status = tn_fail(error, TN_LIMIT, 820,
                                    "the picture would have %.0f x %.0f pixels; the limit is %d a side and %llu in all",
                                    width, height, SIDE_MAX, (unsigned long long)TN_CANVAS_PIXELS_MAX);
         tn_error_help(error, "draw fewer plans, lower --dpi (now %.0f), or make a .pdf, which has pages", dpi);

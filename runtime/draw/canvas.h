@@ -27,7 +27,7 @@ typedef struct tn_canvas_options {
     const char *title;    /* for the file's metadata; or NULL */
 } tn_canvas_options;
 
-/* Starts a picture. E0902 where the file cannot be written, E0807 where a PNG would be too large. */
+/* Starts a picture. E0902 where the file cannot be written, E0820 where a PNG would be too large. */
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
 

@@ -194,7 +194,7 @@ static tn_status choose_layout(drawing *d, tn_error *error)
         lay_out_tables(d, papers, paper_count);
     if (d->columns > 0 && (d->rows > 0 || d->format != TN_CANVAS_PDF))
         return TN_OK;
-    tn_status status = tn_fail(error, TN_LIMIT, 807, "a plan does not fit on the paper at 1:%u", d->scale);
+    tn_status status = tn_fail(error, TN_LIMIT, 820, "a plan does not fit on the paper at 1:%u", d->scale);
     tn_error_help(error, "choose a larger --paper or a smaller --scale (a larger number), or leave --scale out");
     return status;
 }
@@ -295,7 +295,7 @@ static tn_status check_count(size_t count, const tn_draw_options *options, tn_er
     size_t most = options->max_plans ? options->max_plans : TN_DRAW_PLANS_DEFAULT;
     if (count <= most)
         return TN_OK;
-    tn_status status = tn_fail(error, TN_LIMIT, 807, "there are %zu plans to draw; the limit is %zu", count, most);
+    tn_status status = tn_fail(error, TN_LIMIT, 820, "there are %zu plans to draw; the limit is %zu", count, most);
     tn_error_help(error, "raise it with --max-plans, or draw a --sample");
     return status;
 }

@@ -28,11 +28,11 @@ typedef struct tn_draw_options {
     const char *paper; /* see paper.h; NULL: the smallest of three that holds all */
     uint32_t scale;    /* 1:scale; 0: the largest usual one that fits */
     uint32_t dpi;      /* of a PNG; 0: 150 */
-    size_t max_plans;  /* 0: TN_DRAW_PLANS_DEFAULT; E0807 past it */
+    size_t max_plans;  /* 0: TN_DRAW_PLANS_DEFAULT; E0820 past it */
 } tn_draw_options;
 
 /* Draws the plans to `path`, whose extension says how (.svg, .png, .pdf). A PDF has as many pages as it takes; the
- * others are one sheet, as high as it takes. E0807 where a PNG would be too large, E0902 where the file cannot be
+ * others are one sheet, as high as it takes. E0820 where a PNG would be too large, E0902 where the file cannot be
  * written, E0904 for another extension or an unknown paper. */
 tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, size_t count,
                         const tn_draw_options *options, const char *path, tn_error *error);

@@ -1,0 +1,302 @@
+/* tartan count: how many plans a library holds, exactly, without making one. */
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/library_session.h"
+#include "cli/option_rows.h"
+
+/* All counts of a library: one a length, and one (at the end) of all. */
+typedef struct length_counts {
+    mpz_t generated, kept, mirror;
+} length_counts;
+
+typedef struct rule_counts {
+    uint32_t clause, states;
+    mpz_t prunes, only;
+} rule_counts;
+
+typedef struct counts {
+    const tn_ready_library *ready;
+    bool mirror;
+    uint32_t low;
+    length_counts *lengths; /* the last is the total */
+    size_t length_count;
+    rule_counts *rules;
+    size_t rule_count;
+} counts;
+
+static bool counts_new(const tn_ready_library *ready, bool mirror, counts *c)
+{
+    uint32_t low = tn_library_min(ready->library), high = tn_library_max(ready->library);
+    *c = (counts){.ready = ready,
+                  .mirror = mirror,
+                  .low = low,
+                  .length_count = (size_t)high - low + 1,
+                  .rule_count = tn_library_prune_count(ready->library)};
+    c->lengths = malloc(sizeof *c->lengths * (c->length_count + 1));
+    c->rules = malloc(sizeof *c->rules * (c->rule_count + 1));
+    if (!c->lengths || !c->rules) {
+        free(c->lengths);
+        free(c->rules);
+        *c = (counts){0};
+        return false;
+    }
+    for (size_t i = 0; i <= c->length_count; i++)
+        mpz_inits(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
+    for (size_t i = 0; i < c->rule_count; i++)
+        mpz_inits(c->rules[i].prunes, c->rules[i].only, NULL);
+    return true;
+}
+
+static void counts_free(counts *c)
+{
+    for (size_t i = 0; c->lengths && i <= c->length_count; i++)
+        mpz_clears(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
+    for (size_t i = 0; c->rules && i < c->rule_count; i++)
+        mpz_clears(c->rules[i].prunes, c->rules[i].only, NULL);
+    free(c->lengths);
+    free(c->rules);
+}
+
+static tn_status count_all(counts *c, tn_error *error)
+{
+    const tn_library *library = c->ready->library;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i <= c->length_count; i++) {
+        uint32_t length = i == c->length_count ? TN_ALL_LENGTHS : c->low + (uint32_t)i;
+        tn_library_kept(library, length, c->lengths[i].kept);
+        status = tn_library_generated(library, length, c->lengths[i].generated, error);
+        if (status == TN_OK && c->mirror)
+            status = tn_library_kept_mirror(library, length, c->lengths[i].mirror, error);
+    }
+    for (size_t i = 0; status == TN_OK && i < c->rule_count; i++) {
+        rule_counts *rule = &c->rules[i];
+        status = tn_library_prune(library, i, &rule->clause, rule->prunes, rule->only, &rule->states, error);
+    }
+    return status;
+}
+
+/* A number's digits; grouped by commas for people. The caller frees them; NULL where out of memory. */
+static char *digits_of(const mpz_t number, bool grouped)
+{
+    char *plain = mpz_get_str(NULL, 10, number);
+    if (!plain || !grouped)
+        return plain;
+    size_t length = strlen(plain), used = 0;
+    char *text = malloc(length + length / 3 + 1);
+    for (size_t i = 0; text && i < length; i++) {
+        if (i > 0 && (length - i) % 3 == 0 && plain[i - 1] != '-')
+            text[used++] = ',';
+        text[used++] = plain[i];
+    }
+    if (text)
+        text[used] = '\0';
+    free(plain);
+    return text;
+}
+
+/* How wide a column of numbers has to be for its largest. */
+static int column_width(const mpz_t largest, const char *heading)
+{
+    int digits = (int)mpz_sizeinbase(largest, 10), heading_width = (int)strlen(heading);
+    int width = digits + (digits - 1) / 3;
+    return width > heading_width ? width : heading_width;
+}
+
+static void write_number(const mpz_t number, int width, FILE *out)
+{
+    char *text = digits_of(number, true);
+    fprintf(out, "  %*s", width, text ? text : "?");
+    free(text);
+}
+
+static void write_lengths(const counts *c, FILE *out)
+{
+    const length_counts *total = &c->lengths[c->length_count];
+    int generated = column_width(total->generated, "generated"), kept = column_width(total->kept, "kept"),
+        mirror = column_width(total->mirror, "up to mirror");
+    fprintf(out, "%8s  %*s  %*s", "trays", generated, "generated", kept, "kept");
+    if (c->mirror)
+        fprintf(out, "  %*s", mirror, "up to mirror");
+    fputc('\n', out);
+    for (size_t i = 0; i <= c->length_count; i++) {
+        if (i < c->length_count)
+            fprintf(out, "%8zu", c->low + i);
+        else
+            fprintf(out, "%8s", "total");
+        write_number(c->lengths[i].generated, generated, out);
+        write_number(c->lengths[i].kept, kept, out);
+        if (c->mirror)
+            write_number(c->lengths[i].mirror, mirror, out);
+        fputc('\n', out);
+    }
+}
+
+static const char *clause_name(const counts *c, uint32_t clause)
+{
+    const char *name, *doc;
+    tn_clause_describe(c->ready->schema->module, clause, &name, &doc);
+    return name;
+}
+
+static void write_rules(const counts *c, FILE *out)
+{
+    if (c->rule_count == 0)
+        return;
+    int prunes = 6, only = 10, names = 4;
+    for (size_t i = 0; i < c->rule_count; i++) {
+        int name = (int)strlen(clause_name(c, c->rules[i].clause)), wide = column_width(c->rules[i].prunes, "prunes"),
+            alone = column_width(c->rules[i].only, "only by it");
+        names = name > names ? name : names;
+        prunes = wide > prunes ? wide : prunes;
+        only = alone > only ? alone : only;
+    }
+    fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, "rule", prunes, "prunes", only, "only by it", "states");
+    for (size_t i = 0; i < c->rule_count; i++) {
+        fprintf(out, "%-*s", names, clause_name(c, c->rules[i].clause));
+        write_number(c->rules[i].prunes, prunes, out);
+        write_number(c->rules[i].only, only, out);
+        fprintf(out, "  %6u\n", c->rules[i].states);
+    }
+}
+
+static void write_text(const counts *c, FILE *out)
+{
+    const tn_module *module = c->ready->schema->module;
+    const char *doc = tn_text(module, c->ready->record->doc);
+    const length_counts *total = &c->lengths[c->length_count];
+    mpz_t pruned;
+    mpz_init(pruned);
+    mpz_sub(pruned, total->generated, total->kept);
+    char *text = digits_of(pruned, true);
+    fprintf(out, "%s%s%s\n%s plans are pruned; %u states\n\n", tn_text(module, c->ready->record->name),
+            *doc ? ": " : "", doc, text ? text : "?", tn_library_states(c->ready->library));
+    free(text);
+    mpz_clear(pruned);
+    write_lengths(c, out);
+    write_rules(c, out);
+}
+
+static void set_number(json_t *object, const char *key, const mpz_t number)
+{
+    char *text = digits_of(number, false);
+    json_object_set_new(object, key, json_string(text ? text : ""));
+    free(text);
+}
+
+static json_t *lengths_json(const counts *c)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < c->length_count; i++) {
+        json_t *item = json_object();
+        json_object_set_new(item, "length", json_integer((json_int_t)(c->low + i)));
+        set_number(item, "generated", c->lengths[i].generated);
+        set_number(item, "kept", c->lengths[i].kept);
+        if (c->mirror)
+            set_number(item, "mirror", c->lengths[i].mirror);
+        json_array_append_new(list, item);
+    }
+    return list;
+}
+
+static json_t *rules_json(const counts *c)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < c->rule_count; i++) {
+        json_t *item = json_object();
+        json_object_set_new(item, "name", json_string(clause_name(c, c->rules[i].clause)));
+        set_number(item, "prunes", c->rules[i].prunes);
+        set_number(item, "only", c->rules[i].only);
+        json_object_set_new(item, "states", json_integer(c->rules[i].states));
+        json_array_append_new(list, item);
+    }
+    return list;
+}
+
+static void write_json(const counts *c, FILE *out)
+{
+    const length_counts *total = &c->lengths[c->length_count];
+    char hash[33];
+    json_t *root = json_object();
+    mpz_t pruned;
+    mpz_init(pruned);
+    mpz_sub(pruned, total->generated, total->kept);
+    tn_library_hash(c->ready->library, hash);
+    json_object_set_new(root, "library", json_string(tn_text(c->ready->schema->module, c->ready->record->name)));
+    json_object_set_new(root, "hash", json_string(hash));
+    json_object_set_new(root, "states", json_integer(tn_library_states(c->ready->library)));
+    set_number(root, "generated", total->generated);
+    set_number(root, "pruned", pruned);
+    set_number(root, "kept", total->kept);
+    if (c->mirror)
+        set_number(root, "mirror", total->mirror);
+    json_object_set_new(root, "by_length", lengths_json(c));
+    json_object_set_new(root, "rules", rules_json(c));
+    json_dumpf(root, out, JSON_INDENT(2));
+    fputc('\n', out);
+    json_decref(root);
+    mpz_clear(pruned);
+}
+
+static void count(tn_session *session, const tn_ready_library *ready)
+{
+    const tn_settings *settings = session->settings;
+    counts c;
+    tn_error error;
+    tn_output output;
+    if (!counts_new(ready, settings->mirror, &c)) {
+        tn_fail_memory(&error);
+        tn_session_fail(session, &error);
+        return;
+    }
+    tn_session_show(session);
+    if (count_all(&c, &error) != TN_OK) {
+        tn_session_fail(session, &error);
+    } else if (tn_session_output(session, settings->output, &output)) {
+        (settings->json ? write_json : write_text)(&c, output.stream);
+        tn_session_commit(session, &output);
+    }
+    counts_free(&c);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_ready_library ready;
+    tn_session_begin(&session, settings);
+    if (tn_session_library(&session, settings->operands.items[0], &ready))
+        count(&session, &ready);
+    tn_library_close(&ready);
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
+    OPTION_OUTPUT,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_count = {
+    .name = "count",
+    .summary = "count the plans of a library, exactly",
+    .usage = "FILE [--library NAME] [--json] [--mirror]",
+    .description = "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
+                   "all, and for each "
+                   "pruning rule how many it prunes and how many nothing else would. Counts are exact whatever their "
+                   "size: they are "
+                   "computed over the library's automaton, and no plan is made.",
+    .example = "$ tartan count lahave-houses.plan --json",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};
