@@ -135,9 +135,8 @@ static void write_lengths(const counts *c, FILE *out)
 
 static const char *clause_name(const counts *c, uint32_t clause)
 {
-    const char *name, *doc;
-    tn_clause_describe(c->ready->schema->module, clause, &name, &doc);
-    return name;
+    const tn_module *module = c->ready->schema->module;
+    return tn_text(module, module->CLAUSE_records[clause].name);
 }
 
 static void write_rules(const counts *c, FILE *out)

@@ -64,7 +64,7 @@ void tn_manual_overview(FILE *out)
 {
     write_head("TARTAN", "tartan", "rules for plans, compiled and run", out);
     fputs(".B tartan\n.I COMMAND\n[options] \\fIFILE\\fR...\n.SH COMMANDS\n", out);
-    for (size_t i = 0; i < tn_command_count; i++) {
+    for (size_t i = 0; i < tn_commands_count; i++) {
         fprintf(out, ".TP\n\\fBtartan\\-%s\\fR(1)\n", tn_commands[i]->name);
         write_all(tn_commands[i]->summary, out);
         fputc('\n', out);

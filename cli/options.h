@@ -67,8 +67,8 @@ typedef struct tn_settings {
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 
-    tn_option_number columns, scale, dpi;
-    const char *page, *title;
+    tn_option_number columns, scale, dpi, max_plans;
+    const char *paper, *title;
 } tn_settings;
 
 typedef struct tn_command {

@@ -4,27 +4,48 @@
 
 #include "cli/library_session.h"
 #include "cli/option_rows.h"
+#include "driver/clauses.h"
 #include "runtime/plan/text.h"
 
-/* Why the plan has no rank. */
-static void say_why(tn_session *session, const tn_ready_library *ready, uint32_t clause)
+/* Names one clause that the plan fails, and where it is written. */
+static void name_clause(tn_session *session, tn_diagnostic *why, uint32_t clause)
 {
-    const char *name, *doc;
-    tn_clause_describe(session->opened.module, clause, &name, &doc);
+    const tn_module *module = session->opened.module;
+    const tn_clause_record *record = &module->CLAUSE_records[clause];
+    const char *doc = tn_text(module, record->doc);
+    tn_span span = {record->file, record->begin, record->end};
+    bool known = record->file < session->opened.compilation.sources.count;
+    tn_note(tn_session_diagnostics(session), why, known ? &span : NULL, "it fails `%s`%s%s",
+            tn_text(module, record->name), *doc ? ": " : "", doc);
+}
+
+/* Why the plan has no rank: each clause that it fails, as the interpreter finds them. */
+static tn_status say_why(tn_session *session, const tn_ready_library *ready, const tn_plan *plan, tn_error *error)
+{
+    const tn_module *module = session->opened.module;
+    tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = tn_session_max_length(session->settings)};
+    tn_rules *rules = NULL;
+    tn_matcher *matcher = NULL;
+    uint64_t *bits = calloc(ready->record->clause_count / 64 + 1, sizeof *bits);
     tn_diagnostics *list = tn_session_diagnostics(session);
-    tn_diagnostic *why =
-        tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "the plan is not in `%s`: it fails `%s`%s%s",
-                       tn_text(session->opened.module, ready->record->name), name, *doc ? ", " : "", doc);
-    if (clause < session->opened.module->CLAUSE_count) {
-        const tn_clause_record *record = &session->opened.module->CLAUSE_records[clause];
-        tn_span span = {record->file, record->begin, record->end};
-        if (record->file < session->opened.compilation.sources.count)
-            tn_note(list, why, &span, "`%s` is here", name);
-    } else {
-        tn_help(list, why, "it keeps plans of %u to %u trays", tn_library_min(ready->library),
-                tn_library_max(ready->library));
-    }
-    tn_session_status(session, TN_INVALID);
+    tn_diagnostic *why = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "the plan is not in `%s`",
+                                        tn_text(module, ready->record->name));
+    tn_status status =
+        bits ? tn_clause_rules_new(ready->schema, ready->record, &options, &rules, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_matcher_new(rules, &matcher, error);
+    if (status == TN_OK)
+        status = tn_match(matcher, plan->trays, plan->length, bits, error);
+    if (plan->length < tn_library_min(ready->library) || plan->length > tn_library_max(ready->library))
+        tn_note(list, why, NULL, "it fails `trays`: it has %zu, and plans there have %u to %u", plan->length,
+                tn_library_min(ready->library), tn_library_max(ready->library));
+    for (uint32_t i = 0; status == TN_OK && i < ready->record->clause_count; i++)
+        if (tn_clause_drops(module, ready->record, i, bits))
+            name_clause(session, why, ready->record->clause_first + i);
+    tn_matcher_free(matcher);
+    tn_rules_free(rules);
+    free(bits);
+    return status == TN_OK ? TN_INVALID : status;
 }
 
 static void write_rank(tn_session *session, const mpz_t rank)
@@ -40,12 +61,17 @@ static void write_rank(tn_session *session, const mpz_t rank)
 static void rank_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan)
 {
     mpz_t rank;
-    uint32_t clause;
+    tn_error error;
     mpz_init(rank);
-    if (tn_library_rank(ready->library, plan->trays, plan->length, rank))
+    if (tn_library_rank(ready->library, plan->trays, plan->length, rank)) {
         write_rank(session, rank);
-    else if (!tn_library_has(ready->library, plan->trays, plan->length, &clause))
-        say_why(session, ready, clause);
+    } else {
+        tn_status status = say_why(session, ready, plan, &error);
+        if (status == TN_INVALID)
+            tn_session_status(session, status);
+        else
+            tn_session_fail(session, &error);
+    }
     mpz_clear(rank);
 }
 

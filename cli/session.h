@@ -18,6 +18,7 @@ enum {
     TN_EXIT_IO = 3,
     TN_EXIT_LIMIT = 4,
     TN_EXIT_INTERNAL = 70,
+    TN_EXIT_INTERRUPTED = 130, /* as shells report SIGINT */
 };
 
 typedef struct tn_session {

@@ -156,9 +156,38 @@ void tn_library_close(tn_ready_library *ready)
     *ready = (tn_ready_library){0};
 }
 
-void tn_clause_describe(const tn_module *module, uint32_t clause, const char **name, const char **doc)
+/* The number of libraries of the file itself, and the last of them. */
+static size_t own_libraries(const tn_module *module, uint32_t *last)
 {
-    bool is_clause = clause < module->CLAUSE_count;
-    *name = is_clause ? tn_text(module, module->CLAUSE_records[clause].name) : "trays";
-    *doc = is_clause ? tn_text(module, module->CLAUSE_records[clause].doc) : "the number of trays is not the library's";
+    size_t count = 0;
+    for (uint32_t i = 0; i < module->LIBRARY_count; i++) {
+        if (module->LIBRARY_records[i].flags & TN_IMPORTED)
+            continue;
+        *last = i;
+        count++;
+    }
+    return count;
+}
+
+tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index, uint32_t *library)
+{
+    const tn_module *module = opened->module;
+    uint32_t chosen = 0;
+    if (name || own_libraries(module, &chosen) == 1) {
+        tn_status status = name ? tn_library_choose(opened, name, &chosen) : TN_OK;
+        if (status == TN_OK) {
+            *library = chosen;
+            *index = module->LIBRARY_records[chosen].schema;
+        }
+        return status;
+    }
+    *index = 0;
+    if (module->SCHEMA_count == 1)
+        return TN_OK;
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    tn_diagnostic *unclear = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                                            "%s has %zu schemas, and it is not clear which one the plans are of",
+                                            opened->path, module->SCHEMA_count);
+    tn_help(diagnostics, unclear, "name a library with --library: its schema is then the one");
+    return TN_INVALID;
 }

@@ -28,7 +28,8 @@ tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library
                            tn_ready_library *ready);
 void tn_library_close(tn_ready_library *ready);
 
-/* Why the plan is not in the library: the name of the clause (UINT32_MAX: "trays") in *name, its doc or "" in *doc. */
-void tn_clause_describe(const tn_module *module, uint32_t clause, const char **name, const char **doc);
+/* The SCHEMA record to read plans with: of the library named, or of the only one of the file itself, or else the only
+  schema there is. TN_INVALID (E0905) where that is not clear. *library: that library, unchanged where there is none. */
+tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index, uint32_t *library);
 
 #endif

@@ -71,6 +71,8 @@ static bool lay_out(drawing *d, const tn_paper *paper, double factor)
     d->width = paper->width;
     d->height = paper->height;
     d->columns = how_many(room_across(paper->width), d->cell_width, COLUMN_GAP);
+    if (d->options->columns)
+        d->columns = d->options->columns <= d->columns ? d->options->columns : 0;
     d->rows = how_many(room_down(paper->height), d->cell_height, ROW_GAP);
     return d->columns > 0 && d->rows > 0;
 }
@@ -194,8 +196,10 @@ static tn_status choose_layout(drawing *d, tn_error *error)
         lay_out_tables(d, papers, paper_count);
     if (d->columns > 0 && (d->rows > 0 || d->format != TN_CANVAS_PDF))
         return TN_OK;
-    tn_status status = tn_fail(error, TN_LIMIT, 820, "a plan does not fit on the paper at 1:%u", d->scale);
-    tn_error_help(error, "choose a larger --paper or a smaller --scale (a larger number), or leave --scale out");
+    tn_status status =
+        tn_fail(error, TN_LIMIT, 820, "the plans do not fit on the paper as asked for (at 1:%u)", d->scale);
+    tn_error_help(error,
+                  "choose a larger --paper, a smaller --scale (a larger number) or fewer --columns, or leave them out");
     return status;
 }
 
@@ -203,7 +207,7 @@ static tn_status choose_layout(drawing *d, tn_error *error)
 static void fit_sheet(drawing *d)
 {
     size_t needed = (d->count + d->columns - 1) / d->columns;
-    if (needed > 0 && needed <= d->rows)
+    if (needed > 0 && needed <= d->rows && !d->options->columns)
         d->columns = (d->count + needed - 1) / needed;
     if (d->format == TN_CANVAS_PDF || needed <= d->rows)
         return;

@@ -27,6 +27,7 @@ typedef struct tn_draw_options {
     size_t note_count;
     const char *paper; /* see paper.h; NULL: the smallest of three that holds all */
     uint32_t scale;    /* 1:scale; 0: the largest usual one that fits */
+    uint32_t columns;  /* plans in a row; 0: as many as fit */
     uint32_t dpi;      /* of a PNG; 0: 150 */
     size_t max_plans;  /* 0: TN_DRAW_PLANS_DEFAULT; E0820 past it */
 } tn_draw_options;

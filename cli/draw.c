@@ -1,0 +1,307 @@
+/* tartan draw: plans as a picture sheet. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "cli/plan_input.h"
+#include "cli/sampled.h"
+#include "runtime/draw/canvas.h"
+#include "runtime/plan/draw.h"
+
+enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
+
+/* The plans of a sheet, gathered before any is drawn, since all share one scale. */
+typedef struct sheet {
+    tn_session *session;
+    const tn_schema *schema;
+    const tn_library_record *library; /* or NULL */
+    tn_drawn_plan *plans;             /* trays and numbers owned */
+    size_t count, room;
+    bool ranked; /* numbers are ranks, not lines */
+    char notes[NOTE_COUNT][NOTE_SIZE];
+    size_t note_count;
+} sheet;
+
+static size_t max_plans(const tn_settings *settings)
+{
+    return settings->max_plans.given ? (size_t)settings->max_plans.value : TN_DRAW_PLANS_DEFAULT;
+}
+
+/* Takes over `number`; the trays are copied. */
+static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *number, tn_error *error)
+{
+    if (s->count == s->room) {
+        size_t room = s->room ? s->room * 2 : 64;
+        tn_drawn_plan *plans = realloc(s->plans, sizeof *plans * room);
+        if (!plans) {
+            free(number);
+            return tn_fail_memory(error);
+        }
+        s->plans = plans;
+        s->room = room;
+    }
+    tn_tray *copy = malloc(sizeof *copy * (length + 1));
+    if (!copy || !number) {
+        free(copy);
+        free(number);
+        return tn_fail_memory(error);
+    }
+    if (length)
+        memcpy(copy, trays, sizeof *copy * length);
+    s->plans[s->count++] = (tn_drawn_plan){copy, length, number};
+    return TN_OK;
+}
+
+static void sheet_clear(sheet *s)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        free((tn_tray *)(uintptr_t)s->plans[i].trays);
+        free((char *)(uintptr_t)s->plans[i].number);
+    }
+    free(s->plans);
+}
+
+/* The number below a plan that was read: its rank where the file gives one, otherwise its line. */
+static char *number_of(sheet *s, const tn_plan_reader *reader)
+{
+    char *text = NULL;
+    mpz_t rank;
+    mpz_init(rank);
+    if (s->count == 0)
+        s->ranked = tn_plan_reader_rank(reader, rank);
+    if (s->ranked && tn_plan_reader_rank(reader, rank)) {
+        text = mpz_get_str(NULL, 10, rank);
+    } else {
+        char line[24];
+        snprintf(line, sizeof line, "%" PRIu64, tn_plan_reader_line(reader));
+        text = strdup(line);
+    }
+    mpz_clear(rank);
+    return text;
+}
+
+/* Reads the plans, one more than the limit at most, which drawing then refuses. False where the sheet is not to be
+ * drawn. */
+static bool read_plans(sheet *s, const char *path)
+{
+    tn_plan_reader *reader;
+    const tn_plan *plan;
+    tn_error error;
+    bool going = tn_session_reader(s->session, s->schema, path, &reader);
+    if (!going)
+        return false;
+    while (going && s->count <= max_plans(s->session->settings)) {
+        tn_status status = tn_plan_reader_next(reader, &plan, &error);
+        if (status == TN_OK && !plan)
+            break;
+        if (status == TN_OK)
+            status = add_plan(s, plan->trays, plan->length, number_of(s, reader), &error);
+        else if (error.line > 0) {
+            size_t size = 0;
+            const char *text = tn_plan_reader_text(reader, &size);
+            going = tn_session_bad_plan(s->session, path, &error, text, size);
+            continue;
+        }
+        if (status != TN_OK) {
+            tn_session_fail(s->session, &error);
+            going = false;
+        }
+    }
+    tn_plan_reader_free(reader);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plans from %s", s->count,
+             strcmp(path, "-") == 0 ? "standard input" : path);
+    return going;
+}
+
+static bool unrank_all(sheet *s, const tn_ready_library *ready, const tn_sampled *sampled)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    tn_error error;
+    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
+    for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
+        uint32_t length = 0;
+        tn_library_unrank(ready->library, sampled->ranks[i], trays, &length);
+        status = add_plan(s, trays, length, mpz_get_str(NULL, 10, sampled->ranks[i]), &error);
+    }
+    free(trays);
+    if (status != TN_OK)
+        tn_session_fail(s->session, &error);
+    return status == TN_OK;
+}
+
+static void note_sample(sheet *s, const tn_ready_library *ready)
+{
+    char hash[33];
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
+    char *digits = mpz_get_str(NULL, 10, kept);
+    tn_library_hash(ready->library, hash);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
+             digits ? digits : "?", s->session->settings->seed.value);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
+    free(digits);
+    mpz_clear(kept);
+}
+
+static bool sample_plans(sheet *s, const tn_ready_library *ready)
+{
+    tn_sampled sampled;
+    bool drawn = tn_session_sample(s->session, ready, (size_t)s->session->settings->sample.value, &sampled) &&
+                 unrank_all(s, ready, &sampled);
+    tn_sampled_clear(&sampled);
+    s->ranked = true;
+    if (drawn)
+        note_sample(s, ready);
+    return drawn;
+}
+
+/* The last note: which rules, by which compiler. Only the file's name, so that the same sheet can be made anywhere. */
+static void note_rules(sheet *s)
+{
+    const tn_module *module = s->session->opened.module;
+    const char *path = s->session->settings->operands.items[0], *slash = strrchr(path, '/');
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    int used = snprintf(s->notes[s->note_count], NOTE_SIZE, "%.160s", slash ? slash + 1 : path);
+    if (producer && used < NOTE_SIZE)
+        snprintf(s->notes[s->note_count] + used, (size_t)(NOTE_SIZE - used), ", rules %016" PRIx64 ", tartan %.40s",
+                 (uint64_t)producer->sources_hash, tn_text(module, producer->version));
+    s->note_count++;
+}
+
+static void draw_sheet(sheet *s)
+{
+    const tn_settings *settings = s->session->settings;
+    const tn_module *module = s->session->opened.module;
+    const char *notes[NOTE_COUNT];
+    tn_error error;
+    note_rules(s);
+    for (size_t i = 0; i < s->note_count; i++)
+        notes[i] = s->notes[i];
+    tn_string name = s->library ? s->library->name : s->schema->record->name,
+              doc = s->library ? s->library->doc : s->schema->record->doc;
+    tn_draw_options options = {.title = settings->title ? settings->title : tn_text(module, name),
+                               .doc = doc ? tn_text(module, doc) : NULL,
+                               .number_name = s->ranked ? "rank" : "line",
+                               .notes = notes,
+                               .note_count = s->note_count,
+                               .paper = settings->paper,
+                               .scale = (uint32_t)settings->scale.value,
+                               .columns = (uint32_t)settings->columns.value,
+                               .dpi = (uint32_t)settings->dpi.value,
+                               .max_plans = max_plans(settings)};
+    tn_session_show(s->session);
+    if (tn_plans_draw(s->schema, s->plans, s->count, &options, settings->output, &error) != TN_OK)
+        tn_session_fail(s->session, &error);
+}
+
+static void draw_sample(tn_session *session)
+{
+    tn_ready_library ready;
+    if (tn_session_library(session, session->settings->operands.items[0], &ready)) {
+        sheet s = {.session = session, .schema = ready.schema, .library = ready.record};
+        if (sample_plans(&s, &ready))
+            draw_sheet(&s);
+        sheet_clear(&s);
+    }
+    tn_library_close(&ready);
+}
+
+static void draw_file(tn_session *session, const char *path)
+{
+    tn_schema *schema = NULL;
+    uint32_t index, library = UINT32_MAX;
+    tn_error error;
+    if (!tn_session_open(session, session->settings->operands.items[0]))
+        return;
+    tn_status status = tn_schema_choose(&session->opened, session->settings->library, &index, &library);
+    tn_session_status(session, status);
+    if (status != TN_OK)
+        return;
+    if (tn_schema_new(session->opened.module, index, 0, &schema, &error) == TN_OK) {
+        sheet s = {.session = session, .schema = schema};
+        if (library != UINT32_MAX)
+            s.library = &session->opened.module->LIBRARY_records[library];
+        if (read_plans(&s, path))
+            draw_sheet(&s);
+        sheet_clear(&s);
+    } else {
+        tn_session_fail(session, &error);
+    }
+    tn_schema_free(schema);
+}
+
+static bool check_options(tn_session *session)
+{
+    const tn_settings *settings = session->settings;
+    tn_canvas_format format;
+    tn_error error;
+    if (!settings->output)
+        tn_session_usage(session, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_session_fail(session, &error);
+    else if ((settings->sample.given || settings->per_length.given) && settings->operands.count > 1)
+        tn_session_usage(session, "draw either a file of plans or a --sample, not both");
+    else
+        return true;
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_session_begin(&session, settings);
+    if (check_options(&session)) {
+        const char *path =
+            settings->sample.given || settings->per_length.given ? NULL : tn_session_plans_path(&session);
+        if (path)
+            draw_file(&session, path);
+        else if (session.exit_code == TN_EXIT_DONE)
+            draw_sample(&session);
+    }
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
+    OPTION_LIBRARY,
+    NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
+    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
+    NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
+    TEXT("paper", 0, "SIZE", paper,
+         "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
+    NUMBER("scale", 0, "N", scale, 1, 1000000, "draw at 1:N (default: the largest usual scale that fits)"),
+    NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
+    NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
+    NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_draw = {
+    .name = "draw",
+    .summary = "draw plans on a sheet, to scale",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf",
+    .description =
+        "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
+        "zones, marks and "
+        "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
+        "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
+        "are one sheet.",
+    .example = "$ tartan draw lahave-houses.plan --sample 24 --seed 7 -o sheet.svg\n"
+               "$ tartan enumerate terrace.plan --limit 50 | tartan draw terrace.plan - -o rows.pdf",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a rule file and a file of plans",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

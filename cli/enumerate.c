@@ -1,0 +1,192 @@
+/* tartan enumerate: every plan of a library, once, in rank order. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/interrupt.h"
+#include "cli/option_rows.h"
+#include "cli/plan_output.h"
+#include "cli/progress.h"
+
+/* How often the loop looks at the clock and for interruptions. */
+enum { LOOK_EVERY = 4096 };
+
+/* One enumeration: the ranks [rank, to) that are left. */
+typedef struct enumeration {
+    tn_session *session;
+    const tn_ready_library *ready;
+    tn_plan_writer *writer;
+    mpz_t rank, to;
+    uint64_t written, limit; /* plans in the file, those resumed included; 0: no limit */
+    bool limited;
+} enumeration;
+
+/* The ranks asked for, no further than the library goes. */
+static void find_range(enumeration *e)
+{
+    const tn_settings *settings = e->session->settings;
+    mpz_t kept, zero;
+    mpz_inits(kept, zero, NULL);
+    tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
+    tn_session_rank(settings->from, zero, e->rank);
+    tn_session_rank(settings->to, kept, e->to);
+    if (mpz_cmp(e->to, kept) > 0)
+        mpz_set(e->to, kept);
+    if (mpz_cmp(e->rank, e->to) > 0)
+        mpz_set(e->rank, e->to);
+    mpz_clears(kept, zero, NULL);
+}
+
+/* What decides the result. The limit is left out: a library can be resumed to go on past it. */
+static char *describe(const tn_settings *settings)
+{
+    const char *from = settings->from ? settings->from : "0", *to = settings->to ? settings->to : "";
+    size_t size = strlen(from) + strlen(to) + 80;
+    char *text = malloc(size);
+    if (!text)
+        return NULL;
+    int used = snprintf(text, size, "enumerate --from %s%s%s%s", from, *to ? " --to " : "", to,
+                        settings->mirror ? " --mirror" : "");
+    if (settings->trays.given)
+        snprintf(text + used, size - (size_t)used, " --trays %" PRIu64 "..%" PRIu64, settings->trays.low,
+                 settings->trays.high);
+    return text;
+}
+
+static void resume(enumeration *e)
+{
+    mpz_t last;
+    mpz_init(last);
+    e->written = tn_plan_writer_resumed(e->writer, last);
+    if (e->written > 0) {
+        mpz_add_ui(e->rank, last, 1);
+        tn_session_note(e->session, "%" PRIu64 " plans are there already; going on after them", e->written);
+        tn_session_show(e->session);
+    }
+    mpz_clear(last);
+}
+
+static bool is_done(const enumeration *e)
+{
+    return e->limited && e->written >= e->limit;
+}
+
+static void interrupt(enumeration *e, bool resumable)
+{
+    tn_session_note(e->session, resumable ? "interrupted; --resume goes on" : "interrupted; nothing is written");
+    e->session->exit_code = TN_EXIT_INTERRUPTED;
+}
+
+static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
+{
+    bool mirror = e->session->settings->mirror;
+    const tn_tray *trays;
+    uint32_t length;
+    uint64_t seen = 0;
+    mpz_t left;
+    tn_progress progress;
+    tn_status status = TN_OK;
+    mpz_init(left);
+    mpz_sub(left, e->to, e->rank);
+    double total = mpz_get_d(left);
+    if (e->limited && !mirror && total > (double)(e->limit - e->written))
+        total = (double)(e->limit - e->written);
+    tn_progress_begin(&progress, "plans", total);
+    while (status == TN_OK && !is_done(e) && tn_cursor_next(cursor, &trays, &length)) {
+        if (!mirror || tn_library_mirror_first(e->ready->library, trays, length)) {
+            status = tn_plan_writer_write(e->writer, e->rank, trays, length, error);
+            e->written++;
+        }
+        mpz_add_ui(e->rank, e->rank, 1);
+        if (++seen % LOOK_EVERY == 0) {
+            tn_progress_update(&progress, (double)seen);
+            if (tn_interrupted())
+                break;
+        }
+    }
+    tn_progress_end(&progress);
+    mpz_clear(left);
+    return status;
+}
+
+static void enumerate(enumeration *e)
+{
+    tn_cursor *cursor;
+    tn_error error;
+    resume(e);
+    tn_status status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, &error);
+    if (status == TN_OK) {
+        tn_interrupt_watch();
+        status = write_plans(e, cursor, &error);
+        tn_cursor_free(cursor);
+    }
+    if (status != TN_OK)
+        tn_session_fail(e->session, &error);
+    else if (tn_interrupted())
+        interrupt(e, e->session->settings->output != NULL);
+    tn_session_plan_close(e->session, e->writer);
+}
+
+static bool check_options(tn_session *session)
+{
+    const tn_settings *settings = session->settings;
+    if (!settings->resume || (settings->output && strcmp(settings->output, "-") != 0))
+        return true;
+    tn_session_usage(session, "--resume needs the database that it is to go on with: -o FILE.sqlite");
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_ready_library ready = {0};
+    tn_session_begin(&session, settings);
+    if (check_options(&session) && tn_session_library(&session, settings->operands.items[0], &ready)) {
+        enumeration e = {
+            .session = &session, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
+        char *made = describe(settings);
+        mpz_inits(e.rank, e.to, NULL);
+        find_range(&e);
+        if (made && tn_session_plan_writer(&session, &ready, made, &e.writer))
+            enumerate(&e);
+        mpz_clears(e.rank, e.to, NULL);
+        free(made);
+    }
+    tn_library_close(&ready);
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    RANK("from", 0, "RANK", from, "the first rank (default 0)"),
+    RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
+    NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
+    FLAG("mirror", 0, mirror,
+         "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
+    OPTION_PLAN_FORMAT,
+    OPTION_PLAN_OUTPUT,
+    FLAG("resume", 0, resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_enumerate = {
+    .name = "enumerate",
+    .summary = "write every plan of a library, once",
+    .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]",
+    .description =
+        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. Any "
+        "stretch of ranks "
+        "can be asked for, and ranks may have any number of digits. A database (-o FILE.sqlite) is written in batches "
+        "that survive a crash; --resume goes on where one ended.",
+    .example = "$ tartan enumerate terrace.plan --from 1000000 --limit 100 --format csv",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

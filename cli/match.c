@@ -1,0 +1,232 @@
+/* tartan match: which rules each plan matches. */
+#include <jansson.h>
+#include <stdlib.h>
+
+#include "cli/library_session.h"
+#include "cli/option_rows.h"
+#include "cli/plan_input.h"
+#include "driver/sift.h"
+
+enum { FORMAT_NAMES, FORMAT_JSON, FORMAT_BITS };
+
+/* The rules to match, and where the answers go. */
+typedef struct matching {
+    tn_session *session;
+    const char *path; /* of the plans */
+    uint32_t *rules;  /* RULE records, in file order or as asked for */
+    size_t count;
+    uint32_t schema_index;
+    tn_schema *schema;
+    tn_rules *compiled;
+    tn_output output;
+    tn_buffer line;
+} matching;
+
+static const char *rule_name(const void *context, size_t i)
+{
+    const matching *m = context;
+    const tn_module *module = m->session->opened.module;
+    return tn_text(module, module->RULE_records[m->rules[i]].name);
+}
+
+/* The rules of --rule, or those of the file itself. */
+static bool choose_rules(matching *m)
+{
+    const tn_option_list *asked = &m->session->settings->rules;
+    const tn_module *module = m->session->opened.module;
+    tn_error error;
+    m->rules = malloc(sizeof *m->rules * (asked->count + module->RULE_count + 1));
+    if (!m->rules) {
+        tn_fail_memory(&error);
+        tn_session_fail(m->session, &error);
+        return false;
+    }
+    for (size_t i = 0; i < asked->count; i++) {
+        tn_status status = tn_rule_choose(&m->session->opened, asked->items[i], &m->rules[m->count]);
+        tn_session_status(m->session, status);
+        m->count += status == TN_OK;
+    }
+    if (asked->count)
+        return m->count == asked->count;
+    for (uint32_t i = 0; i < module->RULE_count; i++)
+        if (!(module->RULE_records[i].flags & TN_IMPORTED))
+            m->rules[m->count++] = i;
+    if (m->count > 0)
+        return true;
+    tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rules of its own", m->session->opened.path);
+    tn_error_help(&error, "name one of those it uses with --rule, or filter with `tartan prune`");
+    tn_session_fail(m->session, &error);
+    return false;
+}
+
+/* All rules have to be about the same trays, or the plans could not be read. */
+static bool choose_schema(matching *m)
+{
+    const tn_module *module = m->session->opened.module;
+    uint32_t schema = module->RULE_records[m->rules[0]].schema;
+    tn_error error;
+    for (size_t i = 1; i < m->count; i++) {
+        uint32_t other = module->RULE_records[m->rules[i]].schema;
+        if (other == schema)
+            continue;
+        tn_fail(&error, TN_INVALID, E_NOT_IN_FILE,
+                "`%.80s` is about the trays of `%.80s`, `%.80s` about those of `%.80s`", rule_name(m, 0),
+                tn_text(module, module->SCHEMA_records[schema].name), rule_name(m, i),
+                tn_text(module, module->SCHEMA_records[other].name));
+        tn_error_help(&error, "choose rules about the same trays with --rule");
+        tn_session_fail(m->session, &error);
+        return false;
+    }
+    m->schema_index = schema;
+    return true;
+}
+
+static bool compile_rules(matching *m)
+{
+    const tn_settings *settings = m->session->settings;
+    const tn_module *module = m->session->opened.module;
+    tn_rules_options options = {(tn_engine)settings->engine, (uint32_t)settings->max_states.value,
+                                tn_session_max_length(settings)};
+    uint32_t *functions = malloc(sizeof *functions * m->count);
+    tn_error error;
+    tn_status status =
+        functions ? tn_schema_new(module, m->schema_index, 0, &m->schema, &error) : tn_fail_memory(&error);
+    for (size_t i = 0; functions && i < m->count; i++)
+        functions[i] = module->RULE_records[m->rules[i]].holds;
+    if (status == TN_OK)
+        status = tn_rules_new(m->schema, functions, m->count, &options, &m->compiled, &error);
+    free(functions);
+    if (status != TN_OK)
+        tn_session_fail(m->session, &error);
+    return status == TN_OK;
+}
+
+static bool is_matched(const tn_sifted *plan, size_t i)
+{
+    return plan->bits[i / 64] >> (i % 64) & 1;
+}
+
+static void write_bits(const matching *m, const tn_sifted *plan)
+{
+    for (size_t i = 0; i < m->count; i++)
+        fputc(is_matched(plan, i) ? '1' : '0', m->output.stream);
+}
+
+static void write_names(const matching *m, const tn_sifted *plan)
+{
+    const char *between = "";
+    for (size_t i = 0; i < m->count; i++) {
+        if (!is_matched(plan, i))
+            continue;
+        fprintf(m->output.stream, "%s%s", between, rule_name(m, i));
+        between = " ";
+    }
+    if (!*between)
+        fputc('-', m->output.stream);
+}
+
+static bool write_object(matching *m, const tn_sifted *plan)
+{
+    m->line.size = 0;
+    if (!tn_plan_write_line(m->schema, plan->trays, plan->length, &m->line))
+        return false;
+    json_t *object = json_object(), *names = json_array();
+    json_object_set_new(object, "line", json_integer((json_int_t)plan->line));
+    json_object_set_new(object, "plan", json_string(m->line.data ? m->line.data : ""));
+    for (size_t i = 0; i < m->count; i++)
+        if (is_matched(plan, i))
+            json_array_append_new(names, json_string(rule_name(m, i)));
+    json_object_set_new(object, "rules", names);
+    bool written = json_dumpf(object, m->output.stream, JSON_COMPACT) == 0;
+    json_decref(object);
+    return written || ferror(m->output.stream);
+}
+
+static bool take(void *context, const tn_sifted *plan)
+{
+    matching *m = context;
+    int format = m->session->settings->format;
+    if (format == FORMAT_BITS) {
+        write_bits(m, plan);
+    } else if (format == FORMAT_NAMES) {
+        write_names(m, plan);
+    } else if (!write_object(m, plan)) {
+        tn_error error;
+        tn_fail_memory(&error);
+        tn_session_fail(m->session, &error);
+        return false;
+    }
+    fputc('\n', m->output.stream);
+    return !ferror(m->output.stream);
+}
+
+static bool complain(void *context, const tn_error *error, const char *text, size_t size)
+{
+    matching *m = context;
+    return tn_session_bad_plan(m->session, m->path, error, text, size);
+}
+
+static void match_plans(matching *m)
+{
+    tn_plan_reader *reader;
+    tn_error error;
+    tn_session_fallbacks(m->session, m->compiled, rule_name, m);
+    if (!tn_session_reader(m->session, m->schema, m->path, &reader))
+        return;
+    if (tn_session_output(m->session, m->session->settings->output, &m->output)) {
+        tn_sift_calls calls = {m, take, complain};
+        if (tn_sift(reader, m->compiled, tn_session_threads(m->session->settings), &calls, &error) != TN_OK)
+            tn_session_fail(m->session, &error);
+        tn_session_commit(m->session, &m->output);
+    }
+    tn_plan_reader_free(reader);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_session_begin(&session, settings);
+    matching m = {.session = &session, .path = tn_session_plans_path(&session)};
+    tn_session_threads(settings);
+    if (m.path && tn_session_open(&session, settings->operands.items[0]) && choose_rules(&m) && choose_schema(&m) &&
+        compile_rules(&m))
+        match_plans(&m);
+    tn_rules_free(m.compiled);
+    tn_schema_free(m.schema);
+    free(m.rules);
+    free(m.line.data);
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    LIST("rule", 'r', "NAME", rules, "match this rule; may be repeated (default: all rules of the file itself)"),
+    CHOICE("format", 'f', "FORMAT", format, "names|json|bits",
+           "names (default): the names of the rules, or - where there is none; json: an object a line; bits: a 0 or 1 "
+           "a rule"),
+    OPTION_OUTPUT,
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
+    OPTION_ENGINE,
+    OPTION_MAX_STATES,
+    OPTION_MAX_LENGTH,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_match = {
+    .name = "match",
+    .summary = "say which rules each plan matches",
+    .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits]",
+    .description = "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; standard input where no file or - is "
+                   "given) and writes a line "
+                   "for each: the rules it matches, of those that the file itself holds, in their order. The exit code "
+                   "is 0 whether or "
+                   "not a rule matches.",
+    .example = "$ tartan match lahave.plan plans.txt --rule narrow-pair --format bits",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a rule file and a file of plans",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

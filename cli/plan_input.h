@@ -1,0 +1,30 @@
+/* Plans given to a command: opening their file as the options say, and reporting the bad ones by line. */
+#ifndef TARTAN_CLI_PLAN_INPUT_H
+#define TARTAN_CLI_PLAN_INPUT_H
+
+#include "cli/session.h"
+#include "runtime/plan/rules.h"
+#include "runtime/plan/stream.h"
+
+#define OPTION_INPUT_FORMAT                                                                                            \
+    CHOICE("input-format", 0, "FORMAT", input_format, "auto|lines|json|csv|bin|sqlite",                                \
+           "what the plans are written in (default: found out from their first bytes)")
+#define OPTION_ON_ERROR                                                                                                \
+    CHOICE("on-error", 0, "WHAT", on_error, "stop|skip",                                                               \
+           "what to do at a plan that cannot be read: stop (default), or skip it; the exit code is 1 either way")
+
+/* The plans' path: the operand after the rule file, or standard input. NULL (and wrong usage recorded) where both would
+ * be standard input. */
+const char *tn_session_plans_path(tn_session *session);
+
+/* Opens the plans; false where that failed. */
+bool tn_session_reader(tn_session *session, const tn_schema *schema, const char *path, tn_plan_reader **reader);
+
+/* Records a bad plan; true where the options say to go on. */
+bool tn_session_bad_plan(tn_session *session, const char *path, const tn_error *error, const char *text, size_t size);
+
+/* Notes the rules that fell back to the interpreter. `name` gives the name of rule i. */
+void tn_session_fallbacks(tn_session *session, const tn_rules *rules, const char *(*name)(const void *, size_t),
+                          const void *context);
+
+#endif

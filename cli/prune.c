@@ -1,0 +1,217 @@
+/* tartan prune: filters plans through a library. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/library_session.h"
+#include "cli/option_rows.h"
+#include "cli/plan_input.h"
+#include "driver/clauses.h"
+#include "driver/sift.h"
+
+enum { FORMAT_LINES, FORMAT_JSON };
+
+typedef struct pruning {
+    tn_session *session;
+    const char *path; /* of the plans */
+    tn_ready_library ready;
+    tn_rules *rules;
+    uint32_t trays_min, trays_max;
+    tn_output kept, dropped;
+    FILE *dropped_stream; /* NULL where nobody asked */
+    tn_buffer line;
+} pruning;
+
+static const char *clause_name(const void *context, size_t i)
+{
+    const pruning *p = context;
+    const tn_module *module = p->session->opened.module;
+    return tn_text(module, module->CLAUSE_records[p->ready.record->clause_first + i].name);
+}
+
+static bool length_drops(const pruning *p, const tn_sifted *plan)
+{
+    return plan->length < p->trays_min || plan->length > p->trays_max;
+}
+
+static bool drops(const pruning *p, const tn_sifted *plan, size_t i)
+{
+    return tn_clause_drops(p->session->opened.module, p->ready.record, i, plan->bits);
+}
+
+static bool is_kept(const pruning *p, const tn_sifted *plan)
+{
+    if (length_drops(p, plan))
+        return false;
+    for (size_t i = 0; i < p->ready.record->clause_count; i++)
+        if (drops(p, plan, i))
+            return false;
+    return true;
+}
+
+/* Writes the names of what drops the plan, each between `before` and `after`. */
+static bool write_reasons(pruning *p, const tn_sifted *plan, const char *quote)
+{
+    const char *between = "";
+    bool written = true;
+    if (length_drops(p, plan)) {
+        written = tn_buffer_printf(&p->line, "%strays%s", quote, quote);
+        between = ", ";
+    }
+    for (size_t i = 0; written && i < p->ready.record->clause_count; i++) {
+        if (!drops(p, plan, i))
+            continue;
+        written = tn_buffer_printf(&p->line, "%s%s%s%s", between, quote, clause_name(p, i), quote);
+        between = ", ";
+    }
+    return written;
+}
+
+/* A dropped plan: as plan lines, a comment with the reasons before it, so that the file can be read again; as JSON, the
+ * object
+ * {"trays": [...], "dropped_by": [...]}. Names hold nothing that JSON would escape. */
+static bool write_dropped(pruning *p, const tn_sifted *plan)
+{
+    const tn_schema *schema = p->ready.schema;
+    if (p->session->settings->format == FORMAT_LINES)
+        return tn_buffer_printf(&p->line, "# dropped by ") && write_reasons(p, plan, "") &&
+               tn_buffer_append(&p->line, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, &p->line) &&
+               tn_buffer_append(&p->line, "\n", 1);
+    if (!tn_plan_write_json(schema, plan->trays, plan->length, &p->line))
+        return false;
+    p->line.size -= p->line.data[p->line.size - 1] == '}';
+    return tn_buffer_printf(&p->line, ",\"dropped_by\":[") && write_reasons(p, plan, "\"") &&
+           tn_buffer_printf(&p->line, "]}\n");
+}
+
+static bool write_kept(pruning *p, const tn_sifted *plan)
+{
+    const tn_schema *schema = p->ready.schema;
+    bool written = p->session->settings->format == FORMAT_JSON
+                       ? tn_plan_write_json(schema, plan->trays, plan->length, &p->line)
+                       : tn_plan_write_line(schema, plan->trays, plan->length, &p->line);
+    return written && tn_buffer_append(&p->line, "\n", 1);
+}
+
+static bool take(void *context, const tn_sifted *plan)
+{
+    pruning *p = context;
+    bool kept = is_kept(p, plan);
+    FILE *stream = kept ? p->kept.stream : p->dropped_stream;
+    if (!stream)
+        return true;
+    p->line.size = 0;
+    if (!(kept ? write_kept(p, plan) : write_dropped(p, plan))) {
+        tn_error error;
+        tn_fail_memory(&error);
+        tn_session_fail(p->session, &error);
+        return false;
+    }
+    fwrite(p->line.data, 1, p->line.size, stream);
+    return !ferror(stream);
+}
+
+static bool complain(void *context, const tn_error *error, const char *text, size_t size)
+{
+    pruning *p = context;
+    return tn_session_bad_plan(p->session, p->path, error, text, size);
+}
+
+static bool compile_clauses(pruning *p)
+{
+    const tn_settings *settings = p->session->settings;
+    tn_rules_options options = {(tn_engine)settings->engine, (uint32_t)settings->max_states.value,
+                                tn_session_max_length(settings)};
+    tn_error error;
+    p->trays_min = settings->trays.given ? (uint32_t)settings->trays.low : p->ready.record->trays_min;
+    p->trays_max = settings->trays.given ? (uint32_t)settings->trays.high : p->ready.record->trays_max;
+    if (tn_clause_rules_new(p->ready.schema, p->ready.record, &options, &p->rules, &error) == TN_OK) {
+        tn_session_fallbacks(p->session, p->rules, clause_name, p);
+        return true;
+    }
+    tn_session_fail(p->session, &error);
+    return false;
+}
+
+/* Kept and dropped plans may both go to standard output, in the order they came. */
+static bool open_outputs(pruning *p)
+{
+    const tn_settings *settings = p->session->settings;
+    if (!tn_session_output(p->session, settings->output, &p->kept))
+        return false;
+    if (!settings->dropped)
+        return true;
+    if (strcmp(settings->dropped, "-") == 0) {
+        p->dropped_stream = stdout;
+        return true;
+    }
+    if (tn_session_output(p->session, settings->dropped, &p->dropped)) {
+        p->dropped_stream = p->dropped.stream;
+        return true;
+    }
+    tn_output_discard(&p->kept);
+    return false;
+}
+
+static void prune_plans(pruning *p)
+{
+    tn_plan_reader *reader;
+    tn_error error;
+    if (!tn_session_reader(p->session, p->ready.schema, p->path, &reader))
+        return;
+    if (open_outputs(p)) {
+        tn_sift_calls calls = {p, take, complain};
+        if (tn_sift(reader, p->rules, tn_session_threads(p->session->settings), &calls, &error) != TN_OK)
+            tn_session_fail(p->session, &error);
+        tn_session_commit(p->session, &p->kept);
+        if (p->dropped.stream)
+            tn_session_commit(p->session, &p->dropped);
+    }
+    tn_plan_reader_free(reader);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_session_begin(&session, settings);
+    pruning p = {.session = &session, .path = tn_session_plans_path(&session)};
+    if (p.path && tn_session_library_schema(&session, settings->operands.items[0], &p.ready) && compile_clauses(&p))
+        prune_plans(&p);
+    tn_rules_free(p.rules);
+    tn_library_close(&p.ready);
+    free(p.line.data);
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    TEXT("dropped", 'd', "FILE", dropped,
+         "write the plans that are dropped to FILE, each with the clauses that drop it"),
+    CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),
+    OPTION_OUTPUT,
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
+    OPTION_TRAYS,
+    OPTION_ENGINE,
+    OPTION_MAX_STATES,
+    OPTION_MAX_LENGTH,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_prune = {
+    .name = "prune",
+    .summary = "filter plans through a library",
+    .usage = "FILE [PLANS] [--library NAME] [--dropped FILE]",
+    .description =
+        "Reads plans (standard input where no file or - is given) and writes those that the library keeps. The others "
+        "are dropped: by "
+        "a pruning rule that matches, a requirement or total that is not met, or their number of trays. --dropped says "
+        "which of these dropped each.",
+    .example = "$ tartan prune lahave-houses.plan plans.txt --dropped why.txt",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a rule file and a file of plans",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};
