@@ -235,19 +235,23 @@ static void list_specs(tn_lister *lister)
     }
 }
 
+static void list_rule(tn_lister *lister, size_t index)
+{
+    const tn_rule_record *rule = &lister->module->RULE_records[index];
+    fprintf(lister->out, "  %zu  ", index);
+    write_name(lister, rule->name);
+    write_doc(lister, rule->doc);
+    fprintf(lister->out, ": whole function %u, holds function %u%s", rule->whole, rule->holds,
+            rule->flags & TN_IMPORTED ? ", imported" : "");
+    write_place(lister, rule->file, rule->begin);
+}
+
 static void list_rules(tn_lister *lister)
 {
     if (lister->module->RULE_count > 0)
         fputs("\nrules\n", lister->out);
-    for (size_t i = 0; i < lister->module->RULE_count; i++) {
-        const tn_rule_record *rule = &lister->module->RULE_records[i];
-        fprintf(lister->out, "  %zu  ", i);
-        write_name(lister, rule->name);
-        write_doc(lister, rule->doc);
-        fprintf(lister->out, ": whole function %u, holds function %u%s", rule->whole, rule->holds,
-                rule->flags & TN_IMPORTED ? ", imported" : "");
-        write_place(lister, rule->file, rule->begin);
-    }
+    for (size_t i = 0; i < lister->module->RULE_count; i++)
+        list_rule(lister, i);
 }
 
 static void list_library(tn_lister *lister, size_t index)
@@ -376,17 +380,62 @@ static void list_module(tn_lister *lister)
         list_function(lister, i);
 }
 
-bool tn_module_disassemble(const tn_module *module, FILE *out)
+/* Marks the functions that a function's code names. They are numbered below it. */
+static void mark_callees(const tn_module *module, const tn_function_record *function, bool *needed)
+{
+    for (uint32_t offset = function->code_begin; offset < function->code_end;) {
+        const tn_opcode_info *info = tn_opcode_describe(module->code[offset]);
+        const uint8_t *operands = module->code + offset + 1;
+        if (info->operands == TN_OPERANDS_FUNC || info->operands == TN_OPERANDS_COND)
+            needed[tn_get_u32(operands)] = true;
+        else if (info->operands == TN_OPERANDS_FIELD_COND)
+            needed[tn_get_u32(operands + 4)] = true;
+        offset += info->length;
+    }
+}
+
+static bool list_rule_code(tn_lister *lister, uint32_t rule)
+{
+    const tn_module *module = lister->module;
+    bool *needed = calloc(module->FUNCTION_count + 1, sizeof *needed);
+    if (!needed)
+        return false;
+    needed[module->RULE_records[rule].whole] = needed[module->RULE_records[rule].holds] = true;
+    for (size_t i = module->FUNCTION_count; i-- > 0;)
+        if (needed[i])
+            mark_callees(module, &module->FUNCTION_records[i], needed);
+    list_rule(lister, rule);
+    for (uint32_t i = 0; i < module->FUNCTION_count && !ferror(lister->out); i++)
+        if (needed[i])
+            list_function(lister, i);
+    free(needed);
+    return true;
+}
+
+/* Lists one rule, or (rule = UINT32_MAX) all. */
+static bool list(const tn_module *module, uint32_t rule, FILE *out)
 {
     tn_lister lister = {.module = module, .out = out};
     lister.line_starts = calloc(module->SOURCE_count + 1, sizeof *lister.line_starts);
     lister.line_counts = calloc(module->SOURCE_count + 1, sizeof *lister.line_counts);
     bool ready = lister.line_starts && lister.line_counts;
-    if (ready)
+    if (ready && rule != UINT32_MAX)
+        ready = list_rule_code(&lister, rule);
+    else if (ready)
         list_module(&lister);
     for (size_t i = 0; lister.line_starts && i < module->SOURCE_count; i++)
         free(lister.line_starts[i]);
     free(lister.line_starts);
     free(lister.line_counts);
     return ready && !ferror(out);
+}
+
+bool tn_module_disassemble(const tn_module *module, FILE *out)
+{
+    return list(module, UINT32_MAX, out);
+}
+
+bool tn_module_disassemble_rule(const tn_module *module, uint32_t rule, FILE *out)
+{
+    return list(module, rule, out);
 }

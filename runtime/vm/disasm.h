@@ -10,4 +10,7 @@
  * cleaned of what would upset a terminal. */
 bool tn_module_disassemble(const tn_module *module, FILE *out);
 
+/* The same, but only a rule (an index of the RULE records) and the functions that it needs. */
+bool tn_module_disassemble_rule(const tn_module *module, uint32_t rule, FILE *out);
+
 #endif
