@@ -171,15 +171,11 @@ static int compare(const void *left, const void *right)
     return result ? result : order(a->order, b->order);
 }
 
-static bool same_text(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
 static bool repeats(const tn_diagnostic *a, const tn_diagnostic *b)
 {
     return a->has_span && b->has_span && a->span.file == b->span.file && a->span.begin == b->span.begin &&
-           a->span.end == b->span.end && a->code == b->code && same_text(a->message, b->message);
+           a->span.end == b->span.end && a->code == b->code && a->message && b->message &&
+           strcmp(a->message, b->message) == 0;
 }
 
 void tn_diagnostics_sort(tn_diagnostics *list)
