@@ -8,113 +8,27 @@
 
 #include <cmocka.h>
 
-#include "runtime/plan/vm.h"
-#include "tests/support/test_rule.h"
-
-#define CLAUSES_MAX 6
-
-/* A library of random clauses over a schema. */
-typedef struct test_library {
-    test_rule *rules[CLAUSES_MAX];
-    tn_module *module;
-    tn_schema *schema;
-    tn_library *library;
-    tn_plan_vm *vm;
-} test_library;
-
-/* false where a clause passes the limit of states, as some random ones do. */
-static bool library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max)
-{
-    test_random random = {.seed = seed};
-    tn_builder *builder = tn_builder_new();
-    assert_non_null(builder);
-    memset(made, 0, sizeof *made);
-    test_schema_add(builder, schema);
-    uint32_t count = test_random_below(&random, CLAUSES_MAX + 1);
-    tn_clause_record clauses[CLAUSES_MAX] = {{0}};
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t whole;
-        made->rules[i] = test_rule_random(&random, schema, 2, true);
-        test_rule_emit(builder, made->rules[i], &whole, &clauses[i].holds);
-        clauses[i].kind = test_random_below(&random, 4) ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
-    }
-    tn_library_record record = {.name = tn_builder_string(builder, "some"),
-                                .trays_min = min,
-                                .trays_max = max,
-                                .clause_first = (uint32_t)tn_builder_count(builder, TN_SECTION_CLAUSE),
-                                .clause_count = count};
-    for (uint32_t i = 0; i < count; i++) {
-        clauses[i].name = tn_builder_string(builder, "clause");
-        tn_builder_add_CLAUSE(builder, &clauses[i]);
-    }
-    tn_builder_add_LIBRARY(builder, &record);
-    made->module = test_module(builder);
-    made->schema = test_schema_open(made->module, 0);
-    tn_error error;
-    test_ok(tn_plan_vm_new(made->schema, 0, &made->vm, &error), &error);
-    tn_library_options options = {.max_states = 2000};
-    tn_status status = tn_library_new(made->schema, 0, &options, &made->library, &error);
-    if (status != TN_LIMIT)
-        test_ok(status, &error);
-    return status == TN_OK;
-}
-
-static void library_clear(test_library *made)
-{
-    for (size_t i = 0; i < CLAUSES_MAX; i++)
-        test_rule_free(made->rules[i]);
-    tn_library_free(made->library);
-    tn_plan_vm_free(made->vm);
-    tn_schema_free(made->schema);
-    tn_module_free(made->module);
-}
-
-/* What the reference engine says of a plan: bit i for clause i. */
-static uint32_t clauses_of(const test_library *made, const tn_tray *trays, uint32_t length)
-{
-    tn_error error;
-    uint32_t bits = 0;
-    test_ok(tn_plan_vm_plan(made->vm, trays, length, &error), &error);
-    for (uint32_t i = 0; i < made->module->CLAUSE_count; i++) {
-        bool holds;
-        test_ok(tn_plan_vm_holds(made->vm, made->module->CLAUSE_records[i].holds, &holds, &error), &error);
-        bits |= (uint32_t)holds << i;
-    }
-    return bits;
-}
-
-static bool prunes(const test_library *made, uint32_t clause)
-{
-    return made->module->CLAUSE_records[clause].kind == TN_CLAUSE_PRUNE;
-}
+#include "tests/support/test_library.h"
 
 typedef struct brute_count {
     uint64_t generated, kept, mirror;
-    uint64_t prunes[CLAUSES_MAX], only[CLAUSES_MAX];
+    uint64_t prunes[TEST_CLAUSES_MAX], only[TEST_CLAUSES_MAX];
 } brute_count;
-
-static bool is_kept(const test_library *made, uint32_t bits)
-{
-    for (uint32_t i = 0; i < made->module->CLAUSE_count; i++)
-        if ((bits >> i & 1) == prunes(made, i))
-            return false;
-    return true;
-}
 
 static void tally(const test_library *made, uint32_t bits, brute_count *count)
 {
     uint32_t pruned = 0, last = 0;
     for (uint32_t i = 0; i < made->module->CLAUSE_count; i++) {
-        if (!prunes(made, i) && !(bits >> i & 1))
+        if (!test_library_prunes(made, i) && !(bits >> i & 1))
             return;
-        if (prunes(made, i) && bits >> i & 1) {
+        if (test_library_prunes(made, i) && bits >> i & 1) {
             pruned++;
             last = i;
         }
     }
     count->generated++;
     for (uint32_t i = 0; i < made->module->CLAUSE_count; i++)
-        count->prunes[i] += prunes(made, i) && bits >> i & 1;
+        count->prunes[i] += test_library_prunes(made, i) && bits >> i & 1;
     if (pruned == 1)
         count->only[last]++;
 }
@@ -134,7 +48,7 @@ static bool mirror_first(const test_library *made, const tn_tray *trays, uint32_
     tn_tray turned[8] = {0};
     for (uint32_t i = 0; i < length; i++)
         turned[i] = trays[length - 1 - i];
-    if (!is_kept(made, clauses_of(made, turned, length)))
+    if (!test_library_keeps(made, test_library_clauses(made, turned, length)))
         return true;
     for (uint32_t i = 0; i < length; i++)
         if (trays[i] != turned[i])
@@ -190,7 +104,7 @@ static void check_prunes(const test_library *made, const brute_count *all)
         uint32_t clause, states;
         tn_error error;
         test_ok(tn_library_prune(made->library, i, &clause, matched, only, &states, &error), &error);
-        while (!prunes(made, expected))
+        while (!test_library_prunes(made, expected))
             expected++;
         assert_int_equal(clause, expected++);
         assert_true(states > 0);
@@ -205,7 +119,7 @@ static void add_count(brute_count *sum, const brute_count *count)
     sum->generated += count->generated;
     sum->kept += count->kept;
     sum->mirror += count->mirror;
-    for (size_t i = 0; i < CLAUSES_MAX; i++) {
+    for (size_t i = 0; i < TEST_CLAUSES_MAX; i++) {
         sum->prunes[i] += count->prunes[i];
         sum->only[i] += count->only[i];
     }
@@ -225,8 +139,8 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
         brute_count count = {0};
         tn_tray trays[8] = {0};
         do {
-            uint32_t bits = clauses_of(made, trays, length);
-            bool kept = is_kept(made, bits);
+            uint32_t bits = test_library_clauses(made, trays, length);
+            bool kept = test_library_keeps(made, bits);
             check_plan(made, trays, length, all.kept + count.kept, kept, cursor);
             tally(made, bits, &count);
             count.kept += kept;
@@ -252,16 +166,16 @@ static void everything_agrees_with_trying_every_plan(void **state)
     for (uint64_t seed = 1; seed <= 60; seed++) {
         test_library made;
         uint32_t min = (uint32_t)(seed % 3);
-        if (library_make(&made, seed, &test_schema_tiny, min, min + 3))
+        if (test_library_make(&made, seed, &test_schema_tiny, min, min + 3))
             interesting += check_library(&made, min, min + 3) > 10;
-        library_clear(&made);
+        test_library_clear(&made);
     }
     assert_true(interesting > 15);
     for (uint64_t seed = 100; seed < 110; seed++) {
         test_library made;
-        if (library_make(&made, seed, &test_schema_house, 0, 2))
+        if (test_library_make(&made, seed, &test_schema_house, 0, 2))
             check_library(&made, 0, 2);
-        library_clear(&made);
+        test_library_clear(&made);
     }
 }
 

@@ -1,0 +1,33 @@
+/* Libraries of random clauses for tests, and what the reference engine says of their plans. Asserts with cmocka. */
+#ifndef TARTAN_TEST_LIBRARY_H
+#define TARTAN_TEST_LIBRARY_H
+
+#include "runtime/plan/library.h"
+#include "runtime/plan/vm.h"
+#include "tests/support/test_rule.h"
+
+#define TEST_CLAUSES_MAX 6
+
+typedef struct test_library {
+    test_rule *rules[TEST_CLAUSES_MAX];
+    tn_module *module;
+    tn_schema *schema;
+    tn_library *library;
+    tn_plan_vm *vm;
+} test_library;
+
+/* A library of at most TEST_CLAUSES_MAX random clauses; free it with test_library_clear, whatever this returns. false
+ * where a clause passes the limit of 2,000 states, as some random ones do. */
+bool test_library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
+void test_library_clear(test_library *made);
+
+/* What the reference engine says of a plan: bit i for clause i. */
+uint32_t test_library_clauses(const test_library *made, const tn_tray *trays, uint32_t length);
+
+/* Is clause i a pruning one? */
+bool test_library_prunes(const test_library *made, uint32_t clause);
+
+/* Is a plan of these clauses kept (its length aside)? */
+bool test_library_keeps(const test_library *made, uint32_t clauses);
+
+#endif
