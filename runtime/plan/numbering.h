@@ -44,7 +44,7 @@ void tn_interner_clear(tn_interner *interner);
 static inline const uint32_t *tn_interned(const tn_interner *interner, uint32_t number, size_t *size)
 {
     *size = interner->first[number + 1] - interner->first[number];
-    return interner->words + interner->first[number];
+    return interner->words ? interner->words + interner->first[number] : NULL; /* no words: only the empty key */
 }
 
 #endif

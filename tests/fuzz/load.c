@@ -1,4 +1,5 @@
-/* Loading and running any bytes as a module. The hash is made right first, so that what is behind it is reached. */
+/* Loading and running any bytes as a module. The hash is made right first, and what is then still no container of
+ * sections is made one, so that what is behind these checks is reached. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,11 +7,13 @@
 #include "runtime/plan/library.h"
 #include "runtime/plan/rules.h"
 #include "runtime/vm/builder.h"
+#include "runtime/vm/bytes.h"
 #include "runtime/vm/disasm.h"
+#include "runtime/vm/layout.h"
 #include "runtime/vm/random.h"
 #include "tests/fuzz/fuzz.h"
 
-enum { HEADER_BYTES = 40, PLANS = 8, PLAN_TRAYS = 6, STATES = 200, RULES = 32, CODES = 4096, LENGTH = 12 };
+enum { PLANS = 8, PLAN_TRAYS = 6, STATES = 200, RULES = 32, CODES = 4096, LENGTH = 12 };
 
 static void disassemble(const tn_module *module)
 {
@@ -66,6 +69,60 @@ static void count(const tn_schema *schema, uint32_t index)
     tn_library_free(library);
 }
 
+static void run(const tn_module *module)
+{
+    disassemble(module);
+    for (size_t i = 0; i < module->SCHEMA_count; i++) {
+        tn_schema *schema;
+        tn_error error;
+        if (tn_schema_new(module, (uint32_t)i, CODES, &schema, &error) != TN_OK)
+            continue;
+        for (size_t r = 0; r < module->RULE_count && r < RULES; r++)
+            if (module->RULE_records[r].schema == i && schema->tray_count > 0)
+                match(schema, module->RULE_records[r].holds);
+        for (size_t l = 0; l < module->LIBRARY_count && l < RULES; l++)
+            if (module->LIBRARY_records[l].schema == i)
+                count(schema, (uint32_t)l);
+        tn_schema_free(schema);
+    }
+}
+
+static tn_status load_and_run(uint8_t *bytes, size_t size)
+{
+    tn_module *module;
+    tn_error error;
+    tn_module_limits limits = {.bytes = 1u << 20, .records = 10000, .stack = 64};
+    tn_module_rehash(bytes, size);
+    tn_status status = tn_module_load(bytes, size, &limits, &module, &error);
+    if (status == TN_OK)
+        run(module);
+    tn_module_free(module);
+    return status;
+}
+
+/* Makes the header and the table of sections fit: sizes are taken as they are where there is room, offsets and all else
+ * follow. Returns the size up to which the bytes are then a container. */
+static size_t repair(uint8_t *bytes, size_t size)
+{
+    if (size < TN_CONTENTS)
+        return size;
+    memcpy(bytes, TN_MAGIC, TN_MAGIC_SIZE);
+    size_t offset = TN_CONTENTS;
+    for (uint32_t i = 0; i < TN_SECTION_COUNT; i++) {
+        uint8_t *entry = bytes + TN_HEADER_BYTES + i * TN_ENTRY_BYTES;
+        uint64_t length = tn_get_u64(entry + TN_ENTRY_SIZE);
+        length = length < size - offset ? length : size - offset;
+        tn_put_u64(entry + TN_ENTRY_NUMBER, i);
+        tn_put_u64(entry + TN_ENTRY_OFFSET, offset);
+        tn_put_u64(entry + TN_ENTRY_SIZE, length);
+        offset += length;
+    }
+    tn_put_u32(bytes + TN_HEADER_FORMAT, TN_MODULE_FORMAT);
+    tn_put_u32(bytes + TN_HEADER_SECTIONS, TN_SECTION_COUNT);
+    tn_put_u64(bytes + TN_HEADER_SIZE, offset);
+    return offset;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     uint8_t *bytes = malloc(size ? size : 1);
@@ -73,27 +130,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     if (size)
         memcpy(bytes, data, size);
-    if (size >= HEADER_BYTES)
-        tn_module_rehash(bytes, size);
-    tn_module *module;
-    tn_error error;
-    tn_module_limits limits = {.bytes = 1u << 20, .records = 10000, .stack = 64};
-    if (tn_module_load(bytes, size, &limits, &module, &error) == TN_OK) {
-        disassemble(module);
-        for (size_t i = 0; i < module->SCHEMA_count; i++) {
-            tn_schema *schema;
-            if (tn_schema_new(module, (uint32_t)i, CODES, &schema, &error) != TN_OK)
-                continue;
-            for (size_t r = 0; r < module->RULE_count && r < RULES; r++)
-                if (module->RULE_records[r].schema == i && schema->tray_count > 0)
-                    match(schema, module->RULE_records[r].holds);
-            for (size_t l = 0; l < module->LIBRARY_count && l < RULES; l++)
-                if (module->LIBRARY_records[l].schema == i)
-                    count(schema, (uint32_t)l);
-            tn_schema_free(schema);
-        }
-        tn_module_free(module);
-    }
+    if (load_and_run(bytes, size) != TN_OK)
+        load_and_run(bytes, repair(bytes, size));
     free(bytes);
     return 0;
 }
