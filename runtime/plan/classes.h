@@ -13,7 +13,10 @@ typedef struct tn_classes {
     uint32_t *size;           /* [count]: trays in the class */
 } tn_classes;
 
-/* The classes that the functions given, and those that they call, need. Free with tn_classes_free. */
+#define TN_CLASS_LOOKS_MAX (UINT64_C(1) << 33) /* comparisons of a tray with a specifier: half a minute */
+
+/* The classes that the functions given, and those that they call, need. Free with tn_classes_free.
+ * TN_LIMIT (E0803) where trays times specifiers pass TN_CLASS_LOOKS_MAX. */
 tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **classes,
                          tn_error *error);
 void tn_classes_free(tn_classes *classes);

@@ -49,10 +49,12 @@ void tn_cursor_free(tn_cursor *cursor)
 static bool set_tray(tn_cursor *cursor, uint32_t i, tn_tray tray)
 {
     const tn_library *library = cursor->library;
-    for (; tray < library->schema->tray_count; tray++) {
+    while (tray < library->schema->tray_count) {
         uint32_t state = tn_library_step(library, cursor->states[i], tray);
-        if (!tn_library_alive(library, cursor->length - 1 - i, state))
+        if (!tn_library_alive(library, cursor->length - 1 - i, state)) {
+            tray = library->run_end[tray];
             continue;
+        }
         cursor->trays[i] = tray;
         cursor->states[i + 1] = state;
         return true;

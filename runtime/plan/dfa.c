@@ -8,7 +8,7 @@
 tn_bounds tn_bounds_make(uint32_t max_states)
 {
     return (tn_bounds){
-        .max_states = max_states, .max_transitions = UINT64_C(1) << 26, .max_work = UINT64_C(6000000000)};
+        .max_states = max_states, .max_transitions = UINT64_C(1) << 26, .max_work = UINT64_C(2000000000)};
 }
 
 tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, uint64_t columns, uint64_t work,
@@ -271,7 +271,9 @@ tn_status tn_dfa_product(const tn_dfa *a, const tn_dfa *b, tn_dfa_operation oper
     product.settled_a = tn_dfa_sink(a, operation == TN_DFA_OR);
     product.settled_b = tn_dfa_sink(b, operation != TN_DFA_AND);
     const tn_dfa *parts[2] = {a, b};
-    tn_status status = tn_join_make(&product.join, parts, 2, a->letters, NULL, false, error);
+    tn_status status = tn_bounds_check(bounds, what, 1, 1, a->letters, error);
+    if (status == TN_OK)
+        status = tn_join_make(&product.join, parts, 2, a->letters, NULL, false, error);
     if (status == TN_OK)
         status = product_explore(&product, what, bounds, error);
     if (status == TN_OK)

@@ -35,7 +35,7 @@ typedef struct tn_bounds {
     uint64_t work;
 } tn_bounds;
 
-/* The defaults for everything but the states: 64 M transitions (256 MB), 6 G steps (some ten seconds). */
+/* The defaults for everything but the states: 64 M transitions (256 MB), 2 G steps (a minute at most). */
 tn_bounds tn_bounds_make(uint32_t max_states);
 
 /* Counts work and compares what a construction has reached with the bounds: TN_OK, or E0802 saying that `what` passed

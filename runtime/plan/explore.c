@@ -44,14 +44,17 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
 {
     const tn_construction *construction = explorer->construction;
     uint32_t columns = construction->join->columns;
-    if (tn_intern(&explorer->keys, start->data, start->size) == UINT32_MAX)
-        return tn_fail_memory(error);
+    tn_status status = tn_bounds_check(bounds, construction->what, 1, columns, construction->join->letters, error);
+    if (status == TN_OK && tn_intern(&explorer->keys, start->data, start->size) == UINT32_MAX)
+        status = tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
     for (uint32_t s = 0; s < explorer->keys.count; s++) {
         uint64_t before = effort ? *effort : 0;
         if (!explorer_row(explorer, s))
             return tn_fail_memory(error);
         uint64_t work = (uint64_t)(explorer->current.size + 1) * columns + (effort ? *effort - before : 0);
-        tn_status status = tn_bounds_check(bounds, construction->what, explorer->keys.count, columns, work, error);
+        status = tn_bounds_check(bounds, construction->what, explorer->keys.count, columns, work, error);
         if (status != TN_OK)
             return status;
     }

@@ -218,6 +218,7 @@ void tn_library_free(tn_library *library)
     free(library->rows);
     free(library->alive);
     free(library->tray_column);
+    free(library->run_end);
     free(library->passed);
     free(library);
 }

@@ -35,6 +35,7 @@ struct tn_library {
     tn_dfa *kept;
     mpz_t *generated;      /* [max + 1]: by length */
     uint32_t *tray_column; /* [trays]: column of `kept` */
+    tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
     tn_row *rows;          /* [max + 1]: kept plans by trays to come */
     uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;

@@ -16,11 +16,15 @@ typedef struct tn_lowered {
     tn_error *error; /* why it failed; NULL otherwise */
 } tn_lowered;
 
+/* All rules of a lowering together may take this many times the work of one. */
+#define RULES_WORK 8
+
 struct tn_lowering {
     const tn_module *module;
     const tn_classes *classes;
     tn_bounds bounds;
     tn_marked marked;
+    uint64_t spent;      /* work on the rules before */
     tn_lowered *lowered; /* [functions][FORM_COUNT] */
 };
 
@@ -306,7 +310,6 @@ static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error 
         return status;
     status = push_callees(lowering, &term, form, pending, &failure);
     if (status == TN_OK && pending->size == before) {
-        lowering->bounds.work = 0;
         status = lower_term(lowering, &term, form, &lowered->dfa, &failure);
         pending->size--;
     }
@@ -318,6 +321,16 @@ static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error 
     return keep_failure(lowered, &failure);
 }
 
+static tn_status too_much_work(const tn_lowering *lowering, uint32_t function, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, 802, "the automata of these rules take more than %llu steps to build together",
+            (unsigned long long)lowering->bounds.max_work * RULES_WORK);
+    tn_error_help(error, "split the rules over several files");
+    if (error)
+        error->code_offset = lowering->module->FUNCTION_records[function].code_begin;
+    return TN_LIMIT;
+}
+
 tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
 {
     uint32_t wanted = function * FORM_COUNT + FORM_PLAIN;
@@ -327,6 +340,10 @@ tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_er
             *error = *lowered->error;
         return lowered->error->status;
     }
+    lowering->spent += lowering->bounds.work;
+    lowering->bounds.work = 0;
+    if (lowering->spent > lowering->bounds.max_work * RULES_WORK)
+        return too_much_work(lowering, function, error);
     tn_key pending = {0};
     tn_status status = tn_key_push(&pending, wanted) ? TN_OK : tn_fail_memory(error);
     while (status == TN_OK && pending.size > 0)

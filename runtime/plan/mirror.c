@@ -24,6 +24,7 @@ typedef struct tn_mirror {
     uint32_t dead;
     tn_join join;
     tn_key middles; /* per state, in pairs of words (low, high): trays t so that word, t and reverse are kept */
+    uint64_t effort;
     bool failed;
 } tn_mirror;
 
@@ -44,6 +45,7 @@ static bool mirror_step(void *context, const uint32_t *key, size_t size, uint32_
         return true;
     if (!tn_key_push(next, p))
         return false;
+    mirror->effort += kept->states;
     uint32_t any = 0;
     for (uint32_t word = 0; word + 1 < size; word++) {
         uint32_t bits = 0;
@@ -96,9 +98,8 @@ static tn_status explore_mirror(const tn_library *library, tn_mirror *mirror, tn
         start.size = 0;
     if (status == TN_OK) {
         tn_bounds bounds = tn_bounds_make(library->max_states);
-        uint64_t effort = 0;
         tn_construction construction = {"library and its mirror", &mirror->join, mirror, mirror_step, mirror_flags};
-        status = tn_explore_raw(&construction, &start, &effort, &bounds, out, error);
+        status = tn_explore_raw(&construction, &start, &mirror->effort, &bounds, out, error);
     }
     free(start.data);
     if (status == TN_OK && mirror->failed) {

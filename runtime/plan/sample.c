@@ -9,7 +9,7 @@
 typedef struct tn_drawn {
     size_t limbs;
     mp_limb_t *values; /* [count][limbs], in the order drawn */
-    uint32_t *slots;   /* number + 1; 0 is free */
+    size_t *slots;     /* number + 1; 0 is free */
     size_t count, capacity;
     mp_limb_t *candidate; /* [limbs] */
 } tn_drawn;
@@ -44,7 +44,7 @@ static void drawn_add(tn_drawn *drawn)
         if (memcmp(drawn->values + (drawn->slots[at] - 1) * drawn->limbs, drawn->candidate, bytes) == 0)
             return;
     memcpy(drawn->values + drawn->count * drawn->limbs, drawn->candidate, bytes);
-    drawn->slots[at] = (uint32_t)++drawn->count;
+    drawn->slots[at] = ++drawn->count;
 }
 
 /* Draws `count` different numbers below the bound. Attempt a takes random words a * limbs and following of stream
@@ -98,8 +98,6 @@ static tn_status sample_below(uint64_t seed, uint64_t stream, const mpz_t bound,
 {
     uint64_t all = mpz_fits_ulong_p(bound) ? mpz_get_ui(bound) : UINT64_MAX;
     *found = count < all ? count : (size_t)all;
-    if (*found > UINT32_MAX / 4)
-        return tn_fail(error, TN_LIMIT, 804, "a sample has at most %u plans", UINT32_MAX / 4);
     if (*found == 0)
         return TN_OK;
     bool others = *found > all / 2;

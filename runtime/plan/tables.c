@@ -100,6 +100,20 @@ static tn_status make_passed(tn_library *library, tn_error *error)
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
+/* Where runs of trays of one column end, so that the cursor steps over a dead run at once. */
+static tn_status make_runs(tn_library *library, tn_error *error)
+{
+    uint32_t trays = library->schema->tray_count;
+    library->run_end = calloc((size_t)trays + 1, sizeof *library->run_end);
+    if (!library->run_end)
+        return tn_fail_memory(error);
+    for (tn_tray t = trays; t-- > 0;) {
+        bool same = t + 1 < trays && library->tray_column[t] == library->tray_column[t + 1];
+        library->run_end[t] = same ? library->run_end[t + 1] : t + 1;
+    }
+    return TN_OK;
+}
+
 tn_status tn_library_tables(tn_library *library, tn_error *error)
 {
     tn_status status = make_rows(library, error);
@@ -107,6 +121,8 @@ tn_status tn_library_tables(tn_library *library, tn_error *error)
         status = make_totals(library, error);
     if (status == TN_OK)
         status = make_passed(library, error);
+    if (status == TN_OK)
+        status = make_runs(library, error);
     return status;
 }
 
