@@ -1,0 +1,112 @@
+/* Out of memory in the plan engines: each allocation of lowering, of opening a library and of its late counts fails
+ * once. What fails must say so, leave nothing behind (the sanitized build would see it) and work again afterwards. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/plan/rules.h"
+#include "tests/support/failing_memory.h"
+#include "tests/support/test_library.h"
+
+typedef tn_status (*operation)(void *context, tn_error *error);
+
+/* A few allocations can fail without harm (shrinking, remembering a failure), so success is allowed. */
+static void expect_robust(operation operate, void *context)
+{
+    size_t failures = 0;
+    for (int all_after = 0; all_after < 2; all_after++) {
+        for (size_t number = 0;; number += 1 + number / 128) { /* all of the first ones, then a few of each kind */
+            tn_error error = {0};
+            fail_allocation(number, all_after);
+            tn_status status = operate(context, &error);
+            bool reached = stop_failing() > number;
+            if (!reached) {
+                test_ok(status, &error);
+                break;
+            }
+            if (status == TN_OK)
+                continue;
+            assert_int_equal(status, TN_MEMORY);
+            assert_int_equal(error.code, 801);
+            failures++;
+        }
+    }
+    assert_true(failures > 20);
+}
+
+static tn_status open_rules(void *context, tn_error *error)
+{
+    const test_library *made = context;
+    uint32_t functions[TEST_CLAUSES_MAX];
+    for (size_t i = 0; i < made->module->CLAUSE_count; i++)
+        functions[i] = made->module->CLAUSE_records[i].holds;
+    tn_rules *rules = NULL;
+    tn_rules_options options = {.max_states = 2000};
+    tn_status status = tn_rules_new(made->schema, functions, made->module->CLAUSE_count, &options, &rules, error);
+    tn_matcher *matcher = NULL;
+    if (status == TN_OK)
+        status = tn_matcher_new(rules, &matcher, error);
+    tn_tray trays[5] = {0, 1, 2, 3, 1};
+    uint64_t bits;
+    if (status == TN_OK)
+        status = tn_match(matcher, trays, 5, &bits, error);
+    tn_matcher_free(matcher);
+    tn_rules_free(rules);
+    return status;
+}
+
+static tn_status open_library(void *context, tn_error *error)
+{
+    const test_library *made = context;
+    tn_library *library = NULL;
+    tn_library_options options = {.max_states = 2000};
+    tn_status status = tn_library_new(made->schema, 0, &options, &library, error);
+    mpz_t count, only, ranks[3];
+    mpz_inits(count, only, ranks[0], ranks[1], ranks[2], NULL);
+    if (status == TN_OK)
+        status = tn_library_kept_mirror(library, TN_ALL_LENGTHS, count, error);
+    uint32_t clause, states;
+    if (status == TN_OK && tn_library_prune_count(library) > 0)
+        status = tn_library_prune(library, 0, &clause, count, only, &states, error);
+    size_t found;
+    if (status == TN_OK)
+        status = tn_library_sample(library, 1, TN_ALL_LENGTHS, 3, ranks, &found, error);
+    tn_cursor *cursor = NULL;
+    if (status == TN_OK) {
+        mpz_set_ui(count, 0);
+        mpz_set_ui(only, 10);
+        status = tn_cursor_new(library, count, only, &cursor, error);
+    }
+    const tn_tray *trays;
+    uint32_t length;
+    while (cursor && tn_cursor_next(cursor, &trays, &length))
+        assert_true(tn_library_has(library, trays, length));
+    tn_cursor_free(cursor);
+    tn_library_free(library);
+    mpz_clears(count, only, ranks[0], ranks[1], ranks[2], NULL);
+    return status;
+}
+
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 3; seed < 9; seed++) {
+        test_library made;
+        if (test_library_make(&made, seed, &test_schema_tiny, 1, 3) && made.module->CLAUSE_count > 0) {
+            expect_robust(open_rules, &made);
+            expect_robust(open_library, &made);
+        }
+        test_library_clear(&made);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
