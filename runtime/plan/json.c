@@ -403,9 +403,22 @@ static tn_status read_trays(tn_json *json)
 
 /* ---- plans */
 
+static tn_status read_rank(tn_json *json)
+{
+    tn_word word;
+    tn_buffer *rank = &json->scanner->rank;
+    tn_status status = read_string(json, 1, &word);
+    rank->size = 0;
+    if (status == TN_OK && !tn_buffer_append(rank, word.text, word.size))
+        status = tn_fail_memory(json->error);
+    return status;
+}
+
 static tn_status read_plan_member(tn_json *json, const tn_word *key, void *context)
 {
     bool *found = context;
+    if (word_is(key, "rank") && peek(json) == '"')
+        return read_rank(json);
     if (!word_is(key, "trays"))
         return skip_value(json);
     if (*found)
@@ -420,6 +433,7 @@ tn_status tn_scanner_json(tn_plan_scanner *scanner, const char *text, size_t len
     tn_json json = {
         .scanner = scanner, .text = text, .size = length, .max_trays = max_trays, .plan = plan, .error = error};
     plan->length = 0;
+    scanner->rank.size = 0;
     bool found = false;
     tn_status status = read_object(&json, read_plan_member, &found);
     if (status != TN_OK)

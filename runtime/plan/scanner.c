@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define XXH_INLINE_ALL
 #include <xxhash.h>
+
+#include "runtime/plan/pack.h"
 
 #define KNOWN_MIN 256u
 #define KNOWN_MAX 8192u
@@ -38,14 +41,8 @@ tn_status tn_scanner_add(tn_plan *plan, tn_tray tray, size_t max_trays, const tn
         tn_error_place(error, 0, place->column, place->column + place->extent);
         return TN_LIMIT;
     }
-    if (plan->length == plan->capacity) {
-        size_t capacity = plan->capacity * 2 + 16;
-        tn_tray *trays = capacity <= SIZE_MAX / sizeof *trays ? realloc(plan->trays, capacity * sizeof *trays) : NULL;
-        if (!trays)
-            return tn_fail_memory(error);
-        plan->trays = trays;
-        plan->capacity = capacity;
-    }
+    if (plan->length == plan->capacity && !tn_plan_reserve(plan, plan->length + 16))
+        return tn_fail_memory(error);
     plan->trays[plan->length++] = tray;
     return TN_OK;
 }
@@ -54,6 +51,7 @@ static void clear(tn_plan_scanner *scanner)
 {
     free(scanner->values);
     free(scanner->given);
+    free(scanner->rank.data);
     for (size_t i = 0; i < sizeof scanner->unescaped / sizeof *scanner->unescaped; i++)
         free(scanner->unescaped[i].data);
     free(scanner->known);

@@ -18,6 +18,7 @@ struct tn_plan_scanner {
     const tn_schema *schema;
     uint8_t *values;        /* one per field: of the tray in hand */
     bool *given;            /* one per field: has JSON given it? */
+    tn_buffer rank;         /* of the JSON plan read last: what its "rank" says, or empty */
     tn_buffer unescaped[3]; /* texts that JSON writes with escapes */
     /* Trays by the text that wrote them; without `known` nothing is remembered. A text has one place, and a later text
      * that falls on the same place takes it. */

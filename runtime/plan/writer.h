@@ -1,0 +1,54 @@
+/* Inside of tn_plan_writer. */
+#ifndef TARTAN_PLAN_WRITER_H
+#define TARTAN_PLAN_WRITER_H
+
+#include <sqlite3.h>
+
+#include "runtime/plan/stream.h"
+#include "runtime/vm/file.h"
+
+/* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
+#define TN_LIBRARY_APPLICATION_ID 0x54415254
+
+/* A member of the metadata that every library file carries. */
+typedef struct tn_metadata_item {
+    const char *key;
+    const char *value;
+} tn_metadata_item;
+
+#define TN_METADATA_ITEMS 9
+
+struct tn_plan_writer {
+    const tn_schema *schema;
+    tn_plan_format format;
+    char *path;
+    tn_output output; /* of every format but SQLite */
+    bool closed;
+    uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
+    tn_buffer text;        /* of the plan in hand */
+    tn_buffer packed;
+
+    sqlite3 *database;
+    sqlite3_stmt *insert;
+    uint32_t batch, in_batch;
+    uint64_t number; /* of the plan written last */
+    uint64_t resumed;
+    tn_buffer last_rank; /* of the plan that a resumed library ends with */
+};
+
+/* Fills the items, in the order in which they are written; `room` holds what they are made of. A value may be NULL. */
+typedef struct tn_metadata_room {
+    char schema_hash[24], tray_bytes[8];
+} tn_metadata_room;
+void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
+                        tn_metadata_item items[TN_METADATA_ITEMS]);
+
+/* The plan's lengths added up, in nanometres. */
+int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length);
+
+tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error);
+tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                                 tn_error *error);
+tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error);
+
+#endif

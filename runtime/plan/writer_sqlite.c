@@ -1,0 +1,267 @@
+/* Plan libraries in SQLite: docs/plan-files.md says what is in them. Plans go in in batches, each a transaction, so
+ * that a library whose writer was killed holds whole batches and can be gone on with: the plan after the last one comes
+ * next. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/pack.h"
+#include "runtime/plan/writer.h"
+
+#define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
+
+static tn_status failed(const tn_plan_writer *writer, tn_error *error)
+{
+    int code = writer->database ? sqlite3_errcode(writer->database) : SQLITE_NOMEM;
+    if (code == SQLITE_NOMEM)
+        return tn_fail_memory(error);
+    if (code == SQLITE_CONSTRAINT) {
+        tn_fail(error, TN_INVALID, 606, "%s: the library holds such a plan already", writer->path);
+        tn_error_help(error, "somebody else may be writing to it");
+        return TN_INVALID;
+    }
+    return tn_fail(error, TN_IO, 902, "%s: %s", writer->path, sqlite3_errmsg(writer->database));
+}
+
+static tn_status run(tn_plan_writer *writer, const char *sql, tn_error *error)
+{
+    return sqlite3_exec(writer->database, sql, NULL, NULL, NULL) == SQLITE_OK ? TN_OK : failed(writer, error);
+}
+
+/* Runs a statement made with sqlite3_mprintf, and frees it. */
+static tn_status run_made(tn_plan_writer *writer, char *sql, tn_error *error)
+{
+    if (!sql)
+        return tn_fail_memory(error);
+    tn_status status = run(writer, sql, error);
+    sqlite3_free(sql);
+    return status;
+}
+
+/* ---- a new library */
+
+static tn_status create_tables(tn_plan_writer *writer, tn_error *error)
+{
+    const tn_schema *schema = writer->schema;
+    char *total = NULL;
+    if (writer->length_field != UINT32_MAX) {
+        const char *name = tn_text(schema->module, schema->fields[writer->length_field].name);
+        total = sqlite3_mprintf("\"%w_total\" INTEGER NOT NULL, ", name);
+        if (!total)
+            return tn_fail_memory(error);
+    }
+    char *sql = sqlite3_mprintf("PRAGMA application_id = %d;"
+                                "CREATE TABLE metadata (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+                                "CREATE TABLE plans (number INTEGER PRIMARY KEY, rank TEXT NOT NULL,"
+                                " length INTEGER NOT NULL, %splan TEXT NOT NULL, packed BLOB NOT NULL);",
+                                TN_LIBRARY_APPLICATION_ID, total ? total : "");
+    sqlite3_free(total);
+    return run_made(writer, sql, error);
+}
+
+static tn_status set_metadata(tn_plan_writer *writer, const char *key, const char *value, tn_error *error)
+{
+    return run_made(writer, sqlite3_mprintf("INSERT OR REPLACE INTO metadata VALUES (%Q, %Q)", key, value), error);
+}
+
+/* Makes the tables of a new library, in place of those that are there: within one transaction, so that whoever reads it
+ * sees the old library or the new one. */
+static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    tn_metadata_room room;
+    tn_metadata_item items[TN_METADATA_ITEMS];
+    tn_writer_metadata(writer, metadata, &room, items);
+    tn_status status = run(writer, "BEGIN IMMEDIATE; DROP TABLE IF EXISTS plans; DROP TABLE IF EXISTS metadata", error);
+    if (status == TN_OK)
+        status = create_tables(writer, error);
+    for (size_t i = 0; status == TN_OK && i < TN_METADATA_ITEMS; i++) {
+        if (items[i].value)
+            status = set_metadata(writer, items[i].key, items[i].value, error);
+    }
+    if (status == TN_OK)
+        status = set_metadata(writer, "complete", "0", error);
+    return status == TN_OK ? run(writer, "COMMIT", error) : status;
+}
+
+/* ---- a library that is there */
+
+/* The text of the one value that a query gives, or NULL; the caller frees it. */
+static char *query_text(tn_plan_writer *writer, const char *sql)
+{
+    sqlite3_stmt *row = NULL;
+    char *text = NULL;
+    if (sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL) == SQLITE_OK && sqlite3_step(row) == SQLITE_ROW) {
+        const char *found = (const char *)sqlite3_column_text(row, 0);
+        text = found ? strdup(found) : NULL;
+    }
+    sqlite3_finalize(row);
+    return text;
+}
+
+/* Is there nothing in the file yet? Refuses what is there and is no library of ours, so that no other file is written
+ * over. */
+static tn_status look(tn_plan_writer *writer, bool *is_new, tn_error *error)
+{
+    char *pages = query_text(writer, "PRAGMA page_count");
+    char *id = query_text(writer, "PRAGMA application_id");
+    *is_new = pages && strcmp(pages, "0") == 0;
+    bool is_library = id && strtol(id, NULL, 10) == TN_LIBRARY_APPLICATION_ID;
+    free(pages);
+    free(id);
+    if (*is_new || is_library)
+        return TN_OK;
+    tn_fail(error, TN_IO, 902, "%s: the file is there already, and it is no plan library", writer->path);
+    tn_error_help(error, "name another file, or remove this one");
+    return TN_IO;
+}
+
+/* Everything that decides which plans come must be as it was. */
+static tn_status check_metadata(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    static const char *const decisive[] = {"library_hash", "schema_hash", "command"};
+    tn_metadata_room room;
+    tn_metadata_item items[TN_METADATA_ITEMS];
+    tn_writer_metadata(writer, metadata, &room, items);
+    for (size_t i = 0; i < TN_METADATA_ITEMS; i++) {
+        bool decides = false;
+        for (size_t k = 0; k < sizeof decisive / sizeof *decisive; k++)
+            decides = decides || strcmp(items[i].key, decisive[k]) == 0;
+        if (!decides)
+            continue;
+        char sql[80];
+        sqlite3_snprintf(sizeof sql, sql, "SELECT value FROM metadata WHERE key = '%s'", items[i].key);
+        char *found = query_text(writer, sql);
+        bool same = strcmp(found ? found : "", items[i].value ? items[i].value : "") == 0;
+        if (!same)
+            tn_fail(error, TN_INVALID, 606, "%s: its %s is %.100s, and now it would be %.100s", writer->path,
+                    items[i].key, found ? found : "not known", items[i].value ? items[i].value : "none");
+        free(found);
+        if (!same) {
+            tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to "
+                                 "start anew");
+            return TN_INVALID;
+        }
+    }
+    return TN_OK;
+}
+
+static tn_status find_last(tn_plan_writer *writer, tn_error *error)
+{
+    sqlite3_stmt *row = NULL;
+    const char *sql = "SELECT number, rank FROM plans ORDER BY number DESC LIMIT 1";
+    int code = sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL);
+    tn_status status = TN_OK;
+    if (code == SQLITE_OK && (code = sqlite3_step(row)) == SQLITE_ROW) {
+        const char *rank = (const char *)sqlite3_column_text(row, 1);
+        writer->number = (uint64_t)sqlite3_column_int64(row, 0);
+        if (!rank || !*rank || strspn(rank, "0123456789") != strlen(rank))
+            status = tn_fail(error, TN_INVALID, 606, "%s: its last plan has no rank", writer->path);
+        else if (!tn_buffer_append(&writer->last_rank, rank, strlen(rank)))
+            status = tn_fail_memory(error);
+        writer->resumed = writer->number;
+    } else if (code != SQLITE_DONE) {
+        status = failed(writer, error);
+    }
+    sqlite3_finalize(row);
+    return status;
+}
+
+static tn_status resume(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    tn_status status = check_metadata(writer, metadata, error);
+    return status == TN_OK ? find_last(writer, error) : status;
+}
+
+/* ---- opening */
+
+static tn_status open_database(tn_plan_writer *writer, tn_error *error)
+{
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE;
+    if (sqlite3_open_v2(writer->path, &writer->database, flags, NULL) != SQLITE_OK)
+        return failed(writer, error);
+    sqlite3_busy_timeout(writer->database, BUSY_MILLISECONDS);
+    sqlite3_db_config(writer->database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
+    return run(writer, "PRAGMA cell_size_check = 1", error);
+}
+
+static tn_status prepare_insert(tn_plan_writer *writer, tn_error *error)
+{
+    const char *sql = writer->length_field != UINT32_MAX ? "INSERT INTO plans VALUES (?1, ?2, ?3, ?6, ?4, ?5)"
+                                                         : "INSERT INTO plans VALUES (?1, ?2, ?3, ?4, ?5)";
+    return sqlite3_prepare_v2(writer->database, sql, -1, &writer->insert, NULL) == SQLITE_OK ? TN_OK
+                                                                                             : failed(writer, error);
+}
+
+tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
+{
+    if (strcmp(writer->path, "-") == 0)
+        return tn_fail(error, TN_INVALID, 904, "a SQLite library cannot be written to standard output: name a file");
+    tn_status status = open_database(writer, error);
+    bool is_new = false;
+    if (status == TN_OK)
+        status = look(writer, &is_new, error);
+    if (status == TN_OK && options->resume && !is_new)
+        status = resume(writer, &options->metadata, error);
+    else if (status == TN_OK)
+        status = create(writer, &options->metadata, error);
+    if (status == TN_OK && !is_new && !options->resume)
+        status = run(writer, "VACUUM", error); /* gives back the space of the library that was there */
+    return status == TN_OK ? prepare_insert(writer, error) : status;
+}
+
+/* ---- writing */
+
+static bool make_plan(tn_plan_writer *writer, const tn_tray *trays, size_t length)
+{
+    writer->text.size = writer->packed.size = 0;
+    return tn_buffer_append(&writer->text, "", 0) && tn_buffer_append(&writer->packed, "", 0) &&
+           tn_plan_write_line(writer->schema, trays, length, &writer->text) &&
+           tn_pack_trays(writer->schema, trays, length, &writer->packed);
+}
+
+tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                                 tn_error *error)
+{
+    if (!make_plan(writer, trays, length))
+        return tn_fail_memory(error);
+    if (writer->in_batch == 0) {
+        tn_status status = run(writer, "BEGIN IMMEDIATE", error);
+        if (status != TN_OK)
+            return status;
+    }
+    sqlite3_stmt *insert = writer->insert;
+    sqlite3_bind_int64(insert, 1, (sqlite3_int64)(writer->number + 1));
+    sqlite3_bind_text(insert, 2, rank, -1, SQLITE_STATIC);
+    sqlite3_bind_int64(insert, 3, (sqlite3_int64)length);
+    sqlite3_bind_text(insert, 4, writer->text.data, (int)writer->text.size, SQLITE_STATIC);
+    sqlite3_bind_blob(insert, 5, writer->packed.data, (int)writer->packed.size, SQLITE_STATIC);
+    if (writer->length_field != UINT32_MAX)
+        sqlite3_bind_int64(insert, 6, tn_writer_total(writer, trays, length));
+    int code = sqlite3_step(insert);
+    sqlite3_reset(insert);
+    if (code != SQLITE_DONE)
+        return failed(writer, error);
+    writer->number++;
+    if (++writer->in_batch < writer->batch)
+        return TN_OK;
+    writer->in_batch = 0;
+    return run(writer, "COMMIT", error);
+}
+
+tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
+{
+    tn_status status = writer->in_batch > 0 ? TN_OK : run(writer, "BEGIN IMMEDIATE", error);
+    writer->in_batch = 0;
+    if (status == TN_OK)
+        status = run(writer, "CREATE UNIQUE INDEX IF NOT EXISTS plans_rank ON plans (rank)", error);
+    if (status == TN_OK)
+        status = set_metadata(writer, "complete", "1", error);
+    if (status == TN_OK)
+        status = run(writer, "COMMIT", error);
+    sqlite3_finalize(writer->insert);
+    writer->insert = NULL;
+    if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
+        return failed(writer, error);
+    if (status == TN_OK)
+        writer->database = NULL;
+    return status;
+}
