@@ -27,9 +27,28 @@ typedef struct tn_test_block {
     tn_span span;
 } tn_test_block;
 
+/* A warning that an item's author has allowed there: nothing is to be said about it in that stretch. */
+typedef struct tn_allowance {
+    tn_span item;
+    uint32_t code; /* a tn_code */
+} tn_allowance;
+
 typedef struct tn_program {
     const tn_test_block *tests;
     size_t test_count;
+    const tn_allowance *allowances;
+    size_t allowance_count;
 } tn_program;
+
+/* Does `allow` silence the warning at that place? For the warnings of the analysis, which runs after compiling. */
+static inline bool tn_program_allows(const tn_program *program, uint32_t code, tn_span place)
+{
+    for (size_t i = 0; i < program->allowance_count; i++) {
+        const tn_allowance *a = &program->allowances[i];
+        if (a->code == code && a->item.file == place.file && a->item.begin <= place.begin && place.end <= a->item.end)
+            return true;
+    }
+    return false;
+}
 
 #endif

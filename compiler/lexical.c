@@ -1,0 +1,116 @@
+#include "compiler/lexical.h"
+
+#include <string.h>
+
+#include "runtime/vm/length.h"
+#include "runtime/vm/utf8.h"
+
+bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file)
+{
+    const tn_source *source = &diagnostics->sources->files[file];
+    for (size_t i = 0, step; i < source->size; i += step) {
+        uint32_t character = tn_utf8_read(source->text + i, source->size - i, &step);
+        if (character != 0 && (character != TN_REPLACEMENT || step > 1))
+            continue;
+        unsigned byte = (unsigned char)source->text[i];
+        tn_span span = {file, (uint32_t)i, (uint32_t)(i + 1)};
+        tn_diagnostic *d = tn_report(diagnostics, E_INVALID_UTF8, span, "this is not text: byte %zu of the file is %s0x%02x",
+                                     i + 1, byte == 0 ? "the zero byte " : "", byte);
+        tn_help(diagnostics, d, "save the file as UTF-8 text; if it is not a rule file, it cannot be used here");
+        return false;
+    }
+    return true;
+}
+
+size_t tn_text_mark(const char *text, size_t size)
+{
+    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+bool tn_integer_read(const char *digits, size_t size, int64_t *value)
+{
+    int64_t sum = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (__builtin_mul_overflow(sum, 10, &sum) || __builtin_add_overflow(sum, digits[i] - '0', &sum)) {
+            *value = INT64_MAX;
+            return false;
+        }
+    }
+    *value = sum;
+    return true;
+}
+
+size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
+                     bool *broken)
+{
+    tn_error error = {0};
+    *nanometres = 0;
+    *broken = false;
+    size_t used = tn_length_read(text, size, true, nanometres, &error);
+    if (used > 0)
+        return used;
+    *broken = true;
+    if (error.status == TN_OK)
+        return 0;
+    tn_diagnostic *d = tn_report(diagnostics, (tn_code)error.code, span, "%s", error.message);
+    if (error.help[0])
+        tn_help(diagnostics, d, "%s", error.help);
+    return 0;
+}
+
+char *tn_string_lex(tn_arena *arena, const char *text, size_t size)
+{
+    char *copy = tn_arena_copy(arena, text, size);
+    if (!copy)
+        return NULL;
+    size_t length = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (text[i] == '\\' && i + 1 < size && (text[i + 1] == '"' || text[i + 1] == '\\'))
+            i++;
+        copy[length++] = text[i];
+    }
+    copy[length] = '\0';
+    return copy;
+}
+
+const char *tn_stray_help(const char *text, size_t size)
+{
+    static const struct {
+        const char *found, *help;
+    } table[] = {
+        {"==", "equality is written with one `=`"},
+        {"&&", "write `and`"},
+        {"||", "write `or`"},
+        {"<>", "write `!=`"},
+        {"\xe2\x89\xa4", "write `<=`"},
+        {"\xe2\x89\xa5", "write `>=`"},
+        {"\xe2\x89\xa0", "write `!=`"},
+        {"\xe2\x80\x93", "a range is written with two dots: `4..9`"},
+        {"\xe2\x80\x94", "a range is written with two dots: `4..9`"},
+        {"\xe2\x80\xa6", "a range is written with two dots: `4..9`"},
+        {"\xe2\x80\x98", "feet are written with a straight mark: `12'`"},
+        {"!", "write `not`"},
+        {"&", "write `and`"},
+        {";", "nothing has to be written at the end of a line"},
+        {"//", "a comment starts with `#`"},
+        {"/*", "a comment starts with `#`"},
+        {"%", "a remainder is written `n mod 3 = 1`; a comment starts with `#`"},
+        {".", "a range is written with two dots: `4..9`"},
+        {"'", "feet are written directly after a number: `12'`; texts stand in double quotes"},
+        {":", "write a zone's fill and depth with a blank between them: `dense 4'`"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        size_t length = strlen(table[i].found);
+        if (length <= size && memcmp(text, table[i].found, length) == 0)
+            return table[i].help;
+    }
+    return NULL;
+}
+
+size_t tn_character_size(const char *text, size_t size)
+{
+    size_t count = 1;
+    if (size > 0)
+        tn_utf8_read(text, size, &count);
+    return count;
+}

@@ -1,0 +1,31 @@
+/* What the lexers of all notations share: text that is not text, numbers, lengths, strings. */
+#ifndef TARTAN_COMPILER_LEXICAL_H
+#define TARTAN_COMPILER_LEXICAL_H
+
+#include "compiler/arena.h"
+#include "compiler/diagnostic.h"
+
+/* Is the source UTF-8 text without zero bytes? Where it is not, reports the first wrong byte (E0004). */
+bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file);
+
+/* Bytes of the byte order mark that the text starts with: 3 or 0. */
+size_t tn_text_mark(const char *text, size_t size);
+
+/* The value of decimal digits; false (and INT64_MAX) where it does not fit. */
+bool tn_integer_read(const char *digits, size_t size, int64_t *value);
+
+/* Reads a length that `span` covers the start of; returns its bytes (0: none). A length that cannot be held is reported
+ * and *broken set, so that nothing else is said about it. */
+size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
+                     bool *broken);
+
+/* What a string says: `text` without its quotes, \" and \\ undone. NULL where out of memory. */
+char *tn_string_lex(tn_arena *arena, const char *text, size_t size);
+
+/* The help for a character that no token starts with: what was probably meant, or NULL. */
+const char *tn_stray_help(const char *text, size_t size);
+
+/* Bytes of the UTF-8 character at the start of a text that tn_text_check has passed. */
+size_t tn_character_size(const char *text, size_t size);
+
+#endif

@@ -1,0 +1,163 @@
+#include "compiler/syntax_error.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct expectation {
+    const char *const *tokens;
+    size_t count;
+    bool said[96]; /* covered by a phrase */
+} expectation;
+
+static bool expects(const expectation *e, const char *token)
+{
+    for (size_t i = 0; i < e->count; i++)
+        if (strcmp(e->tokens[i], token) == 0)
+            return true;
+    return false;
+}
+
+/* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers all
+ * of its tokens. */
+static const struct {
+    const char *phrase;
+    const char *tokens[18];
+} groups[] = {
+    {"a rule expression", {"`tray`", "`neighbour`", "`any`", "a name", "`not`", "`symmetric`", "`quantity`", "`sum`", "`many`",
+                           "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`"}},
+    {"a condition such as `n > 1`", {"`not`", "a number", "a name", "a length", "`-`", "`(`"}},
+    {"a variable or a number", {"a name", "a number", "a length", "`-`"}},
+    {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+    {"a number", {"a number", "`-`", "a length"}},
+    {"the next `rule`, `schema`, `library`, `test` or `use`", {"`rule`", "`schema`", "`library`", "`test`", "`use`",
+                                                               "the end of the file"}},
+    {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
+    {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
+    {"a field (`name = values`)", {"a field", "`forbid`", "`zone`"}},
+};
+
+static void add_phrase(char *text, size_t size, const char *phrase, size_t *said)
+{
+    size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s%s", *said ? "; " : "", phrase);
+    (*said)++;
+}
+
+static size_t say_groups(expectation *e, char *text, size_t size)
+{
+    size_t said = 0;
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
+        const char *const *tokens = groups[g].tokens;
+        bool open = false;
+        for (size_t i = 0; i < e->count; i++)
+            open |= !e->said[i] && strcmp(e->tokens[i], tokens[0]) == 0;
+        if (!open || !expects(e, tokens[1]))
+            continue;
+        for (size_t t = 0; t < 18 && tokens[t]; t++)
+            for (size_t i = 0; i < e->count; i++)
+                e->said[i] |= strcmp(e->tokens[i], tokens[t]) == 0;
+        add_phrase(text, size, groups[g].phrase, &said);
+    }
+    return said;
+}
+
+/* What could have stood here, in words; empty where that would be no help. Texts are optional nearly everywhere: they are
+ * named only where nothing else is. */
+static void say_expected(const char *const *tokens, size_t count, char *text, size_t size)
+{
+    expectation e = {.tokens = tokens, .count = count < 96 ? count : 96};
+    char singles[400] = "";
+    size_t single_count = 0;
+    text[0] = '\0';
+    size_t said = say_groups(&e, text, size);
+    for (size_t i = 0; i < e.count; i++)
+        if (!e.said[i] && (e.count == 1 || strcmp(tokens[i], "a text in quotes") != 0))
+            add_phrase(singles, sizeof singles, tokens[i], &single_count);
+    if (single_count == 0 || single_count > 7)
+        return;
+    char groups_text[400];
+    snprintf(groups_text, sizeof groups_text, "%s", text);
+    snprintf(text, size, "%s%s%s", singles, said ? "; " : "", groups_text);
+}
+
+/* "a; b; c" -> "a, b or c" */
+static void join(const char *list, char *text, size_t size)
+{
+    text[0] = '\0';
+    while (*list) {
+        size_t length = strcspn(list, ";");
+        const char *rest = list + length + (list[length] ? 2 : 0);
+        size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%.*s", used == 0 ? "" : *rest ? ", " : " or ", (int)length, list);
+        list = rest;
+    }
+}
+
+static bool is_word(const char *token)
+{
+    return token[0] == '`' && token[1] >= 'a' && token[1] <= 'z';
+}
+
+/* A likely fix, from what was found and what could have stood there; NULL where none is known. */
+static const char *likely_fix(const tn_parse *parse, const char *found, const expectation *e)
+{
+    if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
+        return "inside tray(...) the items are separated by commas: all of them must be met";
+    if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
+        return "close tray(...) with `)` first";
+    if (parse->mode == TN_LEX_LITERAL && strcmp(found, "`,`") == 0)
+        return "inside a plan, values are separated by blanks and trays by `|`: [4' | 12' double]";
+    if (parse->mode == TN_LEX_LITERAL)
+        return "a plan is written [4' | 12' double], and closed with `]`";
+    if (parse->mode == TN_LEX_SCHEMA && expects(e, "a field"))
+        return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a forbidden tray "
+               "`forbid tray(...)`";
+    if (parse->mode == TN_LEX_SCHEMA && expects(e, "`|`"))
+        return "alternatives are separated by `|`";
+    if (strcmp(found, "a text in quotes") == 0)
+        return "a text comes directly after the name that it describes";
+    if (is_word(found) && expects(e, "a name") && !expects(e, "`tray`"))
+        return "this is a word of the language; a name of yours has to be another word";
+    if (expects(e, "`from`") && expects(e, "`using`"))
+        return "a library is written `library NAME using SCHEMA { ... }`";
+    if (strcmp(found, "`{`") == 0 && expects(e, "`=`"))
+        return "a rule is written `rule NAME = ...`, without braces";
+    if (strcmp(found, "`=`") == 0 && expects(e, "`{`"))
+        return "write `{` instead of `=`, and `}` after the last line";
+    if (expects(e, "`=`") && expects(e, "`using`"))
+        return "a rule is written `rule NAME = ...`; a text that describes it comes after the name";
+    if (strcmp(found, "`)`") == 0 && expects(e, "`,`") && expects(e, "`and`"))
+        return "quantity, sum and occurrences also need a condition: quantity(tray(12'), n > 1)";
+    if (strcmp(found, "a number") == 0 && expects(e, "a text in quotes"))
+        return "a text stands in double quotes";
+    if (expects(e, "`from`"))
+        return "a distance is written `distance(from ..., to ..., by quantity(..., n >= 2))`";
+    if (expects(e, "`in`") && expects(e, "`mod`"))
+        return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
+    if (expects(e, "`match`") && expects(e, "`keep`"))
+        return "a case is written `match [4' | 8']`";
+    if (strcmp(found, "`)`") == 0 || strcmp(found, "the end of the file") == 0)
+        return "something is missing before this";
+    return NULL;
+}
+
+void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const char *const *expected, size_t count)
+{
+    if (parse->virtual_brace && span.begin == span.end) /* the missing brace was reported */
+        return;
+    expectation e = {.tokens = expected, .count = count < 96 ? count : 96};
+    char list[800], words[800], here[120];
+    say_expected(expected, count, list, sizeof list);
+    join(list, words, sizeof words);
+    size_t size = span.end > span.begin ? span.end - span.begin : 0;
+    if (size == 0)
+        snprintf(here, sizeof here, "%s", found);
+    else if (strcmp(found, "a text in quotes") == 0 || size > 40)
+        snprintf(here, sizeof here, "%s", found);
+    else
+        snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
+    tn_diagnostic *d = words[0] ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here, but %s", here, words)
+                                : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
+    const char *help = likely_fix(parse, found, &e);
+    tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
+}

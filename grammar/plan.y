@@ -1,0 +1,505 @@
+/* The plan language's grammar: schemas, rules, libraries and tests (docs/plan-language.md).
+ *
+ * An action calls one constructor of compiler/ast.h. After an error the parser goes on at the next item of the file, field
+ * of a schema, clause of a library or case of a test (the rules with `error`); the words that start those say yyerrok, so
+ * that the next mistake is reported too. All lists are left-recursive: the parser's stack grows with nesting only.
+ */
+%require "3.8"
+%define api.pure full
+%define api.prefix {tn_plan_}
+%define api.token.prefix {TN_PLAN_}
+%define api.location.type {tn_span}
+%define parse.error custom
+%define parse.lac full
+%locations
+%expect 0
+
+%code requires {
+#include "compiler/ast.h"
+}
+
+%parse-param {tn_parse *parse} {void *scanner}
+%lex-param {void *scanner}
+
+%code {
+#include "compiler/syntax_error.h"
+#include "plan_lexer.h"
+
+#define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \
+    ((CURRENT) = (N) ? tn_span_join(YYRHSLOC(RHS, 1), YYRHSLOC(RHS, N))                                                \
+                     : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
+/* The stack may grow: values and places can be copied as bytes. */
+#define TN_PLAN_LTYPE_IS_TRIVIAL 1
+
+int tn_plan_lex(TN_PLAN_STYPE *value, tn_span *span, void *scanner);
+static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, const char *message);
+}
+
+%union {
+    tn_ast_word *word;
+    tn_ast_list list;
+    tn_ast_range range;
+    tn_operator op;
+    tn_expectation expectation;
+    tn_ast_cond *cond;
+    tn_ast_expr *expr;
+    tn_ast_body body;
+    tn_ast_field field;
+    tn_ast_rule rule;
+    tn_ast_library library;
+    void *node;
+}
+
+%token END_OF_FILE 0 "the end of the file"
+%token <word> NAME "a name" FIELD_NAME "a field" NUMBER "a number" LENGTH "a length" STRING "a text in quotes"
+%token <word> CLAUSE_NAME "a clause's name"
+%token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
+%token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
+%token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
+%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`"
+%token MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
+%token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
+%token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
+%token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
+%token IN "`in`" MOD "`mod`"
+%token DOTS "`..`" LESS "`<`" AT_MOST "`<=`" UNEQUAL "`!=`" AT_LEAST "`>=`" GREATER "`>`"
+%token EQUAL "`=`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`"
+%token BAR "`|`" COMMA "`,`" DASH "`-`"
+
+%type <node> item field value forbid case spec_item spec_alternative literal_tray prune require
+%type <body> body
+%type <field> field_head
+%type <rule> rule_head
+%type <library> library_head
+%type <word> doc role using constant operand spec_word literal_word clause_name total_field
+%type <list> items values depths allow names clauses clause prunes requires cases by clause_names plan trays words
+%type <list> specifier spec_items spec_alternatives spec_words parts sum_field
+%type <range> range
+%type <op> comparison
+%type <expectation> expectation
+%type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
+%type <expr> expression ors and ands not primary
+
+%%
+
+file
+    : items                                     { parse->result->items = $1; }
+    ;
+
+items
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | items item                                { $$ = tn_ast_append($1, $2); }
+    | items error                               { $$ = tn_ast_lost($1, parse); }
+    ;
+
+item
+    : use STRING                                { $$ = tn_ast_use_new(parse, @$, $2); }
+    | schema NAME doc OPEN_BRACE body CLOSE_BRACE
+                                                { $$ = tn_ast_schema_new(parse, @$, $2, $3, $5); }
+    | rule_head EQUAL expression                { $$ = tn_ast_rule_new(parse, @$, $1, $3); }
+    | rule_head EQUAL error                     { $$ = tn_ast_rule_new(parse, @1, $1, NULL); }
+    | library_head OPEN_BRACE clauses CLOSE_BRACE
+                                                { $$ = tn_ast_library_new(parse, @$, $1, $3); }
+    | test NAME OPEN_BRACE cases CLOSE_BRACE    { $$ = tn_ast_test_new(parse, @$, $2, $4); }
+    ;
+
+use: USE                                        { yyerrok; };
+schema: SCHEMA                                  { yyerrok; };
+rule: RULE                                      { yyerrok; };
+library: LIBRARY                                { yyerrok; };
+test: TEST                                      { yyerrok; };
+
+doc
+    : %empty                                    { $$ = NULL; }
+    | STRING
+    ;
+
+names
+    : NAME                                      { $$ = tn_ast_one($1); }
+    | names COMMA NAME                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+/* ---- schemas */
+
+body
+    : %empty                                    { $$ = (tn_ast_body){0}; }
+    | body field                                { $$ = tn_ast_body_field($1, $2); }
+    | body forbid                               { $$ = tn_ast_body_forbid($1, $2); }
+    | body error                                { $$ = tn_ast_body_broken($1); }
+    ;
+
+field
+    : field_head EQUAL values                   { $$ = tn_ast_field_new(parse, @$, TN_FORM_VALUES, $1, $3); }
+    | field_head EQUAL FLAG                     { $$ = tn_ast_field_new(parse, @$, TN_FORM_FLAG, $1, tn_ast_empty()); }
+    | zone field_head EQUAL values              { $$ = tn_ast_field_new(parse, @$, TN_FORM_ZONE, $2, $4); }
+    ;
+
+zone: ZONE                                      { yyerrok; };
+forbid_word: FORBID                             { yyerrok; };
+
+field_head
+    : FIELD_NAME doc role                       { $$ = (tn_ast_field){.name = $1, .doc = $2, .role = $3}; yyerrok; }
+    ;
+
+role
+    : %empty                                    { $$ = NULL; }
+    | ROLE NAME                                 { $$ = $2; }
+    ;
+
+values
+    : value                                     { $$ = tn_ast_one($1); }
+    | values BAR value                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+value
+    : NAME doc role                             { $$ = tn_ast_value_new(parse, @$, $1, NULL, $2, $3); }
+    | LENGTH doc role                           { $$ = tn_ast_value_new(parse, @$, $1, NULL, $2, $3); }
+    | NUMBER doc role                           { $$ = tn_ast_value_new(parse, @$, $1, NULL, $2, $3); }
+    | NAME OPEN depths CLOSE doc role           { $$ = tn_ast_value_new(parse, @$, $1, &$3, $5, $6); }
+    ;
+
+depths
+    : spec_word                                 { $$ = tn_ast_one($1); }
+    | depths COMMA spec_word                    { $$ = tn_ast_append($1, $3); }
+    ;
+
+forbid
+    : forbid_word TRAY OPEN specifier CLOSE     { $$ = tn_ast_forbid_new(parse, @$, $4); }
+    ;
+
+/* ---- tray specifiers: what the words of an item mean depends on the schema, so they are kept as they stand */
+
+specifier
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | spec_items
+    ;
+
+spec_items
+    : spec_item                                 { $$ = tn_ast_one($1); }
+    | spec_items COMMA spec_item                { $$ = tn_ast_append($1, $3); }
+    ;
+
+spec_item
+    : spec_alternatives                         { $$ = tn_ast_item_new(parse, @$, $1); }
+    ;
+
+spec_alternatives
+    : spec_alternative                          { $$ = tn_ast_one($1); }
+    | spec_alternatives OR spec_alternative     { $$ = tn_ast_append($1, $3); }
+    ;
+
+spec_alternative
+    : spec_words                                { $$ = tn_ast_alternative_new(parse, @$, $1); }
+    ;
+
+spec_words
+    : spec_word                                 { $$ = tn_ast_one($1); }
+    | spec_words spec_word                      { $$ = tn_ast_append($1, $2); }
+    ;
+
+spec_word
+    : NAME
+    | NUMBER
+    | LENGTH
+    | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
+    | comparison                                { $$ = tn_ast_operator(parse, @$, $1); }
+    ;
+
+/* ---- rules */
+
+rule_head
+    : rule NAME doc using allow                 { $$ = (tn_ast_rule){.name = $2, .doc = $3, .using = $4, .allow = $5}; }
+    ;
+
+using
+    : %empty                                    { $$ = NULL; }
+    | USING NAME                                { $$ = $2; }
+    ;
+
+allow
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | ALLOW names                               { $$ = $2; }
+    ;
+
+expression
+    : and
+    | ors
+    ;
+
+ors
+    : and OR and                                { $$ = tn_ast_expr_join(parse, TN_EXPR_OR, $1, $3); }
+    | ors OR and                                { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+and
+    : not
+    | ands
+    ;
+
+ands
+    : not AND not                               { $$ = tn_ast_expr_join(parse, TN_EXPR_AND, $1, $3); }
+    | ands AND not                              { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+not
+    : NOT not                                   { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
+    | primary
+    ;
+
+primary
+    : TRAY OPEN specifier CLOSE                 { $$ = tn_ast_tray_new(parse, @$, $3); }
+    | ANY                                       { $$ = tn_ast_leaf(parse, TN_EXPR_ANY, @$); }
+    | NAME                                      { $$ = tn_ast_name(parse, $1); }
+    | OPEN expression CLOSE                     { $$ = $2; }
+    | BEGINNING                                 { $$ = tn_ast_leaf(parse, TN_EXPR_BEGINNING, @$); }
+    | END                                       { $$ = tn_ast_leaf(parse, TN_EXPR_END, @$); }
+    | NEIGHBOUR OPEN parts CLOSE                { $$ = tn_ast_of(parse, TN_EXPR_NEIGHBOUR, @$, $3); }
+    | SYMMETRIC primary                         { $$ = tn_ast_of(parse, TN_EXPR_SYMMETRIC, @$, tn_ast_one($2)); }
+    | MANY OPEN expression CLOSE                { $$ = tn_ast_of(parse, TN_EXPR_MANY, @$, tn_ast_one($3)); }
+    | OPTIONAL OPEN expression CLOSE            { $$ = tn_ast_of(parse, TN_EXPR_OPTIONAL, @$, tn_ast_one($3)); }
+    | QUANTITY OPEN expression COMMA condition CLOSE
+                                                { $$ = tn_ast_counted(parse, TN_EXPR_QUANTITY, @$, $3, $5); }
+    | OCCURRENCES OPEN expression COMMA condition CLOSE
+                                                { $$ = tn_ast_counted(parse, TN_EXPR_OCCURRENCES, @$, $3, $5); }
+    | SUM OPEN sum_field COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
+    | SUM OPEN sum_field OF expression COMMA condition CLOSE
+                                                { $$ = tn_ast_sum(parse, @$, $3, $5, $7); }
+    | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
+                                                { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
+    ;
+
+parts
+    : expression                                { $$ = tn_ast_one($1); }
+    | parts COMMA expression                    { $$ = tn_ast_append($1, $3); }
+    ;
+
+sum_field
+    : NAME                                      { $$ = tn_ast_one($1); }
+    | NAME NAME                                 { $$ = tn_ast_append(tn_ast_one($1), $2); }
+    ;
+
+/* ---- conditions on a number */
+
+condition
+    : cond_and
+    | cond_ors
+    ;
+
+cond_ors
+    : cond_and OR cond_and                      { $$ = tn_ast_cond_join(parse, TN_COND_OR, $1, $3); }
+    | cond_ors OR cond_and                      { $$ = tn_ast_cond_add(parse, $1, $3); }
+    ;
+
+cond_and
+    : cond_not
+    | cond_ands
+    ;
+
+cond_ands
+    : cond_not AND cond_not                     { $$ = tn_ast_cond_join(parse, TN_COND_AND, $1, $3); }
+    | cond_ands AND cond_not                    { $$ = tn_ast_cond_add(parse, $1, $3); }
+    ;
+
+cond_not
+    : NOT cond_not                              { $$ = tn_ast_cond_not(parse, @$, $2); }
+    | cond_atom
+    ;
+
+cond_atom
+    : OPEN condition CLOSE                      { $$ = $2; }
+    | compare
+    | compare comparison operand                { $$ = tn_ast_chained(parse, @$, $1, $2, $3); }
+    | operand IN range                          { $$ = tn_ast_within(parse, @$, $1, $3); }
+    | operand MOD constant comparison operand   { $$ = tn_ast_remainder(parse, @$, $1, $3, $4, $5); }
+    ;
+
+compare
+    : operand comparison operand                { $$ = tn_ast_compare(parse, @$, $1, $2, $3); }
+    ;
+
+operand
+    : NAME
+    | constant
+    ;
+
+constant
+    : NUMBER
+    | LENGTH
+    | DASH NUMBER                               { $$ = tn_ast_negative(parse, @$, $2); }
+    ;
+
+range
+    : constant                                  { $$ = tn_ast_range_new(@$, $1, $1); }
+    | constant DOTS constant                    { $$ = tn_ast_range_new(@$, $1, $3); }
+    | constant DASH constant                    { $$ = tn_ast_range_dash(parse, @$, $1, $3); }
+    ;
+
+comparison
+    : LESS                                      { $$ = TN_LESS; }
+    | AT_MOST                                   { $$ = TN_AT_MOST; }
+    | EQUAL                                     { $$ = TN_EQUAL; }
+    | UNEQUAL                                   { $$ = TN_UNEQUAL; }
+    | AT_LEAST                                  { $$ = TN_AT_LEAST; }
+    | GREATER                                   { $$ = TN_GREATER; }
+    ;
+
+/* ---- libraries */
+
+library_head
+    : library NAME doc using                    { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4}; }
+    | library NAME doc FROM NAME                { $$ = (tn_ast_library){.name = $2, .doc = $3, .from = $5}; }
+    ;
+
+clauses
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | clauses clause                            { $$ = tn_ast_join($1, $2); }
+    | clauses error                             { $$ = tn_ast_skipped($1, parse); }
+    ;
+
+clause
+    : trays_word range                          { $$ = tn_ast_one(tn_ast_trays(parse, @$, $2)); }
+    | total_word total_field range doc          { $$ = tn_ast_one(tn_ast_total_range(parse, @$, $2, $3, $4)); }
+    | total_word total_field comparison constant doc
+                                                { $$ = tn_ast_one(tn_ast_total_compare(parse, @$, $2, $3, $4, $5)); }
+    | require_word requires                     { $$ = $2; }
+    | prune_word prunes                         { $$ = $2; }
+    | allow_word names                          { $$ = tn_ast_one(tn_ast_allow(parse, @$, $2)); }
+    ;
+
+trays_word: TRAYS                               { yyerrok; };
+total_word: TOTAL                               { yyerrok; };
+require_word: REQUIRE                           { yyerrok; };
+prune_word: PRUNE                               { yyerrok; };
+allow_word: ALLOW                               { yyerrok; };
+
+total_field
+    : %empty                                    { $$ = NULL; }
+    | NAME
+    ;
+
+requires
+    : require                                   { $$ = tn_ast_one($1); }
+    | requires COMMA require                    { $$ = tn_ast_append($1, $3); }
+    ;
+
+require
+    : expression doc                            { $$ = tn_ast_require(parse, @$, $1, $2); }
+    ;
+
+prunes
+    : prune                                     { $$ = tn_ast_one($1); }
+    | prunes COMMA prune                        { $$ = tn_ast_append($1, $3); }
+    ;
+
+prune
+    : expression                                { $$ = tn_ast_prune(parse, @$, $1, NULL, NULL); }
+    | expression AS NAME doc                    { $$ = tn_ast_prune(parse, @$, $1, $3, $4); }
+    ;
+
+/* ---- tests */
+
+cases
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | cases case                                { $$ = tn_ast_append($1, $2); }
+    | cases error                               { $$ = $1; }
+    ;
+
+case
+    : expectation plan doc by                   { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $4); }
+    ;
+
+expectation
+    : MATCH                                     { $$ = TN_EXPECT_MATCH; yyerrok; }
+    | REJECT                                    { $$ = TN_EXPECT_REJECT; yyerrok; }
+    | KEEP                                      { $$ = TN_EXPECT_KEEP; yyerrok; }
+    | DROP                                      { $$ = TN_EXPECT_DROP; yyerrok; }
+    ;
+
+plan
+    : OPEN_BRACKET trays CLOSE_BRACKET          { $$ = $2; }
+    ;
+
+trays
+    : literal_tray                              { $$ = tn_ast_one($1); }
+    | trays BAR literal_tray                    { $$ = tn_ast_append($1, $3); }
+    ;
+
+literal_tray
+    : words                                     { $$ = tn_ast_literal_tray(parse, @$, $1); }
+    ;
+
+words
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | words literal_word                        { $$ = tn_ast_append($1, $2); }
+    ;
+
+literal_word
+    : NAME
+    | NUMBER
+    | LENGTH
+    | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
+    ;
+
+by
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | BY clause_names                           { $$ = $2; }
+    ;
+
+clause_names
+    : clause_name                               { $$ = tn_ast_one($1); }
+    | clause_names COMMA clause_name            { $$ = tn_ast_append($1, $3); }
+    ;
+
+clause_name
+    : NAME
+    | CLAUSE_NAME
+    | TRAYS                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "trays", 0); }
+    | TOTAL                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "total", 0); }
+    ;
+
+%%
+
+/* Only "memory exhausted" comes here: the stack's limit is far beyond the limit on nesting. */
+static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, const char *message)
+{
+    (void)scanner;
+    (void)message;
+    tn_ast_too_deep(parse, *span);
+}
+
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)
+{
+    (void)scanner;
+    enum { EXPECTED_MAX = 80 };
+    yysymbol_kind_t kinds[EXPECTED_MAX];
+    const char *expected[EXPECTED_MAX];
+    int count = yypcontext_expected_tokens(context, kinds, EXPECTED_MAX);
+    if (count < 0)
+        return count;
+    for (int i = 0; i < count; i++)
+        expected[i] = yysymbol_name(kinds[i]);
+    yysymbol_kind_t found = yypcontext_token(context);
+    tn_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "" : yysymbol_name(found), expected,
+                    (size_t)count);
+    return 0;
+}
+
+tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file)
+{
+    const tn_source *source = &diagnostics->sources->files[file];
+    tn_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file};
+    parse.result = TN_NEW(arena, tn_ast_file);
+    if (!parse.result || !tn_text_check(diagnostics, file))
+        return parse.result ? tn_ast_unread(parse.result) : NULL;
+    yyscan_t scanner;
+    if (tn_plan_lex_init_extra(&parse, &scanner) != 0)
+        return NULL;
+    parse.offset = (uint32_t)tn_text_mark(source->text, source->size);
+    bool scanned = tn_plan__scan_bytes(source->text + parse.offset, (int)(source->size - parse.offset), scanner) != NULL;
+    int outcome = scanned ? tn_plan_parse(&parse, scanner) : 2;
+    tn_plan_lex_destroy(scanner);
+    if (outcome == 2 && !parse.too_deep)
+        return NULL;
+    parse.result->broken |= outcome != 0;
+    return tn_arena_failed(arena) ? NULL : parse.result;
+}
