@@ -85,14 +85,14 @@ static int64_t period_of(const tn_checked_condition *condition, int64_t unit)
     return period;
 }
 
-typedef struct trial {
+typedef struct tn_trial {
     const tn_checked_condition *condition;
     int64_t unit, period;
     bool seen[2]; /* false, true */
-} trial;
+} tn_trial;
 
 /* Tries one period of multiples of the unit from around `constant`; and one from 0. */
-static void try_around(trial *trial, int64_t constant)
+static void try_around(tn_trial *trial, int64_t constant)
 {
     int64_t start = constant / trial->unit - 1;
     if (start < 0)
@@ -107,7 +107,7 @@ static void try_around(trial *trial, int64_t constant)
 
 void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field)
 {
-    trial trial = {.condition = condition, .unit = check->schema && !check->schema->broken ? unit_of(check->schema, field) : 0};
+    tn_trial trial = {.condition = condition, .unit = check->schema && !check->schema->broken ? unit_of(check->schema, field) : 0};
     if (trial.unit == 0)
         return;
     trial.period = period_of(condition, trial.unit);

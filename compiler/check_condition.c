@@ -4,16 +4,16 @@
 
 #include "compiler/check.h"
 
-typedef struct builder {
+typedef struct tn_condition_builder {
     tn_check *check;
     tn_checked_condition *condition;
     uint32_t field;                /* whose lengths are added, or TN_NONE */
     const tn_ast_word *variable;   /* as first written */
-} builder;
+} tn_condition_builder;
 
 /* ---- steps */
 
-static void step(builder *b, tn_opcode opcode, int64_t first, int64_t second, tn_span span)
+static void step(tn_condition_builder *b, tn_opcode opcode, int64_t first, int64_t second, tn_span span)
 {
     tn_checked_condition *condition = b->condition;
     if (condition->count == condition->capacity) {
@@ -29,12 +29,12 @@ static void step(builder *b, tn_opcode opcode, int64_t first, int64_t second, tn
     condition->steps[condition->count++] = (tn_condition_step){opcode, first, second, span};
 }
 
-static void opposite(builder *b, tn_span span)
+static void opposite(tn_condition_builder *b, tn_span span)
 {
     step(b, TN_OP_NEITHER, 0, 0, span);
 }
 
-static void compare(builder *b, tn_operator op, int64_t value, tn_span span)
+static void compare(tn_condition_builder *b, tn_operator op, int64_t value, tn_span span)
 {
     static const tn_opcode opcodes[] = {
         [TN_LESS] = TN_OP_LESS,     [TN_AT_MOST] = TN_OP_GREATER, [TN_EQUAL] = TN_OP_EQUAL,
@@ -47,7 +47,7 @@ static void compare(builder *b, tn_operator op, int64_t value, tn_span span)
 
 /* ---- what may stand where */
 
-static bool fail(builder *b)
+static bool fail(tn_condition_builder *b)
 {
     b->condition->broken = true;
     return false;
@@ -71,7 +71,7 @@ static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
     return false;
 }
 
-static bool check_constant(builder *b, const tn_ast_word *word)
+static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
 {
     if (word->kind != TN_WORD_NAME)
         return check_unit(b->check, word, b->field != TN_NONE) || fail(b);
@@ -82,7 +82,7 @@ static bool check_constant(builder *b, const tn_ast_word *word)
     return fail(b);
 }
 
-static bool check_variable(builder *b, const tn_ast_word *word)
+static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
 {
     if (word->kind != TN_WORD_NAME) {
         if (!word->broken) {
@@ -125,7 +125,7 @@ static tn_operator turned(tn_operator op)
     return table[op];
 }
 
-static void add_compare(builder *b, const tn_ast_cond *cond)
+static void add_compare(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     const tn_ast_word *left = cond->left, *right = cond->right;
     if (left->kind != TN_WORD_NAME && right->kind != TN_WORD_NAME) {
@@ -142,7 +142,7 @@ static void add_compare(builder *b, const tn_ast_cond *cond)
         compare(b, constant_left ? turned(cond->op) : cond->op, constant->value, cond->node.span);
 }
 
-static void add_within(builder *b, const tn_ast_cond *cond)
+static void add_within(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!check_variable(b, cond->left))
         return;
@@ -152,7 +152,7 @@ static void add_within(builder *b, const tn_ast_cond *cond)
         fail(b);
 }
 
-static void warn_remainder(builder *b, const tn_ast_cond *cond)
+static void warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!tn_check_wanted(b->check, W_REMAINDER_NEVER))
         return;
@@ -164,7 +164,7 @@ static void warn_remainder(builder *b, const tn_ast_cond *cond)
         tn_help(b->check->diagnostics, d, "it is at least 0 and less than %s", cond->modulus->text);
 }
 
-static void add_remainder(builder *b, const tn_ast_cond *cond)
+static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!check_variable(b, cond->left) || !check_constant(b, cond->modulus) || !check_constant(b, cond->right))
         return;
@@ -192,7 +192,7 @@ static void add_remainder(builder *b, const tn_ast_cond *cond)
         opposite(b, cond->node.span);
 }
 
-static void add(builder *b, const tn_ast_cond *cond)
+static void add(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     switch (cond->kind) {
     case TN_COND_COMPARE:
@@ -245,7 +245,7 @@ tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *con
     if (!condition)
         return NULL;
     *condition = (tn_checked_condition){.span = cond->node.span};
-    builder b = {.check = check, .condition = condition, .field = field};
+    tn_condition_builder b = {.check = check, .condition = condition, .field = field};
     add(&b, cond);
     if (condition->broken || tn_arena_failed(check->arena))
         return condition;
@@ -259,7 +259,7 @@ tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *claus
     if (!condition)
         return NULL;
     *condition = (tn_checked_condition){.span = clause->node.span};
-    builder b = {.check = check, .condition = condition, .field = field};
+    tn_condition_builder b = {.check = check, .condition = condition, .field = field};
     if (clause->form == TN_FORM_TOTAL_COMPARE && check_constant(&b, clause->word))
         compare(&b, clause->op, clause->word->value, clause->node.span);
     if (clause->form == TN_FORM_TOTAL_RANGE) {

@@ -5,22 +5,22 @@
 #include "compiler/limits.h"
 
 /* One tray on the way. */
-typedef struct tray {
+typedef struct tn_tray_reader {
     tn_check *check;
     const tn_checked_schema *schema;
     const tn_ast_word *word; /* the next to be read; NULL at the end */
     const tn_ast_word *written[TN_FIELDS_MAX]; /* where a field's value is written */
     uint8_t *values;
-} tray;
+} tn_tray_reader;
 
-static const tn_ast_word *next_word(tray *tray)
+static const tn_ast_word *next_word(tn_tray_reader *tray)
 {
     const tn_ast_word *word = tray->word;
     tray->word = word ? (const tn_ast_word *)word->node.next : NULL;
     return word;
 }
 
-static bool set(tray *tray, uint32_t field, uint32_t value, const tn_ast_word *word)
+static bool set(tn_tray_reader *tray, uint32_t field, uint32_t value, const tn_ast_word *word)
 {
     if (tray->written[field]) {
         tn_diagnostic *d = tn_report(tray->check->diagnostics, E_FIELD_TWICE, word->node.span, "`%s` is written twice in one tray",
@@ -34,7 +34,7 @@ static bool set(tray *tray, uint32_t field, uint32_t value, const tn_ast_word *w
     return true;
 }
 
-static bool misread(tray *tray, const tn_ast_word *word, const char *message, const char *help)
+static bool misread(tn_tray_reader *tray, const tn_ast_word *word, const char *message, const char *help)
 {
     if (word->broken || tray->schema->broken)
         return false;
@@ -43,7 +43,7 @@ static bool misread(tray *tray, const tn_ast_word *word, const char *message, co
     return false;
 }
 
-static bool set_length(tray *tray, uint32_t field, const tn_ast_word *word)
+static bool set_length(tn_tray_reader *tray, uint32_t field, const tn_ast_word *word)
 {
     const tn_checked_field *f = &tray->schema->fields[field];
     for (uint32_t v = 0; v < f->value_count; v++)
@@ -53,7 +53,7 @@ static bool set_length(tray *tray, uint32_t field, const tn_ast_word *word)
     return false;
 }
 
-static bool set_choice(tray *tray, uint32_t field, const tn_ast_word *word)
+static bool set_choice(tn_tray_reader *tray, uint32_t field, const tn_ast_word *word)
 {
     const tn_checked_field *f = &tray->schema->fields[field];
     for (uint32_t v = 0; v < f->value_count; v++)
@@ -64,7 +64,7 @@ static bool set_choice(tray *tray, uint32_t field, const tn_ast_word *word)
 }
 
 /* A fill, and the depth that may follow: without one it has its first. */
-static bool set_fill(tray *tray, uint32_t field, const tn_ast_word *fill)
+static bool set_fill(tn_tray_reader *tray, uint32_t field, const tn_ast_word *fill)
 {
     const tn_checked_field *f = &tray->schema->fields[field];
     const tn_ast_word *depth = tray->word && tray->word->kind == TN_WORD_LENGTH ? next_word(tray) : NULL;
@@ -90,7 +90,7 @@ static bool set_fill(tray *tray, uint32_t field, const tn_ast_word *fill)
 }
 
 /* A zone by its depth alone, where only one fill has that. */
-static bool set_depth(tray *tray, uint32_t field, const tn_ast_word *depth)
+static bool set_depth(tn_tray_reader *tray, uint32_t field, const tn_ast_word *depth)
 {
     const tn_checked_field *f = &tray->schema->fields[field];
     uint32_t found = TN_NONE, count = 0;
@@ -109,7 +109,7 @@ static bool set_depth(tray *tray, uint32_t field, const tn_ast_word *depth)
 }
 
 /* What follows a field's name. */
-static bool read_named(tray *tray, uint32_t field, const tn_ast_word *name)
+static bool read_named(tn_tray_reader *tray, uint32_t field, const tn_ast_word *name)
 {
     tn_field_kind kind = tray->schema->fields[field].kind;
     if (kind == TN_FIELD_FLAG)
@@ -128,7 +128,7 @@ static bool read_named(tray *tray, uint32_t field, const tn_ast_word *name)
     return word->kind == TN_WORD_LENGTH ? set_depth(tray, field, word) : set_fill(tray, field, word);
 }
 
-static bool read_name(tray *tray, const tn_ast_word *word)
+static bool read_name(tn_tray_reader *tray, const tn_ast_word *word)
 {
     const tn_checked_schema *schema = tray->schema;
     uint32_t field = tn_field_find(schema, word->text);
@@ -149,7 +149,7 @@ static bool read_name(tray *tray, const tn_ast_word *word)
 }
 
 /* not FLAG */
-static bool read_not(tray *tray, const tn_ast_word *negation)
+static bool read_not(tn_tray_reader *tray, const tn_ast_word *negation)
 {
     const tn_ast_word *word = next_word(tray);
     uint32_t field = word && word->kind == TN_WORD_NAME ? tn_field_find(tray->schema, word->text) : TN_NONE;
@@ -158,7 +158,7 @@ static bool read_not(tray *tray, const tn_ast_word *negation)
     return misread(tray, word ? word : negation, "in a plan only a flag can be negated", "write the value that the tray has");
 }
 
-static bool read_word(tray *tray)
+static bool read_word(tn_tray_reader *tray)
 {
     const tn_ast_word *word = next_word(tray);
     if (word->kind == TN_WORD_NAME)
@@ -203,7 +203,7 @@ static bool narrows(const tn_checked_spec *spec, const tn_checked_field *field)
     return false;
 }
 
-static void report_forbidden(tray *tray, const tn_checked_spec *spec, tn_span place, tn_span forbid)
+static void report_forbidden(tn_tray_reader *tray, const tn_checked_spec *spec, tn_span place, tn_span forbid)
 {
     const tn_checked_schema *schema = tray->schema;
     tn_diagnostic *d = tn_report(tray->check->diagnostics, E_FORBIDDEN_TRAY, place, "schema `%s` forbids this tray", schema->name);
@@ -219,7 +219,7 @@ static void report_forbidden(tray *tray, const tn_checked_spec *spec, tn_span pl
     tn_help(tray->check->diagnostics, d, "change one of the values that the `forbid` names");
 }
 
-static bool check_legal(tray *tray, tn_span place)
+static bool check_legal(tn_tray_reader *tray, tn_span place)
 {
     const tn_checked_schema *schema = tray->schema;
     if (schema->broken)
@@ -238,7 +238,7 @@ static bool check_legal(tray *tray, tn_span place)
 
 static bool read_tray(tn_check *check, const tn_checked_schema *schema, const tn_ast_tray *ast, uint8_t *values)
 {
-    tray tray = {.check = check, .schema = schema, .word = (const tn_ast_word *)ast->words.first, .values = values};
+    tn_tray_reader tray = {.check = check, .schema = schema, .word = (const tn_ast_word *)ast->words.first, .values = values};
     if (!tray.word) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_TRAY, ast->node.span, "nothing is written between these bars");
         tn_help(check->diagnostics, d, "write at least one value of the tray, such as its width");

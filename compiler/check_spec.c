@@ -8,7 +8,7 @@
 #include "compiler/check.h"
 
 /* One item on the way: the field that its alternatives are about, and the values chosen so far. */
-typedef struct item {
+typedef struct tn_item_reader {
     tn_check *check;
     const tn_checked_schema *schema;
     uint32_t field;      /* TN_NONE: not known yet */
@@ -17,16 +17,16 @@ typedef struct item {
     bool found[TN_VALUES_MAX]; /* by the alternative at hand */
     const tn_ast_word *word;   /* the next to be read; NULL at the end */
     tn_span span;              /* of the alternative */
-} item;
+} tn_item_reader;
 
-static const tn_ast_word *next_word(item *item)
+static const tn_ast_word *next_word(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
     item->word = word ? (const tn_ast_word *)word->node.next : NULL;
     return word;
 }
 
-static bool skip_nots(item *item)
+static bool skip_nots(tn_item_reader *item)
 {
     bool negated = false;
     while (item->word && item->word->kind == TN_WORD_NOT) {
@@ -36,7 +36,7 @@ static bool skip_nots(item *item)
     return negated;
 }
 
-__attribute__((format(printf, 3, 4))) static bool bad_item(item *item, tn_span span, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item, tn_span span, const char *format, ...)
 {
     char message[300];
     va_list args;
@@ -60,7 +60,7 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(item *item, tn_span s
 
 /* ---- which field */
 
-static bool set_field(item *item, uint32_t field, const tn_ast_word *word)
+static bool set_field(tn_item_reader *item, uint32_t field, const tn_ast_word *word)
 {
     if (field == TN_NONE)
         return false;
@@ -75,7 +75,7 @@ static bool set_field(item *item, uint32_t field, const tn_ast_word *word)
     return true;
 }
 
-static bool length_field(item *item, const tn_ast_word *word)
+static bool length_field(tn_item_reader *item, const tn_ast_word *word)
 {
     if (item->schema->length_field != TN_NONE)
         return set_field(item, item->schema->length_field, word);
@@ -88,7 +88,7 @@ static bool length_field(item *item, const tn_ast_word *word)
 }
 
 /* A name at the start of an alternative: a field, or a value whose field is clear. */
-static bool field_of_name(item *item)
+static bool field_of_name(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
     const tn_checked_schema *schema = item->schema;
@@ -115,7 +115,7 @@ static bool field_of_name(item *item)
     return set_field(item, owner, word);
 }
 
-static bool find_field(item *item)
+static bool find_field(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
     if (!word)
@@ -149,7 +149,7 @@ static bool compares(int64_t left, tn_operator op, int64_t right)
 }
 
 /* The length that comes next, where one must. */
-static const tn_ast_word *read_length(item *item)
+static const tn_ast_word *read_length(tn_item_reader *item)
 {
     const tn_ast_word *word = next_word(item);
     if (word && word->kind == TN_WORD_LENGTH && !word->broken)
@@ -165,7 +165,7 @@ static const tn_ast_word *read_length(item *item)
 
 /* Marks the values whose fill is `fill` (NULL: any) and whose length compares so. A value that must be one of the field's, and
  * is not, is an error. */
-static bool mark_lengths(item *item, const char *fill, tn_operator op, const tn_ast_word *word)
+static bool mark_lengths(tn_item_reader *item, const char *fill, tn_operator op, const tn_ast_word *word)
 {
     const tn_checked_field *field = &item->schema->fields[item->field];
     bool known = false;
@@ -191,7 +191,7 @@ static bool mark_lengths(item *item, const char *fill, tn_operator op, const tn_
     return false;
 }
 
-static bool mark_name(item *item, const tn_ast_word *word)
+static bool mark_name(tn_item_reader *item, const tn_ast_word *word)
 {
     const tn_checked_field *field = &item->schema->fields[item->field];
     bool known = false;
@@ -204,7 +204,7 @@ static bool mark_name(item *item, const tn_ast_word *word)
     return known;
 }
 
-static bool read_operator(item *item, tn_operator *op)
+static bool read_operator(tn_item_reader *item, tn_operator *op)
 {
     *op = TN_EQUAL;
     if (!item->word || item->word->kind != TN_WORD_OPERATOR)
@@ -213,14 +213,14 @@ static bool read_operator(item *item, tn_operator *op)
     return true;
 }
 
-static void invert(item *item)
+static void invert(tn_item_reader *item)
 {
     for (uint32_t v = 0; v < item->schema->fields[item->field].value_count; v++)
         item->found[v] = !item->found[v];
 }
 
 /* names only: `= double`, `!= double` */
-static bool read_name(item *item, tn_operator op)
+static bool read_name(tn_item_reader *item, tn_operator op)
 {
     const tn_ast_word *word = next_word(item);
     if (!word)
@@ -235,7 +235,7 @@ static bool read_name(item *item, tn_operator op)
 }
 
 /* [fill] [op] [length] | depth [op] length */
-static bool read_zone(item *item, tn_operator op, bool compared)
+static bool read_zone(tn_item_reader *item, tn_operator op, bool compared)
 {
     const tn_ast_word *word = item->word;
     const char *fill = item->fill;
@@ -260,7 +260,7 @@ static bool read_zone(item *item, tn_operator op, bool compared)
 }
 
 /* [field] [not] [op] value */
-static bool read_alternative(item *item, const tn_ast_alternative *alternative)
+static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alternative)
 {
     item->word = (const tn_ast_word *)alternative->words.first;
     item->span = alternative->node.span;
@@ -292,7 +292,7 @@ static bool read_alternative(item *item, const tn_ast_alternative *alternative)
     return good;
 }
 
-static bool read_item(item *item, const tn_ast_item *ast)
+static bool read_item(tn_item_reader *item, const tn_ast_item *ast)
 {
     bool good = true;
     for (TN_EACH(const tn_ast_alternative, alternative, ast->alternatives))
@@ -387,7 +387,7 @@ tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const
     if (!spec)
         return NULL;
     for (TN_EACH(const tn_ast_item, ast, tray->items)) {
-        item item = {.check = check, .schema = schema, .field = TN_NONE};
+        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE};
         if (!read_item(&item, ast)) {
             spec->broken = true;
             continue;

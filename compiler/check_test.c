@@ -117,7 +117,7 @@ void tn_check_tests(tn_check *check)
     for (check->unit = 0; check->unit < check->imports->count; check->unit++) {
         const tn_ast_file *file = check->imports->units[check->unit]->tree;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
-            if (item->kind != TN_ITEM_TEST || !has_room(check, item->span))
+            if (item->kind != TN_ITEM_TEST || !has_room(check, item->node.span))
                 continue;
             tn_test_block *block = &blocks[result->program->test_count++];
             block->imported = check->unit + 1 < check->imports->count;

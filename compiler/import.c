@@ -12,7 +12,7 @@
 
 enum { REACH_WORDS = (TN_FILES_MAX + 63) / 64 };
 
-typedef struct importer {
+typedef struct tn_importer {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
     const char *const *stdlib_dirs;
@@ -23,9 +23,9 @@ typedef struct importer {
     tn_unit *chain[TN_FILES_MAX]; /* whose uses are being followed, outermost first */
     size_t all_count, chain_count;
     tn_imports *imports;
-} importer;
+} tn_importer;
 
-static const char *join(importer *importer, const char *folder, size_t folder_size, const char *name, const char *extension)
+static const char *join(tn_importer *importer, const char *folder, size_t folder_size, const char *name, const char *extension)
 {
     size_t size = folder_size + strlen(name) + strlen(extension) + 2;
     char *path = tn_arena_alloc(importer->arena, size);
@@ -36,7 +36,7 @@ static const char *join(importer *importer, const char *folder, size_t folder_si
 }
 
 /* The file's real path; the path itself where the file system knows of no such file (a text in memory). */
-static const char *identify(importer *importer, const char *path)
+static const char *identify(tn_importer *importer, const char *path)
 {
     char *real = realpath(path, NULL);
     const char *identity = tn_arena_copy(importer->arena, real ? real : path, strlen(real ? real : path));
@@ -56,7 +56,7 @@ static bool exists(const char *path)
 }
 
 /* The path that a `use` means, whether it is in the standard library; NULL where there is no such file. */
-static const char *find(importer *importer, const char *user, const char *path, bool *is_stdlib)
+static const char *find(tn_importer *importer, const char *user, const char *path, bool *is_stdlib)
 {
     *is_stdlib = is_bare(path);
     if (!*is_stdlib) {
@@ -80,7 +80,7 @@ static int compare_texts(const void *a, const void *b)
 }
 
 /* The file names in a folder that end in the extension, sorted; without the extension where `bare`. */
-static size_t list_folder(importer *importer, const char *folder, bool bare, const char **names, size_t room)
+static size_t list_folder(tn_importer *importer, const char *folder, bool bare, const char **names, size_t room)
 {
     DIR *directory = opendir(folder);
     size_t count = 0, extension_size = strlen(importer->extension);
@@ -97,7 +97,7 @@ static size_t list_folder(importer *importer, const char *folder, bool bare, con
     return count;
 }
 
-static void report_missing(importer *importer, const tn_use *use, const char *user)
+static void report_missing(tn_importer *importer, const tn_use *use, const char *user)
 {
     enum { ROOM = 512 };
     const char *names[ROOM];
@@ -128,7 +128,7 @@ static void report_missing(importer *importer, const tn_use *use, const char *us
         tn_help(importer->diagnostics, d, "the path starts at the folder of the file that says `use`");
 }
 
-static void report_cycle(importer *importer, const tn_use *use, const tn_unit *again)
+static void report_cycle(tn_importer *importer, const tn_use *use, const tn_unit *again)
 {
     const tn_source *files = importer->diagnostics->sources->files;
     char text[400];
@@ -146,10 +146,10 @@ static void report_cycle(importer *importer, const tn_use *use, const tn_unit *a
 
 /* ---- following */
 
-static tn_status load(importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result);
+static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result);
 
 /* Reads a file that is used into the sources; *unit stays NULL where that fails. */
-static tn_status read_unit(importer *importer, const tn_use *use, const char *path, const char *identity, bool is_stdlib, tn_unit **unit)
+static tn_status read_unit(tn_importer *importer, const tn_use *use, const char *path, const char *identity, bool is_stdlib, tn_unit **unit)
 {
     tn_error error;
     uint8_t *bytes;
@@ -179,7 +179,7 @@ static tn_status read_unit(importer *importer, const tn_use *use, const char *pa
     return load(importer, file, identity, recorded, unit);
 }
 
-static tn_unit *known(const importer *importer, const char *identity)
+static tn_unit *known(const tn_importer *importer, const char *identity)
 {
     for (size_t i = 0; i < importer->all_count; i++)
         if (strcmp(importer->all[i]->identity, identity) == 0)
@@ -188,7 +188,7 @@ static tn_unit *known(const importer *importer, const char *identity)
 }
 
 /* Follows one `use` of a unit. */
-static tn_status follow(importer *importer, tn_unit *unit, const tn_use *use)
+static tn_status follow(tn_importer *importer, tn_unit *unit, const tn_use *use)
 {
     const char *user = importer->diagnostics->sources->files[unit->file].path;
     bool is_stdlib;
@@ -217,7 +217,7 @@ static tn_status follow(importer *importer, tn_unit *unit, const tn_use *use)
 }
 
 /* Parses a source and follows its uses. Recursion is as deep as files nest, at most TN_FILES_MAX. */
-static tn_status load(importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result)
+static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result)
 {
     tn_unit *unit = TN_NEW(importer->arena, tn_unit);
     uint64_t *reach = TN_NEW_ARRAY(importer->arena, uint64_t, REACH_WORDS);
@@ -248,12 +248,12 @@ tn_status tn_import_all(tn_arena *arena, tn_diagnostics *diagnostics, const char
                         size_t stdlib_dir_count, const char *extension, tn_parse_unit *parse, uint32_t main_file,
                         tn_imports *imports)
 {
-    importer *state = TN_NEW(arena, importer);
+    tn_importer *state = TN_NEW(arena, tn_importer);
     imports->units = TN_NEW_ARRAY(arena, tn_unit *, TN_FILES_MAX);
     imports->count = 0;
     if (!state || !imports->units)
         return TN_MEMORY;
-    *state = (importer){.arena = arena,
+    *state = (tn_importer){.arena = arena,
                         .diagnostics = diagnostics,
                         .stdlib_dirs = stdlib_dirs,
                         .stdlib_dir_count = stdlib_dir_count,

@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct expectation {
+typedef struct tn_expected {
     const char *const *tokens;
     size_t count;
     bool said[96]; /* covered by a phrase */
-} expectation;
+} tn_expected;
 
-static bool expects(const expectation *e, const char *token)
+static bool expects(const tn_expected *e, const char *token)
 {
     for (size_t i = 0; i < e->count; i++)
         if (strcmp(e->tokens[i], token) == 0)
@@ -43,7 +43,7 @@ static void add_phrase(char *text, size_t size, const char *phrase, size_t *said
     (*said)++;
 }
 
-static size_t say_groups(expectation *e, char *text, size_t size)
+static size_t say_groups(tn_expected *e, char *text, size_t size)
 {
     size_t said = 0;
     for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
@@ -65,7 +65,7 @@ static size_t say_groups(expectation *e, char *text, size_t size)
  * named only where nothing else is. */
 static void say_expected(const char *const *tokens, size_t count, char *text, size_t size)
 {
-    expectation e = {.tokens = tokens, .count = count < 96 ? count : 96};
+    tn_expected e = {.tokens = tokens, .count = count < 96 ? count : 96};
     char singles[400] = "";
     size_t single_count = 0;
     text[0] = '\0';
@@ -99,7 +99,7 @@ static bool is_word(const char *token)
 }
 
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
-static const char *likely_fix(const tn_parse *parse, const char *found, const expectation *e)
+static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
     if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
         return "inside tray(...) the items are separated by commas: all of them must be met";
@@ -145,7 +145,7 @@ void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const cha
 {
     if (parse->virtual_brace && span.begin == span.end) /* the missing brace was reported */
         return;
-    expectation e = {.tokens = expected, .count = count < 96 ? count : 96};
+    tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
     join(list, words, sizeof words);

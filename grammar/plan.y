@@ -28,8 +28,6 @@
 #define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \
     ((CURRENT) = (N) ? tn_span_join(YYRHSLOC(RHS, 1), YYRHSLOC(RHS, N))                                                \
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
-/* The stack may grow: values and places can be copied as bytes. */
-#define TN_PLAN_LTYPE_IS_TRIVIAL 1
 
 int tn_plan_lex(TN_PLAN_STYPE *value, tn_span *span, void *scanner);
 static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, const char *message);
@@ -72,7 +70,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <rule> rule_head
 %type <library> library_head
 %type <word> doc role using constant operand spec_word literal_word clause_name total_field
-%type <list> items values depths allow names clauses clause prunes requires cases by clause_names plan trays words
+%type <list> items values depths allow names clauses clause prunes requires cases clause_names plan trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts sum_field
 %type <range> range
 %type <op> comparison
@@ -405,7 +403,9 @@ cases
     ;
 
 case
-    : expectation plan doc by                   { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $4); }
+    : expectation plan doc                      { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, tn_ast_empty()); }
+    | expectation plan STRING BY clause_names   { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $5); }
+    | expectation plan BY clause_names doc      { $$ = tn_ast_case_new(parse, @$, $1, $2, $5, $4); }
     ;
 
 expectation
@@ -438,11 +438,6 @@ literal_word
     | NUMBER
     | LENGTH
     | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
-    ;
-
-by
-    : %empty                                    { $$ = tn_ast_empty(); }
-    | BY clause_names                           { $$ = $2; }
     ;
 
 clause_names
