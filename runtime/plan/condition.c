@@ -7,7 +7,7 @@
 
 /* Truth values as bits, so that the deepest stack that a module may ask for fits the C stack. */
 typedef struct truth_stack {
-    uint64_t bits[TN_CONDITION_STACK_MAX / 64];
+    uint64_t bits[TN_STACK_MAX / 64];
     size_t size;
 } truth_stack;
 

@@ -4,7 +4,6 @@
 
 #include "runtime/vm/module.h"
 
-#define TN_CONDITION_STACK_MAX 65536u /* the deepest stack of a condition function that can be evaluated */
 
 #define TN_CONDITION_STEPS_MAX (UINT64_C(1) << 30)
 

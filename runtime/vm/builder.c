@@ -88,7 +88,7 @@ static size_t find_string(const tn_builder *builder, const char *text, size_t le
         if (string == 0)
             return place;
         const char *known = string_at(builder, string);
-        if (strlen(known) == length && memcmp(known, text, length) == 0)
+        if (strncmp(known, text, length) == 0 && known[length] == '\0')
             return place;
     }
 }

@@ -2,6 +2,7 @@
 #ifndef TARTAN_VM_CODE_H
 #define TARTAN_VM_CODE_H
 
+#include "runtime/vm/bytes.h"
 #include "runtime/vm/module.h"
 #include "runtime/vm/opcodes.h"
 
@@ -12,16 +13,6 @@ typedef struct tn_instruction {
     int64_t first;
     int64_t second;
 } tn_instruction;
-
-static inline uint32_t tn_code_u32(const uint8_t *bytes)
-{
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-static inline int64_t tn_code_i64(const uint8_t *bytes)
-{
-    return (int64_t)((uint64_t)tn_code_u32(bytes) | (uint64_t)tn_code_u32(bytes + 4) << 32);
-}
 
 /* How an opcode's operands are laid out. */
 static inline tn_operands tn_code_operands(uint8_t opcode)
@@ -61,21 +52,21 @@ static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
     case TN_OPERANDS_SPEC:
     case TN_OPERANDS_FUNC:
     case TN_OPERANDS_COND:
-        instruction.first = tn_code_u32(bytes + 1);
+        instruction.first = tn_get_u32(bytes + 1);
         instruction.length = 5;
         break;
     case TN_OPERANDS_FIELD_COND:
-        instruction.first = tn_code_u32(bytes + 1);
-        instruction.second = tn_code_u32(bytes + 5);
+        instruction.first = tn_get_u32(bytes + 1);
+        instruction.second = tn_get_u32(bytes + 5);
         instruction.length = 9;
         break;
     case TN_OPERANDS_INT:
-        instruction.first = tn_code_i64(bytes + 1);
+        instruction.first = tn_get_i64(bytes + 1);
         instruction.length = 9;
         break;
     case TN_OPERANDS_INT2:
-        instruction.first = tn_code_i64(bytes + 1);
-        instruction.second = tn_code_i64(bytes + 9);
+        instruction.first = tn_get_i64(bytes + 1);
+        instruction.second = tn_get_i64(bytes + 9);
         instruction.length = 17;
         break;
     }

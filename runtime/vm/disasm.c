@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/vm/bytes.h"
-#include "runtime/vm/opcodes.h"
+#include "runtime/vm/code.h"
 #include "runtime/vm/utf8.h"
 
 /* What is listed of one text: a module from anywhere must not make the listing endless. */
@@ -314,31 +313,33 @@ static void write_function(tn_lister *lister, uint32_t index)
     fputc(')', lister->out);
 }
 
-static void write_operands(tn_lister *lister, const tn_opcode_info *info, const uint8_t *operands)
+static void write_operands(tn_lister *lister, const tn_instruction *instruction)
 {
     FILE *out = lister->out;
-    switch (info->operands) {
+    uint32_t index = (uint32_t)instruction->first;
+    switch (tn_code_operands((uint8_t)instruction->opcode)) {
     case TN_OPERANDS_NONE:
         break;
     case TN_OPERANDS_SPEC:
-        fprintf(out, "spec %u  ", tn_get_u32(operands));
-        write_spec(lister, tn_get_u32(operands));
+        fprintf(out, " spec %u  ", index);
+        write_spec(lister, index);
         break;
     case TN_OPERANDS_FUNC:
     case TN_OPERANDS_COND:
-        write_function(lister, tn_get_u32(operands));
+        fputc(' ', out);
+        write_function(lister, index);
         break;
     case TN_OPERANDS_FIELD_COND:
-        fprintf(out, "field %u (", tn_get_u32(operands));
-        write_name(lister, lister->module->FIELD_records[tn_get_u32(operands)].name);
+        fprintf(out, " field %u (", index);
+        write_name(lister, lister->module->FIELD_records[index].name);
         fputs("), ", out);
-        write_function(lister, tn_get_u32(operands + 4));
+        write_function(lister, (uint32_t)instruction->second);
         break;
     case TN_OPERANDS_INT:
-        fprintf(out, "%lld", (long long)tn_get_i64(operands));
+        fprintf(out, " %lld", (long long)instruction->first);
         break;
     case TN_OPERANDS_INT2:
-        fprintf(out, "%lld, %lld", (long long)tn_get_i64(operands), (long long)tn_get_i64(operands + 8));
+        fprintf(out, " %lld, %lld", (long long)instruction->first, (long long)instruction->second);
         break;
     }
 }
@@ -356,13 +357,14 @@ static void list_function(tn_lister *lister, uint32_t index)
     fprintf(lister->out, ", stack %u\n", function->stack_max);
     lister->shown_line = 0;
     for (uint32_t offset = function->code_begin; offset < function->code_end;) {
-        const tn_opcode_info *info = tn_opcode_describe(module->code[offset]);
+        tn_instruction instruction = tn_code_read(module->code, offset);
         show_source(lister, tn_module_place(module, offset));
-        bool bare = info->operands == TN_OPERANDS_NONE;
-        fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s ", offset, info->name);
-        write_operands(lister, info, module->code + offset + 1);
+        bool bare = tn_code_operands((uint8_t)instruction.opcode) == TN_OPERANDS_NONE;
+        fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s", offset,
+                tn_opcode_describe(module->code[offset])->name);
+        write_operands(lister, &instruction);
         fputc('\n', lister->out);
-        offset += info->length;
+        offset += instruction.length;
     }
 }
 
@@ -384,13 +386,13 @@ static void list_module(tn_lister *lister)
 static void mark_callees(const tn_module *module, const tn_function_record *function, bool *needed)
 {
     for (uint32_t offset = function->code_begin; offset < function->code_end;) {
-        const tn_opcode_info *info = tn_opcode_describe(module->code[offset]);
-        const uint8_t *operands = module->code + offset + 1;
-        if (info->operands == TN_OPERANDS_FUNC || info->operands == TN_OPERANDS_COND)
-            needed[tn_get_u32(operands)] = true;
-        else if (info->operands == TN_OPERANDS_FIELD_COND)
-            needed[tn_get_u32(operands + 4)] = true;
-        offset += info->length;
+        tn_instruction instruction = tn_code_read(module->code, offset);
+        tn_operands operands = tn_code_operands((uint8_t)instruction.opcode);
+        if (operands == TN_OPERANDS_FUNC || operands == TN_OPERANDS_COND)
+            needed[instruction.first] = true;
+        else if (operands == TN_OPERANDS_FIELD_COND)
+            needed[instruction.second] = true;
+        offset += instruction.length;
     }
 }
 

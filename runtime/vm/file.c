@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -86,11 +87,14 @@ static const char *shown(const tn_output *output)
     return strcmp(output->path, "-") == 0 ? "standard output" : output->path;
 }
 
-/* Makes a file that was not there before, beside the target: "houses.tnb.4711-0.tmp". */
+/* Makes a file that was not there before, in the target's folder: ".tartan-4711-0.tmp". */
 static int open_temporary(tn_output *output, mode_t mode)
 {
+    const char *slash = strrchr(output->target, '/');
+    int folder = slash ? (int)(slash + 1 - output->target) : 0;
     for (unsigned attempt = 0; attempt < 1000; attempt++) {
-        if (asprintf(&output->temporary, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt) < 0) {
+        if (asprintf(&output->temporary, "%.*s.tartan-%ld-%u.tmp", folder, output->target, (long)getpid(), attempt) <
+            0) {
             output->temporary = NULL;
             errno = ENOMEM;
             return -1;
@@ -167,11 +171,23 @@ static void sync_folder(const char *target)
     free(folder);
 }
 
+/* Why writing failed some time ago, when only the stream's mark of it is left: what writing one more byte would fail
+ * on. */
+static int probe(int file)
+{
+    struct pollfd pipe_end = {.fd = file, .events = POLLOUT};
+    if (poll(&pipe_end, 1, 0) == 1 && (pipe_end.revents & POLLERR))
+        return EPIPE;
+    return write(file, "\n", 1) < 0 ? errno : EIO;
+}
+
 /* Flushes what is buffered; 0, or why that failed. */
 static int flush(const tn_output *output)
 {
+    if (ferror(output->stream))
+        return probe(fileno(output->stream));
     errno = 0;
-    if (fflush(output->stream) != 0 || ferror(output->stream))
+    if (fflush(output->stream) != 0)
         return errno ? errno : EIO;
     if (output->temporary && fsync(fileno(output->stream)) != 0)
         return errno;

@@ -131,16 +131,16 @@ tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits 
                          tn_error *error)
 {
     *module = NULL;
-    tn_module_limits defaults = tn_module_limits_default();
-    if (!limits)
-        limits = &defaults;
+    tn_module_limits bounds = limits ? *limits : tn_module_limits_default();
+    bounds.records = bounds.records < UINT32_MAX - 1 ? bounds.records : UINT32_MAX - 1;
+    bounds.stack = bounds.stack < TN_STACK_MAX ? bounds.stack : TN_STACK_MAX;
     tn_stored sections[TN_SECTION_COUNT];
     size_t block_size = 0;
-    tn_status status = check_header(bytes, size, limits, error);
+    tn_status status = check_header(bytes, size, &bounds, error);
     if (status == TN_OK)
         status = find_sections(bytes, size, sections, error);
     if (status == TN_OK)
-        status = check_counts(sections, limits, &block_size, error);
+        status = check_counts(sections, &bounds, &block_size, error);
     if (status != TN_OK)
         return status;
     tn_module *loaded = calloc(1, block_size);
@@ -148,7 +148,7 @@ tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits 
         return tn_fail_memory(error);
     decode(sections, (char *)loaded, loaded);
     loaded->hash = tn_get_u64((const uint8_t *)bytes + TN_HEADER_HASH);
-    status = tn_module_verify(loaded, limits, error);
+    status = tn_module_verify(loaded, &bounds, error);
     if (status != TN_OK) {
         free(loaded);
         return status;

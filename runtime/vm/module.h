@@ -29,15 +29,21 @@ typedef enum tn_field_kind {
 /* What a field means to a drawing; nothing else looks at it. */
 typedef enum tn_field_role {
     TN_ROLE_NONE,
-    TN_ROLE_LENGTH,     /* the tray's extent along the row */
-    TN_ROLE_LEVEL,      /* the n-th value has n levels */
+    TN_ROLE_LENGTH, /* the tray's extent along the row */
+    TN_ROLE_LEVEL,  /* the n-th value has n levels */
     TN_ROLE_PUBLIC_END,
     TN_ROLE_GREAT_HALL,
-    TN_ROLE_BAND,       /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_ROLE_BAND, /* a zone drawn as a band; bands lie in schema order, top to bottom */
     TN_FIELD_ROLE_COUNT
 } tn_field_role;
 
-typedef enum tn_fill_role { TN_FILL_NONE, TN_FILL_SOLID, TN_FILL_VOID, TN_FILL_ABSENT, TN_FILL_ROLE_COUNT } tn_fill_role;
+typedef enum tn_fill_role {
+    TN_FILL_NONE,
+    TN_FILL_SOLID,
+    TN_FILL_VOID,
+    TN_FILL_ABSENT,
+    TN_FILL_ROLE_COUNT
+} tn_fill_role;
 
 typedef enum tn_function_kind {
     TN_FUNCTION_WHOLE,     /* judgement M: the stretch taken whole */
@@ -46,7 +52,12 @@ typedef enum tn_function_kind {
     TN_FUNCTION_KIND_COUNT
 } tn_function_kind;
 
-typedef enum tn_clause_kind { TN_CLAUSE_REQUIRE, TN_CLAUSE_TOTAL, TN_CLAUSE_PRUNE, TN_CLAUSE_KIND_COUNT } tn_clause_kind;
+typedef enum tn_clause_kind {
+    TN_CLAUSE_REQUIRE,
+    TN_CLAUSE_TOTAL,
+    TN_CLAUSE_PRUNE,
+    TN_CLAUSE_KIND_COUNT
+} tn_clause_kind;
 
 /* Flags of rules and libraries. */
 #define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
@@ -58,7 +69,10 @@ typedef uint32_t tn_string; /* an offset into the strings */
 #define TN_TYPE_U32 uint32_t
 #define TN_TYPE_I64 int64_t
 #define F(KIND, FIELD) TN_TYPE_##KIND FIELD;
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) typedef struct TYPE { FIELDS } TYPE;
+#define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
+    typedef struct TYPE {                                                                                              \
+        FIELDS                                                                                                         \
+    } TYPE;
 #include "runtime/vm/records.def"
 #undef SECTION
 #undef F
@@ -79,28 +93,33 @@ typedef struct tn_module {
     size_t strings_size;
     const uint8_t *code;
     size_t code_size;
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) const TYPE *NAME##_records; size_t NAME##_count;
+#define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
+    const TYPE *NAME##_records;                                                                                        \
+    size_t NAME##_count;
 #include "runtime/vm/records.def"
 #undef SECTION
     uint64_t hash; /* the file's */
 } tn_module;
 
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
-#define TN_FIELDS_MAX 64u   /* fields of a schema */
-#define TN_VALUES_MAX 255u  /* values of a field: engines number them in a byte */
-#define TN_NAME_MAX 255u    /* bytes of a name or spelling */
+#define TN_FIELDS_MAX 64u  /* fields of a schema */
+#define TN_VALUES_MAX 255u /* values of a field: engines number them in a byte */
+#define TN_NAME_MAX 255u   /* bytes of a name or spelling */
+
+#define TN_STACK_MAX 65536u /* values on a function's stack: engines set aside room for them */
 
 /* Bounds that loading enforces. tn_module_limits_default() gives the defaults. */
 typedef struct tn_module_limits {
-    size_t bytes;      /* of the file: 256 MiB */
-    size_t records;    /* in any one section: 1,000,000 */
-    size_t stack;      /* of any one function: 4,096 */
+    size_t bytes;   /* of the file: 256 MiB */
+    size_t records; /* in any one section: 1,000,000; never more than 2^32 - 2 */
+    size_t stack;   /* of any one function: 4,096; never more than TN_STACK_MAX */
 } tn_module_limits;
 
 tn_module_limits tn_module_limits_default(void);
 
 /* Loads and verifies a module. `limits` may be NULL (defaults). On success the caller owns *module. */
-tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits *limits, tn_module **module, tn_error *error);
+tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits *limits, tn_module **module,
+                         tn_error *error);
 
 /* The same from a file. */
 tn_status tn_module_load_file(const char *path, const tn_module_limits *limits, tn_module **module, tn_error *error);
@@ -116,8 +135,8 @@ static inline const char *tn_text(const tn_module *module, tn_string string)
     return module->strings + string;
 }
 
-/* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction before
- * it in the same function that has one; NULL where there is none. */
+/* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction
+ * before it in the same function that has one; NULL where there is none. */
 const tn_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 #endif

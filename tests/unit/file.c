@@ -128,6 +128,12 @@ static void test_modes_and_links_are_kept(void **state)
     assert_int_equal(known.st_mode & 0777, 0640);
 }
 
+static void write_much(tn_output *output)
+{
+    for (int i = 0; i < 1000000; i++)
+        fputc('x', output->stream);
+}
+
 static void test_full_disk(void **state)
 {
     (void)state;
@@ -137,6 +143,11 @@ static void test_full_disk(void **state)
     fputs("something", output.stream);
     assert_int_equal(tn_output_commit(&output, &error), TN_IO);
     assert_int_equal(error.code, 902);
+    assert_string_equal(error.message, "cannot write /dev/full: No space left on device");
+    /* the same where writing failed long before the end */
+    assert_int_equal(tn_output_open("/dev/full", &output, &error), TN_OK);
+    write_much(&output);
+    assert_int_equal(tn_output_commit(&output, &error), TN_IO);
     assert_string_equal(error.message, "cannot write /dev/full: No space left on device");
 }
 
@@ -162,6 +173,15 @@ static void test_closed_pipe(void **state)
     assert_int_equal(tn_output_open(path, &output, &error), TN_OK);
     close(ends[0]);
     fputs("nobody reads", output.stream);
+    assert_int_equal(tn_output_commit(&output, &error), TN_IO);
+    assert_int_equal(error.code, 903);
+    close(ends[1]);
+    assert_int_equal(pipe(ends), 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", ends[1]);
+    assert_int_equal(tn_output_open(path, &output, &error), TN_OK);
+    close(ends[0]);
+    write_much(&output);
+    assert_true(ferror(output.stream));
     assert_int_equal(tn_output_commit(&output, &error), TN_IO);
     assert_int_equal(error.code, 903);
     close(ends[1]);
@@ -208,6 +228,17 @@ static void test_limit(void **state)
     assert_int_equal(tn_file_read("/dev/zero", 1 << 20, &bytes, &size, &error), TN_LIMIT); /* endless */
 }
 
+static void test_longest_name(void **state)
+{
+    folder *f = *state;
+    char path[64 + 256];
+    size_t size = (size_t)snprintf(path, sizeof path, "%s/", f->path);
+    memset(path + size, 'n', 255); /* as long as a name can be */
+    path[size + 255] = '\0';
+    write_text(path, "text");
+    expect_text(path, "text");
+}
+
 /* Sizes around those at which the memory grows. */
 static void test_large_files(void **state)
 {
@@ -241,7 +272,7 @@ int main(void)
         TEST(test_full_disk),      TEST(test_devices_are_written_to),
         TEST(test_closed_pipe),    TEST(test_unwritable),
         TEST(test_unreadable),     TEST(test_limit),
-        TEST(test_large_files),
+        TEST(test_longest_name),   TEST(test_large_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

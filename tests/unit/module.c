@@ -7,9 +7,9 @@
 
 #include <cmocka.h>
 
+#include "runtime/vm/code.h"
 #include "runtime/vm/disasm.h"
 #include "runtime/vm/layout.h"
-#include "runtime/vm/opcodes.h"
 #include "tests/support/sample_module.h"
 
 typedef struct sample {
@@ -54,8 +54,12 @@ static void test_sample_has_every_opcode(void **state)
     tn_module *module;
     assert_int_equal(tn_module_load(good.bytes, good.size, NULL, &module, NULL), TN_OK);
     bool seen[TN_OPCODE_COUNT] = {false};
-    for (size_t at = 0; at < module->code_size; at += tn_opcode_describe(module->code[at])->length)
+    uint32_t length;
+    for (uint32_t at = 0; at < module->code_size; at += length) {
+        length = tn_opcode_describe(module->code[at])->length;
+        assert_int_equal(tn_code_read(module->code, at).length, length);
         seen[module->code[at]] = true;
+    }
     for (int i = 0; i < TN_OPCODE_COUNT; i++)
         if (!seen[i])
             fail_msg("the sample has no %s", tn_opcode_describe((uint8_t)i)->name);
@@ -224,6 +228,18 @@ static void test_limits(void **state)
     limits.stack = 2;
     assert_int_equal(tn_module_load(good.bytes, good.size, &limits, &module, &error), TN_LIMIT);
     assert_non_null(strstr(error.message, "declares a stack of 3; the limit is 2"));
+    limits = (tn_module_limits){SIZE_MAX, SIZE_MAX, SIZE_MAX}; /* some bounds stay */
+    assert_int_equal(tn_module_load(good.bytes, good.size, &limits, &module, &error), TN_OK);
+    tn_module_free(module);
+    free(good.bytes);
+    tn_builder *builder = sample_builder();
+    tn_builder_set_FUNCTION(
+        builder, 0,
+        &(tn_function_record){.kind = TN_FUNCTION_CONDITION, .code_end = 67, .stack_max = TN_STACK_MAX + 1});
+    assert_int_equal(tn_builder_finish(builder, &good.bytes, &good.size, &error), TN_OK);
+    assert_int_equal(tn_module_load(good.bytes, good.size, &limits, &module, &error), TN_LIMIT);
+    assert_string_equal(error.message, "function 0 declares a stack of 65537; the limit is 65536");
+    tn_builder_free(builder);
     free(good.bytes);
 }
 
