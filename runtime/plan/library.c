@@ -216,6 +216,7 @@ void tn_library_free(tn_library *library)
     free(library->clauses);
     free(library->prunes);
     free(library->rows);
+    free(library->nearly);
     free(library->alive);
     free(library->tray_column);
     free(library->run_end);

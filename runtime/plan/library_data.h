@@ -2,6 +2,7 @@
 #ifndef TARTAN_PLAN_LIBRARY_DATA_H
 #define TARTAN_PLAN_LIBRARY_DATA_H
 
+#include <math.h>
 #include <pthread.h>
 
 #include "runtime/plan/classes.h"
@@ -37,6 +38,7 @@ struct tn_library {
     uint32_t *tray_column; /* [trays]: column of `kept` */
     tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
     tn_row *rows;          /* [max + 1]: kept plans by trays to come */
+    double *nearly;        /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
     mpz_t *before;    /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
@@ -55,11 +57,20 @@ static inline uint32_t tn_library_step(const tn_library *library, uint32_t state
     return library->kept->delta[(size_t)state * library->kept->columns + library->tray_column[tray]];
 }
 
+/* A count divided by 2^(64 limbs), nearly: at most 1 for a count of so many limbs. Only ever guides exact arithmetic.
+ */
+static inline double tn_nearly(const mpz_t count, size_t limbs)
+{
+    long exponent;
+    double fraction = mpz_get_d_2exp(&exponent, count);
+    return ldexp(fraction, (int)(exponent - (long)(64 * limbs)));
+}
+
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);
 
-/* Fills rows, alive, before, generated and passed (tables.c). */
+/* Fills rows, nearly, alive, before, generated and passed (tables.c). */
 tn_status tn_library_tables(tn_library *library, tn_error *error);
 
 #endif

@@ -42,24 +42,55 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
     return true;
 }
 
-/* The tray in which plan `rest` (from 0) of those from `state` starts, by halving; `rest` becomes its rank among those
- * with that tray. */
-static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t left, mpz_t rest, mpz_t sum, mpz_t best)
+/* As plans_before, nearly, and divided like the nearly row. */
+static double nearly_before(const tn_library *library, const double *nearly, const uint32_t *next, tn_tray tray)
 {
-    tn_tray low = 0, high = library->schema->tray_count; /* plans_before(low) <= rest < plans_before(high) */
-    mpz_set_ui(best, 0);
+    double sum = 0;
+    for (uint32_t c = 0; c < library->kept->columns; c++)
+        sum += marked(library, tray, c) * nearly[next[c]];
+    for (tn_tray t = tray - tray % library->stride; t < tray; t++)
+        sum += nearly[next[library->tray_column[t]]];
+    return sum;
+}
+
+/* About the tray in which plan `rest` of those from a state starts, by halving. */
+static tn_tray guess_tray(const tn_library *library, const uint32_t *next, uint32_t left, const mpz_t rest)
+{
+    const double *nearly = library->nearly + (size_t)left * library->kept->states;
+    double wanted = tn_nearly(rest, library->rows[left].limbs);
+    tn_tray low = 0, high = library->schema->tray_count;
     while (high - low > 1) {
         tn_tray middle = low + (high - low) / 2;
-        plans_before(library, state, middle, left, sum);
-        if (mpz_cmp(sum, rest) <= 0) {
+        if (nearly_before(library, nearly, next, middle) <= wanted)
             low = middle;
-            mpz_swap(best, sum);
-        } else {
+        else
             high = middle;
-        }
     }
-    mpz_sub(rest, rest, best);
     return low;
+}
+
+/* The tray in which plan `rest` (from 0) of those from `state` starts; `rest` becomes its rank among those with that
+ * tray. The guess only saves work: from it, exact counts step to the tray. */
+static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t left, mpz_t rest, mpz_t sum, mpz_t one)
+{
+    const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
+    const tn_row *row = &library->rows[left];
+    tn_tray tray = guess_tray(library, next, left, rest);
+    plans_before(library, state, tray, left, sum);
+    while (mpz_cmp(sum, rest) > 0) {
+        tray--;
+        mpz_set_ui(one, 0);
+        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        mpz_sub(sum, sum, one);
+    }
+    mpz_sub(rest, rest, sum);
+    for (;; tray++) { /* rest is below the plans that start with this tray or a later one */
+        mpz_set_ui(one, 0);
+        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        if (mpz_cmp(rest, one) < 0)
+            return tray;
+        mpz_sub(rest, rest, one);
+    }
 }
 
 /* The length of the plan of a rank below the number kept, by halving. */
@@ -80,15 +111,15 @@ bool tn_library_unrank(const tn_library *library, const mpz_t rank, tn_tray *tra
 {
     if (mpz_sgn(rank) < 0 || mpz_cmp(rank, library->before[library->max + 1]) >= 0)
         return false;
-    mpz_t rest, sum, best;
-    mpz_inits(rest, sum, best, NULL);
+    mpz_t rest, sum, one;
+    mpz_inits(rest, sum, one, NULL);
     *length = find_length(library, rank);
     mpz_sub(rest, rank, library->before[*length]);
     uint32_t state = 0;
     for (uint32_t i = 0; i < *length; i++) {
-        trays[i] = find_tray(library, state, *length - 1 - i, rest, sum, best);
+        trays[i] = find_tray(library, state, *length - 1 - i, rest, sum, one);
         state = tn_library_step(library, state, trays[i]);
     }
-    mpz_clears(rest, sum, best, NULL);
+    mpz_clears(rest, sum, one, NULL);
     return true;
 }

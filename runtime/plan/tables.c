@@ -21,7 +21,7 @@ static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error 
     for (uint32_t left = 0; left <= library->max; left++) {
         tn_row *row = &library->rows[left];
         tn_status status = left ? tn_row_next(edges, row - 1, row, error) : tn_row_first(edges, row, error);
-        bytes += tn_row_bytes(edges, row);
+        bytes += tn_row_bytes(edges, row) + edges->states * sizeof(double);
         if (status == TN_OK)
             status = pass_table(library, bytes, left, error);
         if (status != TN_OK)
@@ -37,6 +37,21 @@ static bool is_zero(const mp_limb_t *value, size_t limbs)
     return limbs == 0;
 }
 
+/* What the other tables say of a row. */
+static void note_row(tn_library *library, uint32_t left)
+{
+    const tn_row *row = &library->rows[left];
+    for (uint32_t s = 0; s < library->kept->states; s++) {
+        const mp_limb_t *value = tn_row_at(row, s);
+        if (is_zero(value, row->limbs))
+            continue;
+        mpz_t count;
+        mpz_roinit_n(count, value, (mp_size_t)row->limbs);
+        library->nearly[(size_t)left * library->kept->states + s] = tn_nearly(count, row->limbs);
+        library->alive[(size_t)left * library->alive_words + s / 64] |= UINT64_C(1) << (s % 64);
+    }
+}
+
 static tn_status make_rows(tn_library *library, tn_error *error)
 {
     uint64_t *weights = NULL;
@@ -46,17 +61,16 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     library->alive_words = states / 64 + 1;
     library->rows = calloc(lengths, sizeof *library->rows);
     library->alive = calloc(lengths * library->alive_words, sizeof *library->alive);
-    if (!library->rows || !library->alive)
+    library->nearly = calloc(lengths * states, sizeof *library->nearly);
+    if (!library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
     tn_status status = tn_column_weights(library->kept, library->classes, &weights, error);
     if (status == TN_OK)
         status = tn_edges_make(&edges, library->kept, weights, error);
     if (status == TN_OK)
         status = fill_rows(library, &edges, error);
-    for (size_t left = 0; status == TN_OK && left < lengths; left++)
-        for (uint32_t s = 0; s < states; s++)
-            if (!is_zero(tn_row_at(&library->rows[left], s), library->rows[left].limbs))
-                library->alive[left * library->alive_words + s / 64] |= UINT64_C(1) << (s % 64);
+    for (uint32_t left = 0; status == TN_OK && left <= library->max; left++)
+        note_row(library, left);
     tn_edges_clear(&edges);
     free(weights);
     return status;
