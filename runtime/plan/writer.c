@@ -76,7 +76,10 @@ static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
     writer->text.size = 0;
     if (size == 0 || fwrite(writer->text.data, 1, size, writer->output.stream) == size)
         return TN_OK;
-    return tn_fail(error, TN_IO, errno == EPIPE ? 903 : 902, "%s: %s", writer->path, strerror(errno));
+    const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
+    if (errno == EPIPE)
+        return tn_fail(error, TN_IO, 903, "the reader of %s went away", shown);
+    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", shown, strerror(errno));
 }
 
 static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)

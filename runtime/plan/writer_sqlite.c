@@ -84,64 +84,72 @@ static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata
 
 /* ---- a library that is there */
 
-/* The text of the one value that a query gives, or NULL; the caller frees it. */
-static char *query_text(tn_plan_writer *writer, const char *sql)
+/* The text of the one value that a query gives, or NULL where it gives none; the caller frees it. */
+static tn_status query_text(tn_plan_writer *writer, const char *sql, char **text, tn_error *error)
 {
     sqlite3_stmt *row = NULL;
-    char *text = NULL;
-    if (sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL) == SQLITE_OK && sqlite3_step(row) == SQLITE_ROW) {
+    *text = NULL;
+    int code = sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL);
+    if (code == SQLITE_OK && (code = sqlite3_step(row)) == SQLITE_ROW) {
         const char *found = (const char *)sqlite3_column_text(row, 0);
-        text = found ? strdup(found) : NULL;
+        *text = found ? strdup(found) : NULL;
+        code = found && !*text ? SQLITE_NOMEM : code;
     }
     sqlite3_finalize(row);
-    return text;
+    return code == SQLITE_NOMEM ? tn_fail_memory(error) : TN_OK;
 }
 
 /* Is there nothing in the file yet? Refuses what is there and is no library of ours, so that no other file is written
  * over. */
 static tn_status look(tn_plan_writer *writer, bool *is_new, tn_error *error)
 {
-    char *pages = query_text(writer, "PRAGMA page_count");
-    char *id = query_text(writer, "PRAGMA application_id");
+    char *pages = NULL, *id = NULL;
+    tn_status status = query_text(writer, "PRAGMA page_count", &pages, error);
+    if (status == TN_OK)
+        status = query_text(writer, "PRAGMA application_id", &id, error);
     *is_new = pages && strcmp(pages, "0") == 0;
     bool is_library = id && strtol(id, NULL, 10) == TN_LIBRARY_APPLICATION_ID;
     free(pages);
     free(id);
-    if (*is_new || is_library)
-        return TN_OK;
+    if (status != TN_OK || *is_new || is_library)
+        return status;
     tn_fail(error, TN_IO, 902, "%s: the file is there already, and it is no plan library", writer->path);
     tn_error_help(error, "name another file, or remove this one");
     return TN_IO;
 }
 
-/* Everything that decides which plans come must be as it was. */
+/* One member of the metadata must be as it was. */
+static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item, tn_error *error)
+{
+    char sql[80], *found;
+    sqlite3_snprintf(sizeof sql, sql, "SELECT value FROM metadata WHERE key = '%s'", item->key);
+    tn_status status = query_text(writer, sql, &found, error);
+    bool same = strcmp(found ? found : "", item->value ? item->value : "") == 0;
+    if (status == TN_OK && !same) {
+        status = tn_fail(error, TN_INVALID, 606, "%s: its %s is %.100s, and now it would be %.100s", writer->path,
+                         item->key, found ? found : "not known", item->value ? item->value : "none");
+        tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to start "
+                             "anew");
+    }
+    free(found);
+    return status;
+}
+
+/* Everything that decides which plans come. */
 static tn_status check_metadata(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
 {
     static const char *const decisive[] = {"library_hash", "schema_hash", "command"};
     tn_metadata_room room;
     tn_metadata_item items[TN_METADATA_ITEMS];
     tn_writer_metadata(writer, metadata, &room, items);
+    tn_status status = TN_OK;
     for (size_t i = 0; i < TN_METADATA_ITEMS; i++) {
-        bool decides = false;
-        for (size_t k = 0; k < sizeof decisive / sizeof *decisive; k++)
-            decides = decides || strcmp(items[i].key, decisive[k]) == 0;
-        if (!decides)
-            continue;
-        char sql[80];
-        sqlite3_snprintf(sizeof sql, sql, "SELECT value FROM metadata WHERE key = '%s'", items[i].key);
-        char *found = query_text(writer, sql);
-        bool same = strcmp(found ? found : "", items[i].value ? items[i].value : "") == 0;
-        if (!same)
-            tn_fail(error, TN_INVALID, 606, "%s: its %s is %.100s, and now it would be %.100s", writer->path,
-                    items[i].key, found ? found : "not known", items[i].value ? items[i].value : "none");
-        free(found);
-        if (!same) {
-            tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to "
-                                 "start anew");
-            return TN_INVALID;
+        for (size_t k = 0; k < sizeof decisive / sizeof *decisive; k++) {
+            if (status == TN_OK && strcmp(items[i].key, decisive[k]) == 0)
+                status = check_item(writer, &items[i], error);
         }
     }
-    return TN_OK;
+    return status;
 }
 
 static tn_status find_last(tn_plan_writer *writer, tn_error *error)

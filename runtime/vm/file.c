@@ -77,6 +77,8 @@ tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *
 
 static tn_status cannot_write(const char *path, int reason, tn_error *error)
 {
+    if (reason == ENOMEM)
+        return tn_fail_memory(error);
     if (reason == EPIPE)
         return tn_fail(error, TN_IO, 903, "the reader of %s went away", path);
     return tn_fail(error, TN_IO, 902, "cannot write %s: %s", path, strerror(reason ? reason : EIO));
