@@ -4,32 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/compile.h"
 #include "runtime/plan/text.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/lahave.h"
 
 enum { TRAYS = 64 };
-
-static void stop(const char *why)
-{
-    fprintf(stderr, "%s\n", why);
-    abort();
-}
-
-static const tn_schema *lahave(void)
-{
-    static tn_schema *schema;
-    static tn_compilation compilation;
-    static tn_module *module;
-    tn_error error;
-    if (schema)
-        return schema;
-    if (tn_compile_file(TARTAN_SOURCE_DIR "/stdlib/lahave.plan", &(tn_compile_options){0}, &compilation) != TN_OK ||
-        tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error) != TN_OK ||
-        tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
-        stop("stdlib/lahave.plan does not compile");
-    return schema;
-}
 
 typedef tn_status reader(const tn_schema *schema, const char *text, size_t size, size_t max_trays, tn_plan *plan,
                          tn_error *error);

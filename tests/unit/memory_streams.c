@@ -124,7 +124,7 @@ static void test_out_of_memory(void **state)
     test_schema_add(builder, &test_schema_house);
     context c = {.rules = 5};
     for (uint32_t r = 0; r < c.rules; r++) {
-        char name[8];
+        char name[16];
         snprintf(name, sizeof name, "r%u", (unsigned)r);
         test_rule *rule = test_rule_random(&random, &test_schema_house, 3, true);
         test_rule_add(builder, name, rule);
