@@ -12,6 +12,7 @@
 #define INSET 26.0  /* from the frame to the plans */
 #define COLUMN_GAP 30.0
 #define ROW_GAP 20.0
+#define STRIP_PAPER 1296.0 /* width of the paper that the strip is made for: ARCH B, 18 inches */
 #define NUMBER_ROOM 12.0
 #define NUMBER_SIZE 6.2
 #define LEGIBLE_SIZE 5.5 /* of the dimensions, which with some room choose the smallest good scale */
@@ -54,9 +55,20 @@ static double room_across(double width)
     return width - 2 * (MARGIN + INSET);
 }
 
-static double room_down(double height)
+/* The strip grows with the paper, as on sheets that are read from further away. */
+static double strip_zoom(double width)
 {
-    return height - 2 * (MARGIN + INSET) - TN_STRIP_HEIGHT;
+    return fmax(0.7, fmin(width / STRIP_PAPER, 1.6));
+}
+
+static double strip_height(double width)
+{
+    return TN_STRIP_HEIGHT * strip_zoom(width);
+}
+
+static double room_down(double width, double height)
+{
+    return height - 2 * (MARGIN + INSET) - strip_height(width);
 }
 
 /* How many cells of this size, with gaps between, there is room for. */
@@ -73,7 +85,7 @@ static bool lay_out(drawing *d, const tn_paper *paper, double factor)
     d->columns = how_many(room_across(paper->width), d->cell_width, COLUMN_GAP);
     if (d->options->columns)
         d->columns = d->options->columns <= d->columns ? d->options->columns : 0;
-    d->rows = how_many(room_down(paper->height), d->cell_height, ROW_GAP);
+    d->rows = how_many(room_down(paper->width, paper->height), d->cell_height, ROW_GAP);
     return d->columns > 0 && d->rows > 0;
 }
 
@@ -145,6 +157,8 @@ static void lay_out_plans(drawing *d, const tn_paper *papers, size_t paper_count
                      : choose_scale(d, &papers[i], most, false))
             return;
     }
+    if (!d->options->scale && d->options->paper && choose_scale(d, usual, 2 * most, false))
+        return; /* the paper was asked for: rather a little too small than more paper */
     d->scale = d->options->scale;
     if (d->scale)
         lay_out(d, usual, TN_POINTS_PER_NM / d->scale);
@@ -164,7 +178,7 @@ static void lay_out_tables(drawing *d, const tn_paper *papers, size_t paper_coun
     if (lay_out(d, usual, 1))
         return;
     double across = room_across(usual->width) / d->extent.width,
-           down = (room_down(usual->height) - NUMBER_ROOM) / tn_draw_table_height(&d->table, &d->roles);
+           down = (room_down(usual->width, usual->height) - NUMBER_ROOM) / tn_draw_table_height(&d->table, &d->roles);
     lay_out(d, usual, fmin(across, down));
 }
 
@@ -196,8 +210,7 @@ static tn_status choose_layout(drawing *d, tn_error *error)
         lay_out_tables(d, papers, paper_count);
     if (d->columns > 0 && (d->rows > 0 || d->format != TN_CANVAS_PDF))
         return TN_OK;
-    tn_status status =
-        tn_fail(error, TN_LIMIT, 820, "the plans do not fit on the paper as asked for (at 1:%u)", d->scale);
+    tn_status status = tn_fail(error, TN_LIMIT, 820, "the plans do not fit on the paper as asked for");
     tn_error_help(error,
                   "choose a larger --paper, a smaller --scale (a larger number) or fewer --columns, or leave them out");
     return status;
@@ -212,12 +225,13 @@ static void fit_sheet(drawing *d)
     if (d->format == TN_CANVAS_PDF || needed <= d->rows)
         return;
     d->rows = needed;
-    d->height = 2 * (MARGIN + INSET) + TN_STRIP_HEIGHT + (double)needed * (d->cell_height + ROW_GAP) - ROW_GAP;
+    d->height = 2 * (MARGIN + INSET) + strip_height(d->width) + (double)needed * (d->cell_height + ROW_GAP) - ROW_GAP;
 }
 
 static void draw_frame(const drawing *d, cairo_t *context, size_t page, size_t pages)
 {
-    double width = d->width - 2 * MARGIN, strip = d->height - MARGIN - TN_STRIP_HEIGHT;
+    double width = d->width - 2 * MARGIN, zoom = strip_zoom(d->width),
+           strip = d->height - MARGIN - strip_height(d->width);
     cairo_rectangle(context, MARGIN, MARGIN, width, d->height - 2 * MARGIN);
     cairo_set_line_width(context, TN_LINE_CUT);
     cairo_stroke(context);
@@ -225,7 +239,11 @@ static void draw_frame(const drawing *d, cairo_t *context, size_t page, size_t p
     cairo_line_to(context, MARGIN + width, strip);
     cairo_set_line_width(context, TN_LINE_CUT);
     cairo_stroke(context);
-    tn_draw_strip(context, &d->roles, d->options, d->scale, page, pages, MARGIN, strip, width);
+    cairo_save(context);
+    cairo_translate(context, MARGIN, strip);
+    cairo_scale(context, zoom, zoom);
+    tn_draw_strip(context, &d->roles, d->options, d->scale, zoom, page, pages, width / zoom);
+    cairo_restore(context);
 }
 
 static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double baseline)
@@ -269,7 +287,7 @@ static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t p
 {
     size_t on_page = d->columns * d->rows, left = d->count - first, here = left < on_page ? left : on_page;
     size_t columns = here < d->columns ? here : d->columns, rows = columns ? (here + d->columns - 1) / d->columns : 0;
-    double across = room_across(d->width), down = room_down(d->height);
+    double across = room_across(d->width), down = room_down(d->width, d->height);
     double column_gap = spread(across, d->cell_width, d->columns, COLUMN_GAP),
            row_gap = spread(down, d->cell_height, rows, ROW_GAP);
     double used = d->cell_width * (double)columns + column_gap * (columns ? (double)columns - 1 : 0);

@@ -79,9 +79,10 @@ double tn_draw_table_height(const tn_draw_table *table, const tn_draw_roles *rol
 void tn_draw_table_plan(cairo_t *context, const tn_draw_roles *roles, const tn_draw_table *table,
                         const tn_drawn_plan *plan, double x, double y);
 
-/* The strip along the bottom of a sheet: key, legend, title and how it was made. `scale` 0: not to scale. */
+/* The strip along the bottom of a sheet: key, legend, title and how it was made. Its upper left corner is the origin.
+ * `scale` 0: not to scale; otherwise the bar allows for the strip itself being drawn `zoom` times as large. */
 #define TN_STRIP_HEIGHT 118.0
 void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
-                   size_t page, size_t pages, double x, double y, double width);
+                   double zoom, size_t page, size_t pages, double width);
 
 #endif

@@ -241,7 +241,7 @@ static void list_fields(strip *s)
 }
 
 /* The scale in words, and a bar of four steps, each the schema's smallest length. */
-static void draw_scale(const strip *s, uint32_t scale)
+static void draw_scale(const strip *s, uint32_t scale, double zoom)
 {
     const tn_draw_roles *roles = s->roles;
     const tn_schema *schema = roles->schema;
@@ -254,7 +254,7 @@ static void draw_scale(const strip *s, uint32_t scale)
     for (uint32_t v = schema->value_start[roles->length]; v < schema->value_start[roles->length + 1]; v++)
         if (schema->values[v].length > 0 && schema->values[v].length < step)
             step = schema->values[v].length;
-    double width = (double)step * TN_POINTS_PER_NM / scale, room = SCALE_WIDTH - 2 * PADDING - 4;
+    double width = (double)step * TN_POINTS_PER_NM / scale / zoom, room = SCALE_WIDTH - 2 * PADDING - 4;
     int steps = (int)fmin(4, floor(room / width));
     double x = s->x + PADDING + 1, y = s->y + 48;
     tn_type_face(s->context, HEADING_SIZE, false);
@@ -305,11 +305,11 @@ static void draw_title(const strip *s, const tn_draw_options *options, size_t pa
 }
 
 void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
-                   size_t page, size_t pages, double x, double y, double width)
+                   double zoom, size_t page, size_t pages, double width)
 {
     double key = scale ? KEY_WIDTH : 0, bar = scale ? SCALE_WIDTH : 0,
            title = fmin(TITLE_WIDTH, (width - key - bar) * 0.5);
-    strip s = {context, roles, x, y, .width = width - key - bar - title};
+    strip s = {context, roles, .width = width - key - bar - title};
     if (scale) {
         draw_key(&s);
         s.x += key;
@@ -321,7 +321,7 @@ void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_o
     s.x += s.width;
     divider(&s, s.x);
     if (scale) {
-        draw_scale(&s, scale);
+        draw_scale(&s, scale, zoom);
         s.x += bar;
         divider(&s, s.x);
     }
