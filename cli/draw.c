@@ -232,6 +232,11 @@ static void draw_file(tn_session *session, const char *path)
     tn_schema_free(schema);
 }
 
+static bool is_sampled(const tn_settings *settings)
+{
+    return settings->sample.given || settings->per_length.given;
+}
+
 static bool check_options(tn_session *session)
 {
     const tn_settings *settings = session->settings;
@@ -241,8 +246,10 @@ static bool check_options(tn_session *session)
         tn_session_usage(session, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
     else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
         tn_session_fail(session, &error);
-    else if ((settings->sample.given || settings->per_length.given) && settings->operands.count > 1)
+    else if (is_sampled(settings) && settings->operands.count > 1)
         tn_session_usage(session, "draw either a file of plans or a --sample, not both");
+    else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->trays.given))
+        tn_session_usage(session, "--seed, --length and --trays say what is sampled: give --sample N too");
     else
         return true;
     return false;
@@ -254,8 +261,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_session session;
     tn_session_begin(&session, settings);
     if (check_options(&session)) {
-        const char *path =
-            settings->sample.given || settings->per_length.given ? NULL : tn_session_plans_path(&session);
+        const char *path = is_sampled(settings) ? NULL : tn_session_plans_path(&session);
         if (path)
             draw_file(&session, path);
         else if (session.exit_code == TN_EXIT_DONE)

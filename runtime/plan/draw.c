@@ -192,6 +192,14 @@ static tn_status choose_layout(drawing *d, tn_error *error)
             return status;
         paper_count = 1;
     }
+    if (d->options->scale && !d->roles.to_scale) {
+        tn_status status = tn_fail(error, TN_INVALID, 904,
+                                   "the plans cannot be drawn to scale: the schema has no field of role length "
+                                   "and zone of role band");
+        tn_error_help(error,
+                      "leave --scale out, or say in the schema which field is the length and which zones are bands");
+        return status;
+    }
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     cairo_t *context = cairo_create(surface);
     double most = d->roles.to_scale ? legible_scale(d, context) : 0;

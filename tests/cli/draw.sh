@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# draw: pictures of the kind that the name asks for, the same bytes each time, with what has to be on them.
+name=draw
+. "$(dirname "$0")/golden.bash"
+sheds=$files/sheds.plan
+rows=$files/rows.plan
+
+for kind in svg png pdf; do
+    "$TARTAN" draw "$rows" --sample 12 --seed 3 -o "$scratch/a.$kind"
+    sleep 1.1 # past the second, in case a picture carries the time
+    "$TARTAN" draw "$rows" --sample 12 --seed 3 --threads 1 -o "$scratch/b.$kind"
+    cmp -s "$scratch/a.$kind" "$scratch/b.$kind" || fail "$kind: the same sheet has other bytes"
+    "$TARTAN" draw "$rows" --sample 12 --seed 4 -o "$scratch/c.$kind"
+    cmp -s "$scratch/a.$kind" "$scratch/c.$kind" && fail "$kind: another seed gives the same sheet"
+done
+is 'PNG' "$(head -c 4 "$scratch/a.png" | tail -c 3)" PNG
+is 'PDF' "$(head -c 4 "$scratch/a.pdf")" %PDF
+python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/a.svg" || fail 'the SVG is not well-formed'
+
+# Plans from a file or a pipe, by line or by rank; tables where the schema has no roles; more plans than a page holds.
+"$TARTAN" enumerate "$rows" --limit 5 >"$scratch/plans"
+"$TARTAN" draw "$rows" "$scratch/plans" -o "$scratch/file.svg"
+"$TARTAN" draw "$rows" -o "$scratch/pipe.svg" <"$scratch/plans"
+[ -s "$scratch/file.svg" ] && [ -s "$scratch/pipe.svg" ] || fail 'plans from a file or a pipe are not drawn'
+"$TARTAN" draw "$sheds" --library sheds --sample 5 -o "$scratch/table.svg"
+"$TARTAN" enumerate "$sheds" -l any-sheds --limit 1 | "$TARTAN" draw "$sheds" - -o "$scratch/empty.svg"
+"$TARTAN" draw "$rows" --sample 400 --paper a4 -o "$scratch/pages.pdf"
+[ "$(grep -ac '/Type /Page$' "$scratch/pages.pdf")" -gt 3 ] || fail 'four hundred plans are on few pages'
+"$TARTAN" draw "$rows" --sample 3 --columns 1 --scale 100 --paper a2 --dpi 40 --title 'Three' -o "$scratch/options.png"
+
+golden too_many_plans "tartan draw rows.plan --sample 60 --max-plans 50 -o $scratch/x.svg"
+golden too_many_pixels "tartan draw rows.plan --sample 60 --dpi 2400 -o $scratch/x.png"
+golden unknown_paper "tartan draw rows.plan --sample 6 --paper a9 -o $scratch/x.png"
+golden does_not_fit "tartan draw rows.plan --sample 6 --paper a4 --scale 2 -o $scratch/x.pdf"
+golden no_scale_for_tables "tartan draw sheds.plan --library sheds --sample 5 --scale 100 -o $scratch/x.svg"
+golden bad_plan "printf '9m -\n' | tartan draw sheds.plan - -o $scratch/x.svg"
+golden bad_plan_skipped "printf '9m -\n3m -\n' | tartan draw sheds.plan - --on-error skip -o $scratch/x.svg"
+finish

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# enumerate: everything once, in order, any stretch of it, in every format.
+name=enumerate
+. "$(dirname "$0")/golden.bash"
+
+golden lines 'tartan enumerate sheds.plan -l sheds'
+golden json 'tartan enumerate sheds.plan -l sheds --format json --limit 2'
+golden csv 'tartan enumerate sheds.plan -l sheds --format csv --from 1 --to 4'
+golden mirror 'tartan enumerate sheds.plan -l sheds --mirror --format csv'
+golden past_the_end 'tartan enumerate sheds.plan -l sheds --from 999'
+golden resume_lines "tartan enumerate sheds.plan -l sheds --resume -o $scratch/x.txt"
+
+all() {
+    "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..5 "$@"
+}
+all >"$scratch/all"
+is 'all plans' "$(wc -l <"$scratch/all")" $((1 + 4 + 16 + 64 + 256 + 1024))
+is 'different plans' "$(sort -u "$scratch/all" | wc -l)" 1365
+{ all --to 700 && all --from 700; } | cmp - "$scratch/all" || fail 'two halves are not the whole'
+all --from 100 --limit 7 >"$scratch/stretch"
+sed -n 101,107p "$scratch/all" | cmp - "$scratch/stretch" || fail 'a stretch is not where it should be'
+for format in json csv bin sqlite; do
+    all --format $format -o "$scratch/plans.$format"
+    "$TARTAN" prune "$files/sheds.plan" "$scratch/plans.$format" -l any-sheds --trays 0..5 | cmp -s - "$scratch/all" ||
+        fail "$format does not read back as it was written"
+done
+finish

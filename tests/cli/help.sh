@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Every command explains itself: usage, every option, an example; in lines that fit a terminal.
+name=help
+. "$(dirname "$0")/golden.bash"
+
+golden overview 'tartan help'
+golden count 'tartan help count'
+golden draw 'tartan draw --help'
+
+for command in $("$TARTAN" help | sed -n 's/^  \([a-z]*\)  .*/\1/p' | grep -v '^tartan$'); do
+    text=$("$TARTAN" help "$command")
+    is "$command --help" "$("$TARTAN" "$command" --help)" "$text"
+    for heading in Usage: Options: Example:; do
+        grep -q "^$heading" <<<"$text" || fail "help $command has no $heading"
+    done
+    grep -q "^  \$ .*tartan $command " <<<"$text" || fail "help $command has no example of its own"
+    grep -q -- '--diagnostics' <<<"$text" || fail "help $command does not list --diagnostics"
+    [ "$(awk 'length > 100' <<<"$text")" = '' ] || fail "help $command has a long line"
+done
+[ "$("$TARTAN" help | grep -c '^  [a-z]* ')" -ge 12 ] || fail 'some commands are missing'
+finish

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Output that cannot be written is an error (3); a reader that goes away is not.
+name=output
+. "$(dirname "$0")/golden.bash"
+sheds=$files/sheds.plan
+printf '3m door\n3m -\n' >"$scratch/plans"
+
+commands=("help" "--version" "count $sheds -l sheds" "count $sheds -l sheds --json" "test $sheds" "disasm $sheds" "match $sheds $scratch/plans"
+    "prune $sheds $scratch/plans -l sheds" "enumerate $sheds -l sheds" "sample $sheds 3 -l sheds" "unrank $sheds 0 -l sheds")
+for command in "${commands[@]}"; do
+    if [ -w /dev/full ]; then
+        code=0
+        # shellcheck disable=SC2086
+        "$TARTAN" $command >/dev/full 2>"$scratch/err" || code=$?
+        is "full disk, $command" "$code" 3
+        grep -q 'E0902' "$scratch/err" || fail "full disk, $command: no E0902"
+    fi
+    code=0
+    # The reader is gone before anything is written.
+    # shellcheck disable=SC2086
+    { sleep 0.2; "$TARTAN" $command 2>"$scratch/err" || echo $? >"$scratch/code"; } | true
+    [ ! -e "$scratch/code" ] || fail "closed pipe, $command: exit $(cat "$scratch/code")"
+    rm -f "$scratch/code"
+    [ ! -s "$scratch/err" ] || fail "closed pipe, $command: $(head -n 1 "$scratch/err")"
+done
+# A reader that goes away in the middle of much output.
+"$TARTAN" enumerate "$sheds" -l any-sheds --trays 0..9 2>"$scratch/err" | head -n 3 >/dev/null
+is 'closed pipe in the middle' "${PIPESTATUS[0]}" 0
+[ ! -s "$scratch/err" ] || fail "closed pipe in the middle: $(head -n 1 "$scratch/err")"
+
+for output in "$scratch/no/such/folder/x" "$scratch"; do
+    exits 3 "$TARTAN" build "$sheds" -o "$output"
+    exits 3 "$TARTAN" enumerate "$sheds" -l sheds -o "$output"
+    exits 3 "$TARTAN" count "$sheds" -l sheds -o "$output"
+done
+exits 3 "$TARTAN" draw "$sheds" --sample 2 -l sheds -o "$scratch/no/such/folder/x.svg"
+
+# What was there stays as it was where writing fails, and nothing is left beside it.
+mkdir "$scratch/out"
+echo old >"$scratch/out/x.tnb"
+exits 1 "$TARTAN" build "$scratch/plans" -o "$scratch/out/x.tnb"
+is 'the old file' "$(cat "$scratch/out/x.tnb")" old
+is 'files in the folder' "$(ls "$scratch/out")" x.tnb
+finish

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Wrong usage is told in words, with what was probably meant, and exits with 2.
+name=usage
+. "$(dirname "$0")/golden.bash"
+
+golden no_command 'tartan'
+golden unknown_command 'tartan cuont sheds.plan'
+golden hopeless_command 'tartan xyzzy'
+golden unknown_global_option 'tartan --verison'
+golden unknown_option 'tartan count sheds.plan --librry x'
+golden unknown_option_with_value 'tartan count sheds.plan --librry=x'
+golden unknown_letter 'tartan count -q sheds.plan'
+golden missing_argument 'tartan count sheds.plan --library'
+golden flag_with_argument 'tartan count sheds.plan --json=yes'
+golden bad_choice 'tartan match sheds.plan --format bit'
+golden bad_number 'tartan count sheds.plan --threads many'
+golden number_out_of_range 'tartan count sheds.plan --threads 0'
+golden huge_number 'tartan count sheds.plan --max-states 99999999999999999999999999'
+golden bad_range 'tartan count sheds.plan --trays 1-3'
+golden empty_range 'tartan count sheds.plan --trays 3..1'
+golden bad_rank 'tartan enumerate sheds.plan --from -1'
+golden bad_rank_operand 'tartan unrank sheds.plan twelve'
+golden missing_operand 'tartan count'
+golden too_many_operands 'tartan count sheds.plan sheds.plan'
+golden no_sample_size 'tartan sample sheds.plan'
+golden bad_sample_size 'tartan sample sheds.plan some'
+golden sample_length_and_per_length 'tartan sample sheds.plan --per-length 2 --length 3'
+golden two_inputs 'tartan match - -'
+golden resume_without_output 'tartan enumerate sheds.plan --resume'
+golden draw_without_output 'tartan draw sheds.plan --sample 2 --library sheds'
+golden draw_extension 'tartan draw sheds.plan --sample 2 --library sheds -o sheet.gif'
+golden draw_two_sources 'tartan draw sheds.plan plans.txt --sample 2 -o sheet.svg'
+golden unknown_library 'tartan count sheds.plan --library shed'
+golden several_libraries 'tartan count sheds.plan'
+golden unknown_rule 'tartan match sheds.plan --rule door-pairs'
+golden json 'tartan count sheds.plan --diagnostics json --librry x'
+golden help_unknown 'tartan help rnak'
+
+# Everything after -- is an operand.
+exits 3 "$TARTAN" count -- --json
+exits 0 "$TARTAN" count "$files/sheds.plan" -l sheds
+exits 0 "$TARTAN" count "$files/sheds.plan" -lsheds
+exits 0 "$TARTAN" count "$files/sheds.plan" --library=sheds
+exits 0 "$TARTAN" --version
+finish
