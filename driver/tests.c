@@ -184,6 +184,15 @@ static void note_place(const block *b, tn_diagnostic *diagnostic, const char *na
             doc);
 }
 
+/* The rule that a clause names, or NULL where it is an expression of its own. */
+static const tn_rule_record *rule_of(const tn_module *module, const tn_clause_record *clause)
+{
+    for (size_t i = 0; i < module->RULE_count; i++)
+        if (module->RULE_records[i].holds == clause->holds)
+            return &module->RULE_records[i];
+    return NULL;
+}
+
 static void note_rule(const block *b, const tn_test_case *test, tn_diagnostic *diagnostic)
 {
     if (!b->library) {
@@ -196,7 +205,13 @@ static void note_rule(const block *b, const tn_test_case *test, tn_diagnostic *d
         bool named = false;
         for (size_t k = 0; k < test->by_count; k++)
             named |= strcmp(test->by[k], rule_name(b, i)) == 0;
-        if (named || tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+        if (!named && !tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+            continue;
+        const tn_rule_record *rule = rule_of(b->module, clause);
+        if (rule)
+            note_place(b, diagnostic, rule_name(b, i), tn_text(b->module, rule->doc), rule->file, rule->begin,
+                       rule->end);
+        else
             note_place(b, diagnostic, rule_name(b, i), tn_text(b->module, clause->doc), clause->file, clause->begin,
                        clause->end);
     }

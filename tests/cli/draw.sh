@@ -25,7 +25,18 @@ python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/a.
 "$TARTAN" draw "$sheds" --library sheds --sample 5 -o "$scratch/table.svg"
 "$TARTAN" enumerate "$sheds" -l any-sheds --limit 1 | "$TARTAN" draw "$sheds" - -o "$scratch/empty.svg"
 "$TARTAN" draw "$rows" --sample 400 --paper a4 -o "$scratch/pages.pdf"
-[ "$(grep -ac '/Type /Page$' "$scratch/pages.pdf")" -gt 3 ] || fail 'four hundred plans are on few pages'
+pages=$(python3 - "$scratch/pages.pdf" <<'PYTHON'
+import re, sys, zlib
+data = open(sys.argv[1], "rb").read()
+for stream in re.findall(rb"stream\r?\n(.*?)endstream", data, re.S):
+    try:
+        data += zlib.decompress(stream)
+    except zlib.error:
+        pass
+print(len(re.findall(rb"/Type\s*/Page\b", data)))
+PYTHON
+)
+[ "$pages" -gt 3 ] || fail "four hundred plans are on $pages pages"
 "$TARTAN" draw "$rows" --sample 3 --columns 1 --scale 100 --paper a2 --dpi 40 --title 'Three' -o "$scratch/options.png"
 
 golden too_many_plans "tartan draw rows.plan --sample 60 --max-plans 50 -o $scratch/x.svg"

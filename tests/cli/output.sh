@@ -36,9 +36,9 @@ done
 exits 3 "$TARTAN" draw "$sheds" --sample 2 -l sheds -o "$scratch/no/such/folder/x.svg"
 
 # What was there stays as it was where writing fails, and nothing is left beside it.
-mkdir "$scratch/out"
-echo old >"$scratch/out/x.tnb"
-exits 1 "$TARTAN" build "$scratch/plans" -o "$scratch/out/x.tnb"
-is 'the old file' "$(cat "$scratch/out/x.tnb")" old
-is 'files in the folder' "$(ls "$scratch/out")" x.tnb
+mkdir "$scratch/folder"
+echo old >"$scratch/folder/x.tnb"
+exits 1 "$TARTAN" build "$scratch/plans" -o "$scratch/folder/x.tnb"
+is 'the old file' "$(cat "$scratch/folder/x.tnb")" old
+is 'files in the folder' "$(ls "$scratch/folder")" x.tnb
 finish

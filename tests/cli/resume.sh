@@ -4,9 +4,7 @@ name=resume
 . "$(dirname "$0")/golden.bash"
 command -v sqlite3 >/dev/null || exit 77
 
-enumerate() {
-    "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..9 "$@"
-}
+enumerate=("$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..9)
 contents() {
     python3 - "$1" <<'PYTHON'
 import sqlite3, sys
@@ -16,7 +14,7 @@ for (table,) in sorted(db.execute("select name from sqlite_master where type = '
         print(table, row)
 PYTHON
 }
-enumerate -o "$scratch/whole.sqlite"
+"${enumerate[@]}" -o "$scratch/whole.sqlite"
 contents "$scratch/whole.sqlite" >"$scratch/whole"
 [ "$(wc -l <"$scratch/whole")" -gt 349525 ] || fail 'the database lacks plans'
 
@@ -24,14 +22,14 @@ broken=0
 for delay in 0.05 0.1 0.2 0.3 0.4; do
     for signal in KILL TERM; do
         rm -f "$scratch/part.sqlite"*
-        enumerate -o "$scratch/part.sqlite" 2>/dev/null &
+        "${enumerate[@]}" -o "$scratch/part.sqlite" 2>/dev/null &
         pid=$!
         sleep "$delay"
         if kill -$signal "$pid" 2>/dev/null; then
             broken=$((broken + 1))
         fi
         wait "$pid" 2>/dev/null || true
-        enumerate -o "$scratch/part.sqlite" --resume 2>/dev/null || fail "cannot resume after SIG$signal at ${delay}s"
+        "${enumerate[@]}" -o "$scratch/part.sqlite" --resume 2>/dev/null || fail "cannot resume after SIG$signal at ${delay}s"
         contents "$scratch/part.sqlite" | cmp -s - "$scratch/whole" || fail "another database after SIG$signal at ${delay}s"
     done
 done
@@ -39,5 +37,5 @@ done
 
 # Another library, or another stretch of it, is not gone on with.
 exits 1 "$TARTAN" enumerate "$files/sheds.plan" -l sheds -o "$scratch/part.sqlite" --resume
-exits 1 enumerate --from 5 -o "$scratch/part.sqlite" --resume
+exits 1 "${enumerate[@]}" --from 5 -o "$scratch/part.sqlite" --resume
 finish
