@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/digits.h"
 #include "cli/library_session.h"
 #include "cli/option_rows.h"
 
@@ -77,25 +78,6 @@ static tn_status count_all(counts *c, tn_error *error)
     return status;
 }
 
-/* A number's digits; grouped by commas for people. The caller frees them; NULL where out of memory. */
-static char *digits_of(const mpz_t number, bool grouped)
-{
-    char *plain = mpz_get_str(NULL, 10, number);
-    if (!plain || !grouped)
-        return plain;
-    size_t length = strlen(plain), used = 0;
-    char *text = malloc(length + length / 3 + 1);
-    for (size_t i = 0; text && i < length; i++) {
-        if (i > 0 && (length - i) % 3 == 0 && plain[i - 1] != '-')
-            text[used++] = ',';
-        text[used++] = plain[i];
-    }
-    if (text)
-        text[used] = '\0';
-    free(plain);
-    return text;
-}
-
 /* How wide a column of numbers has to be for its largest. */
 static int column_width(const mpz_t largest, const char *heading)
 {
@@ -106,7 +88,7 @@ static int column_width(const mpz_t largest, const char *heading)
 
 static void write_number(const mpz_t number, int width, FILE *out)
 {
-    char *text = digits_of(number, true);
+    char *text = tn_digits(number, true);
     fprintf(out, "  %*s", width, text ? text : "?");
     free(text);
 }
@@ -168,9 +150,9 @@ static void write_text(const counts *c, FILE *out)
     mpz_t pruned;
     mpz_init(pruned);
     mpz_sub(pruned, total->generated, total->kept);
-    char *text = digits_of(pruned, true);
-    fprintf(out, "%s%s%s\n%s plans are pruned; %u states\n\n", tn_text(module, c->ready->record->name),
-            *doc ? ": " : "", doc, text ? text : "?", tn_library_states(c->ready->library));
+    char *text = tn_digits(pruned, true);
+    fprintf(out, "%s%s%s\npruned: %s\nstates: %u\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
+            text ? text : "?", tn_library_states(c->ready->library));
     free(text);
     mpz_clear(pruned);
     write_lengths(c, out);
@@ -179,7 +161,7 @@ static void write_text(const counts *c, FILE *out)
 
 static void set_number(json_t *object, const char *key, const mpz_t number)
 {
-    char *text = digits_of(number, false);
+    char *text = tn_digits(number, false);
     json_object_set_new(object, key, json_string(text ? text : ""));
     free(text);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/digits.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
 #include "cli/sampled.h"
@@ -109,7 +110,7 @@ static bool read_plans(sheet *s, const char *path)
         }
     }
     tn_plan_reader_free(reader);
-    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plans from %s", s->count,
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plan%s from %s", s->count, s->count == 1 ? "" : "s",
              strcmp(path, "-") == 0 ? "standard input" : path);
     return going;
 }
@@ -136,7 +137,7 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
     mpz_t kept;
     mpz_init(kept);
     tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
-    char *digits = mpz_get_str(NULL, 10, kept);
+    char *digits = tn_digits(kept, true);
     tn_library_hash(ready->library, hash);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
              digits ? digits : "?", s->session->settings->seed.value);
@@ -165,7 +166,7 @@ static void note_rules(sheet *s)
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     int used = snprintf(s->notes[s->note_count], NOTE_SIZE, "%.160s", slash ? slash + 1 : path);
     if (producer && used < NOTE_SIZE)
-        snprintf(s->notes[s->note_count] + used, (size_t)(NOTE_SIZE - used), ", rules %016" PRIx64 ", tartan %.40s",
+        snprintf(s->notes[s->note_count] + used, (size_t)(NOTE_SIZE - used), ", rules %016" PRIx64 ", %.60s",
                  (uint64_t)producer->sources_hash, tn_text(module, producer->version));
     s->note_count++;
 }

@@ -51,12 +51,14 @@ static bool draw(tn_session *session, const tn_library *library, uint32_t length
     sampled->count += found;
     if (found == wanted)
         return true;
+    const char *plural = found == 1 ? "" : "s";
     if (length == TN_ALL_LENGTHS)
-        tn_session_note(session, "the library holds %zu plans, fewer than the %zu asked for: these are all", found,
-                        wanted);
+        tn_session_note(session, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found,
+                        plural, wanted);
     else
-        tn_session_note(session, "the library holds %zu plans of %u trays, fewer than the %zu asked for: these are all",
-                        found, length, wanted);
+        tn_session_note(session,
+                        "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all", found,
+                        plural, length, wanted);
     return true;
 }
 
