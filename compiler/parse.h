@@ -35,6 +35,9 @@ typedef struct tn_parse {
     uint32_t stray_end; /* where the last stray character ended: a run of them is reported once */
 
     bool too_deep; /* nesting was reported */
+
+    size_t pool_used;
+    _Alignas(max_align_t) unsigned char pool[1024]; /* for flex's own few bytes of state */
 } tn_parse;
 
 /* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. */

@@ -487,10 +487,13 @@ tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_
     if (!parse.result || !tn_text_check(diagnostics, file))
         return parse.result ? tn_ast_unread(parse.result) : NULL;
     yyscan_t scanner;
-    if (tn_plan_lex_init_extra(&parse, &scanner) != 0)
-        return NULL;
     parse.offset = (uint32_t)tn_text_mark(source->text, source->size);
-    bool scanned = tn_plan__scan_bytes(source->text + parse.offset, (int)(source->size - parse.offset), scanner) != NULL;
+    size_t size = source->size - parse.offset;
+    char *text = tn_arena_alloc(arena, size + 2); /* flex marks its tokens in the text, and wants two zero bytes after it */
+    if (!text || tn_plan_lex_init_extra(&parse, &scanner) != 0)
+        return NULL;
+    memcpy(text, source->text + parse.offset, size);
+    bool scanned = tn_plan__scan_buffer(text, size + 2, scanner) != NULL;
     int outcome = scanned ? tn_plan_parse(&parse, scanner) : 2;
     tn_plan_lex_destroy(scanner);
     if (outcome == 2 && !parse.too_deep)
