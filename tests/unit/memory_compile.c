@@ -60,7 +60,7 @@ static void compile_with_failures(const char *text, bool is_good)
             bool worked = compile(text);
             if (stop_failing() <= number) {
                 assert_int_equal(worked, is_good);
-                assert_true(number > 100); /* it allocates, or the test tests nothing */
+                assert_true(number > 20); /* it allocates, or the test tests nothing */
                 break;
             }
             assert_true(is_good || !worked);
