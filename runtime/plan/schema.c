@@ -48,7 +48,7 @@ static tn_status too_many(const tn_schema *schema, uint64_t limit, tn_error *err
 {
     tn_fail(error, TN_LIMIT, 803, "schema %s has more combinations of values than the limit of %llu",
             tn_text(schema->module, schema->record->name), (unsigned long long)limit);
-    tn_error_help(error, "name fewer values, or fewer fields; --max-combinations raises the limit");
+    tn_error_help(error, "name fewer values, or fewer fields: every legal tray has a number and a place in a table");
     return TN_LIMIT;
 }
 

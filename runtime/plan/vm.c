@@ -63,7 +63,7 @@ static tn_status out_of_room(const tn_plan_vm *vm, tn_error *error)
 {
     tn_fail(error, TN_LIMIT, 807, "matching a plan of %zu trays needs more memory than the limit of %llu bytes",
             vm->length, (unsigned long long)vm->memory_limit);
-    tn_error_help(error, "match shorter plans, or rules with fewer parts");
+    tn_error_help(error, "match shorter plans, or by automata (--engine=dfa), which need neither");
     return TN_LIMIT;
 }
 
@@ -333,7 +333,7 @@ static tn_status spend(tn_plan_vm *vm, const tn_instruction *op, uint32_t offset
     }
     tn_fail(error, TN_LIMIT, 808, "matching a plan of %zu trays takes more than the limit of %llu steps", vm->length,
             (unsigned long long)vm->work_limit);
-    tn_error_help(error, "match shorter plans, or rules with fewer parts");
+    tn_error_help(error, "match shorter plans, or by automata (--engine=dfa), which need neither");
     if (error)
         error->code_offset = offset;
     return TN_LIMIT;
