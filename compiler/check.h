@@ -111,6 +111,7 @@ typedef struct tn_checked_library {
     uint32_t trays_min, trays_max;
     tn_ast_list allow;
     int state;
+    bool broken; /* what it is made from is not known */
     uint32_t index;
 } tn_checked_library;
 

@@ -9,6 +9,7 @@ typedef struct tn_condition_builder {
     tn_checked_condition *condition;
     uint32_t field;                /* whose lengths are added, or TN_NONE */
     const tn_ast_word *variable;   /* as first written */
+    bool warned;                   /* about a remainder: nothing more is said about the whole */
 } tn_condition_builder;
 
 /* ---- steps */
@@ -66,7 +67,7 @@ static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
         tn_help(check->diagnostics, d, "write it with its unit, such as `%s'` or `%sm`", word->text, word->text);
     } else {
         d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "trays are counted, and `%s` is a length", word->text);
-        tn_help(check->diagnostics, d, "write a plain number, or add lengths up with `sum(FIELD of ..., w > %s)`", word->text);
+        tn_help(check->diagnostics, d, "write a plain number; lengths are added up by `sum(FIELD, w > %s)` or `total`", word->text);
     }
     return false;
 }
@@ -152,16 +153,17 @@ static void add_within(tn_condition_builder *b, const tn_ast_cond *cond)
         fail(b);
 }
 
-static void warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
+static bool warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!tn_check_wanted(b->check, W_REMAINDER_NEVER))
-        return;
+        return false;
     tn_diagnostic *d = tn_report(b->check->diagnostics, W_REMAINDER_NEVER, cond->node.span, "a remainder by %s is never %s", cond->modulus->text,
                                  cond->right->text);
     if (cond->modulus->kind == TN_WORD_NUMBER)
         tn_help(b->check->diagnostics, d, "it can be 0 to %lld", (long long)cond->modulus->value - 1);
     else
         tn_help(b->check->diagnostics, d, "it is at least 0 and less than %s", cond->modulus->text);
+    return true;
 }
 
 static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
@@ -170,20 +172,20 @@ static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
         return;
     int64_t modulus = cond->modulus->value, remainder = cond->right->value;
     if (modulus <= 0) {
-        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_MODULUS, cond->modulus->node.span, "there is no remainder by %s", cond->modulus->text);
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->modulus->node.span, "there is no remainder by %s", cond->modulus->text);
         tn_help(b->check->diagnostics, d, "write a number above 0: `%s mod 2 = 0` means even", cond->left->text);
         fail(b);
         return;
     }
     if (cond->op != TN_EQUAL && cond->op != TN_UNEQUAL) {
-        tn_diagnostic *d = tn_report(b->check->diagnostics, E_UNEXPECTED, cond->node.span, "a remainder is compared by `=` or `!=` only");
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->node.span, "a remainder is compared by `=` or `!=` only");
         tn_help(b->check->diagnostics, d, "join several by `or`: `%s mod %s = 0 or %s mod %s = 1`", cond->left->text, cond->modulus->text,
                 cond->left->text, cond->modulus->text);
         fail(b);
         return;
     }
     if (remainder < 0 || remainder >= modulus)
-        warn_remainder(b, cond);
+        b->warned = warn_remainder(b, cond);
     if (remainder < 0)
         step(b, TN_OP_LESS, 0, 0, cond->node.span); /* never: the number is not below 0 */
     else
@@ -249,7 +251,8 @@ tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *con
     add(&b, cond);
     if (condition->broken || tn_arena_failed(check->arena))
         return condition;
-    tn_check_truth(check, condition, b.variable->text, field);
+    if (!b.warned)
+        tn_check_truth(check, condition, b.variable->text, field);
     return share(check, condition);
 }
 

@@ -235,7 +235,8 @@ static void check_library(tn_check *check, tn_checked_library *library)
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses))
         add_clause(check, library, clause);
     library->state = DONE;
-    if (library->trays || check->skipped || (ast->from && !library->from))
+    library->broken |= ast->from && (!library->from || library->from->broken);
+    if (library->trays || check->skipped || library->broken)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_TRAYS, ast->name->node.span, "library `%s` does not say how many trays its plans have",
                                  library->name);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "compiler/check.h"
+#include "runtime/vm/nearest.h"
 
 /* ---- names */
 
@@ -77,6 +78,27 @@ static void check_neighbour(tn_check *check, tn_ast_expr *neighbour)
 
 /* ---- sums */
 
+/* The field that was likely meant, or all that could be. */
+static void help_length_field(tn_check *check, tn_diagnostic *d, const char *word)
+{
+    const char *names[TN_FIELDS_MAX];
+    size_t count = 0;
+    char list[300] = "";
+    for (uint32_t f = 0; f < check->schema->field_count; f++) {
+        const tn_checked_field *field = &check->schema->fields[f];
+        if (field->kind != TN_FIELD_LENGTH && field->kind != TN_FIELD_ZONE)
+            continue;
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", count == 0 ? "" : ", ", field->name);
+        names[count++] = field->name;
+    }
+    const char *near = tn_nearest(word, names, count);
+    if (near)
+        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+    else
+        tn_help(check->diagnostics, d, "the fields that have lengths are %s", list);
+}
+
 static void check_sum(tn_check *check, tn_ast_expr *sum)
 {
     const tn_checked_schema *schema = check->schema;
@@ -88,8 +110,11 @@ static void check_sum(tn_check *check, tn_ast_expr *sum)
         tn_diagnostic *d = field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span, "`%s` has no lengths to add up", name->text)
                                  : tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span, "there is no field `%s` to add up", name->text);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
-        tn_help(check->diagnostics, d, "fields of lengths can be added up (`sum(width, ...)`), and the depths of zones; to count trays write "
-                                       "`quantity(tray(%s ...), n > 1)`", name->text);
+        if (field)
+            tn_help(check->diagnostics, d, "fields of lengths and the depths of zones can be added up; to count trays write "
+                                           "`quantity(tray(%s ...), n > 1)`", name->text);
+        else
+            help_length_field(check, d, name->text);
     }
     if (lengths && sum->detail && !(field->kind == TN_FIELD_ZONE && tn_word_is(sum->detail, "depth"))) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_LENGTH, sum->detail->node.span, "`%s` is too much here", sum->detail->text);

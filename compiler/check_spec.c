@@ -284,7 +284,7 @@ static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alt
         }
     }
     if (good && item->word)
-        good = bad_item(item, item->word->node.span, "`%s` is too much here", item->word->text);
+        good = bad_item(item, item->word->node.span, "`%s` does not belong to the item about `%s`", item->word->text, field->name);
     if (good && negated)
         invert(item);
     for (uint32_t v = 0; v < field->value_count; v++)

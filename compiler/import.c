@@ -55,13 +55,19 @@ static bool exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
+/* A path relative to the folder of the file that uses it. */
+static const char *beside(tn_importer *importer, const char *user, const char *path, const char *extension)
+{
+    const char *slash = path[0] == '/' ? NULL : strrchr(user, '/');
+    return join(importer, user, slash ? (size_t)(slash - user) + 1 : 0, path, extension);
+}
+
 /* The path that a `use` means, whether it is in the standard library; NULL where there is no such file. */
 static const char *find(tn_importer *importer, const char *user, const char *path, bool *is_stdlib)
 {
     *is_stdlib = is_bare(path);
     if (!*is_stdlib) {
-        const char *slash = path[0] == '/' ? NULL : strrchr(user, '/');
-        const char *found = join(importer, user, slash ? (size_t)(slash - user) + 1 : 0, path, "");
+        const char *found = beside(importer, user, path, "");
         return found && exists(found) ? found : NULL;
     }
     for (size_t i = 0; i < importer->stdlib_dir_count; i++) {
@@ -110,18 +116,18 @@ static void report_missing(tn_importer *importer, const tn_use *use, const char 
         for (size_t i = 0; i < importer->stdlib_dir_count; i++)
             count += list_folder(importer, importer->stdlib_dirs[i], true, names + count, ROOM - count);
     } else {
-        const char *slash = strrchr(user, '/');
-        const char *folder = join(importer, slash ? user : ".", slash ? (size_t)(slash - user) + 1 : 1, "", "");
+        const char *path = beside(importer, user, use->path, "");
+        const char *slash = path ? strrchr(path, '/') : NULL;
+        const char *folder = join(importer, slash ? path : ".", slash ? (size_t)(slash - path) + 1 : 1, "", "");
         count = folder ? list_folder(importer, folder, false, names, ROOM) : 0;
     }
-    const char *near = tn_nearest(use->path, names, count);
-    const char *beside = bare ? join(importer, user, strrchr(user, '/') ? (size_t)(strrchr(user, '/') - user) + 1 : 0, use->path,
-                                     importer->extension)
-                              : NULL;
-    if (beside && exists(beside))
+    const char *last = strrchr(use->path, '/');
+    const char *near = tn_nearest(last ? last + 1 : use->path, names, count);
+    const char *neighbour = bare ? beside(importer, user, use->path, importer->extension) : NULL;
+    if (neighbour && exists(neighbour))
         tn_help(importer->diagnostics, d, "for the file beside this one write `use \"%s%s\"`", use->path, importer->extension);
     else if (near)
-        tn_help(importer->diagnostics, d, "did you mean `%s`?", near);
+        tn_help(importer->diagnostics, d, "did you mean `%.*s%s`?", last ? (int)(last - use->path) + 1 : 0, use->path, near);
     else if (bare)
         tn_help(importer->diagnostics, d, "for a file of yours write its extension too: `use \"%s%s\"`", use->path, importer->extension);
     else

@@ -73,23 +73,12 @@ char *tn_string_lex(tn_arena *arena, const char *text, size_t size)
     return copy;
 }
 
-const char *tn_stray_help(const char *text, size_t size)
+void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
 {
     static const struct {
         const char *found, *help;
     } table[] = {
-        {"==", "equality is written with one `=`"},
-        {"&&", "write `and`"},
-        {"||", "write `or`"},
-        {"<>", "write `!=`"},
-        {"\xe2\x89\xa4", "write `<=`"},
-        {"\xe2\x89\xa5", "write `>=`"},
-        {"\xe2\x89\xa0", "write `!=`"},
-        {"\xe2\x80\x93", "a range is written with two dots: `4..9`"},
-        {"\xe2\x80\x94", "a range is written with two dots: `4..9`"},
-        {"\xe2\x80\xa6", "a range is written with two dots: `4..9`"},
         {"\xe2\x80\x98", "feet are written with a straight mark: `12'`"},
-        {"!", "write `not`"},
         {"&", "write `and`"},
         {";", "nothing has to be written at the end of a line"},
         {"//", "a comment starts with `#`"},
@@ -99,12 +88,17 @@ const char *tn_stray_help(const char *text, size_t size)
         {"'", "feet are written directly after a number: `12'`; texts stand in double quotes"},
         {":", "write a zone's fill and depth with a blank between them: `dense 4'`"},
     };
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        size_t length = strlen(table[i].found);
-        if (length <= size && memcmp(text, table[i].found, length) == 0)
-            return table[i].help;
-    }
-    return NULL;
+    const char *text = diagnostics->sources->files[span.file].text + span.begin;
+    size_t size = span.end - span.begin;
+    bool visible = (unsigned char)text[0] > ' ' && text[0] != 0x7f;
+    tn_diagnostic *d = visible ? tn_report(diagnostics, E_STRAY_CHARACTER, span, "`%.*s` means nothing here", (int)size, text)
+                               : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
+                                           (unsigned char)text[0]);
+    const char *help = "leave it out";
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (strlen(table[i].found) == size && memcmp(text, table[i].found, size) == 0)
+            help = table[i].help;
+    tn_help(diagnostics, d, "%s", help);
 }
 
 size_t tn_character_size(const char *text, size_t size)

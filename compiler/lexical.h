@@ -22,8 +22,8 @@ size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size,
 /* What a string says: `text` without its quotes, \" and \\ undone. NULL where out of memory. */
 char *tn_string_lex(tn_arena *arena, const char *text, size_t size);
 
-/* The help for a character that no token starts with: what was probably meant, or NULL. */
-const char *tn_stray_help(const char *text, size_t size);
+/* Reports a character, or a sign of other languages, that no token starts with (E0003). */
+void tn_stray_report(tn_diagnostics *diagnostics, tn_span span);
 
 /* Bytes of the UTF-8 character at the start of a text that tn_text_check has passed. */
 size_t tn_character_size(const char *text, size_t size);

@@ -33,6 +33,8 @@ typedef struct tn_parse {
     tn_span held_span;
     bool virtual_brace; /* the last } was not written: it closes what the author forgot to */
     uint32_t stray_end; /* where the last stray character ended: a run of them is reported once */
+    int quiet;          /* tokens to come whose being out of place follows from what was reported */
+    bool quiet_now;     /* is the token at hand one of them? */
 
     bool too_deep; /* nesting was reported */
 

@@ -25,10 +25,11 @@ static const struct {
 } groups[] = {
     {"a rule expression", {"`tray`", "`neighbour`", "`any`", "a name", "`not`", "`symmetric`", "`quantity`", "`sum`", "`many`",
                            "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`"}},
-    {"a condition such as `n > 1`", {"`not`", "a number", "a name", "a length", "`-`", "`(`"}},
-    {"a variable or a number", {"a name", "a number", "a length", "`-`"}},
+    {"a condition such as `n > 1`", {"`-`", "`(`", "`not`", "a number", "a name", "a length"}},
+    {"a variable or a number", {"`-`", "a name", "a number", "a length"}},
+    {"a number", {"`-`", "a number", "a length"}},
+    {"a value", {"a length", "a name", "a number", "`not`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
-    {"a number", {"a number", "`-`", "a length"}},
     {"the next `rule`, `schema`, `library`, `test` or `use`", {"`rule`", "`schema`", "`library`", "`test`", "`use`",
                                                                "the end of the file"}},
     {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
@@ -107,13 +108,17 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "close tray(...) with `)` first";
     if (parse->mode == TN_LEX_LITERAL && strcmp(found, "`,`") == 0)
         return "inside a plan, values are separated by blanks and trays by `|`: [4' | 12' double]";
-    if (parse->mode == TN_LEX_LITERAL)
+    if (parse->mode == TN_LEX_LITERAL || expects(e, "`]`"))
         return "a plan is written [4' | 12' double], and closed with `]`";
+    if (parse->mode == TN_LEX_SCHEMA && expects(e, "`|`"))
+        return "alternatives are separated by `|`, and a field starts with `NAME =`";
     if (parse->mode == TN_LEX_SCHEMA && expects(e, "a field"))
         return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a forbidden tray "
                "`forbid tray(...)`";
-    if (parse->mode == TN_LEX_SCHEMA && expects(e, "`|`"))
-        return "alternatives are separated by `|`";
+    if (expects(e, "`)`") && (strcmp(found, "the end of the file") == 0 || (is_word(found) && !expects(e, "a name"))))
+        return "close the `(` before this";
+    if (e->count == 1 && expects(e, "`[`"))
+        return "a plan stands in brackets: [4' | 8' double]";
     if (strcmp(found, "a text in quotes") == 0)
         return "a text comes directly after the name that it describes";
     if (is_word(found) && expects(e, "a name") && !expects(e, "`tray`"))
@@ -136,6 +141,10 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
     if (expects(e, "`match`") && expects(e, "`keep`"))
         return "a case is written `match [4' | 8']`";
+    if (expects(e, "`rule`") && expects(e, "`and`"))
+        return "rule expressions are joined by `and` or `or`; the next rule starts with `rule`";
+    if (expects(e, "`rule`"))
+        return "a rule is written `rule NAME = ...`";
     if (strcmp(found, "`)`") == 0 || strcmp(found, "the end of the file") == 0)
         return "something is missing before this";
     return NULL;
@@ -143,8 +152,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
 
 void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const char *const *expected, size_t count)
 {
-    if (parse->virtual_brace && span.begin == span.end) /* the missing brace was reported */
-        return;
+    if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
+        return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
@@ -156,7 +165,7 @@ void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const cha
         snprintf(here, sizeof here, "%s", found);
     else
         snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
-    tn_diagnostic *d = words[0] ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here, but %s", here, words)
+    tn_diagnostic *d = words[0] ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
                                 : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
     const char *help = likely_fix(parse, found, &e);
     tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
