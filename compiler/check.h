@@ -146,6 +146,7 @@ typedef struct tn_check {
     bool incomplete;     /* names may be missing because of errors already reported */
     bool skipped;        /* clauses may be missing because of errors already reported */
     bool *no_schema_said; /* per unit */
+    bool too_many_said;
 
     /* of the rule or library being checked */
     size_t unit;
@@ -160,6 +161,8 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
 /* ---- check_names.c */
 typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want;
 void tn_check_collect(tn_check *check); /* makes the lists and tables of schemas, rules, libraries */
+/* Is there room for one more than `count`? The first time that there is none is reported (E0831). */
+bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span, const char *help);
 tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_ast_word *using, tn_span place); /* NULL: reported */
 const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, tn_want want); /* NULL: reported */
 void tn_check_allow(tn_check *check, tn_ast_list codes);  /* resolves the words of an `allow`: value is the tn_code, 0 where wrong */

@@ -24,26 +24,11 @@ static void put_clause(tn_check *check, tn_checked_library *library, tn_checked_
     tn_names_put(&library->clause_names, clause->name, clause);
 }
 
-static bool has_room(tn_check *check, const tn_checked_library *library, tn_span span)
-{
-    if (library->clause_count < TN_CLAUSES_MAX)
-        return true;
-    if (library->clause_count == TN_CLAUSES_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, span, "library `%s` has more clauses than the limit of %u", library->name,
-                                     TN_CLAUSES_MAX);
-        tn_help(check->diagnostics, d, "join some of them by `or`");
-    }
-    return false;
-}
-
-/* "total", "require@12"; with ".2" and so on where the library has that already. */
+/* "require@12"; with ".2" and so on where the library has that already. */
 static const char *make_name(tn_check *check, const tn_checked_library *library, const char *word, size_t line)
 {
     char name[64], numbered[96];
-    if (line > 0)
-        snprintf(name, sizeof name, "%s@%zu", word, line);
-    else
-        snprintf(name, sizeof name, "%s", word);
+    snprintf(name, sizeof name, "%s@%zu", word, line);
     snprintf(numbered, sizeof numbered, "%s", name);
     for (unsigned n = 2; tn_names_get(&library->clause_names, numbered); n++)
         snprintf(numbered, sizeof numbered, "%s.%u", name, n);
@@ -124,8 +109,8 @@ static void add_total(tn_check *check, tn_checked_library *library, const tn_ast
     }
     clause->condition = tn_check_total(check, ast, clause->field);
     clause->any = tn_check_any(check, library->schema, ast->node.span);
-    clause->name = make_name(check, library, "total", 0);
-    if (clause->name && clause->condition)
+    clause->name = "total"; /* several have the same name: `drop ... by total` means any of them */
+    if (clause->condition)
         put_clause(check, library, clause);
 }
 
@@ -161,7 +146,8 @@ static void add_clause(tn_check *check, tn_checked_library *library, const tn_as
         set_trays(check, library, ast);
         return;
     }
-    if (ast->form == TN_FORM_ALLOW || !has_room(check, library, ast->node.span))
+    if (ast->form == TN_FORM_ALLOW ||
+        !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause", ast->node.span, "join some of them by `or`"))
         return;
     tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
     if (!clause)

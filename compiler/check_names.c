@@ -28,18 +28,20 @@ static counts count_items(const tn_imports *imports)
     return n;
 }
 
-/* Is there room for one more? Reports the first that there is none for. */
-static bool has_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span)
+bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span, const char *help)
 {
     if (count < limit)
         return true;
     check->incomplete = true;
-    if (count > limit)
+    if (check->too_many_said)
         return false;
+    check->too_many_said = true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, span, "this is one %s more than the limit of %zu", what, limit);
-    tn_help(check->diagnostics, d, "split the file, and check the parts one by one");
+    tn_help(check->diagnostics, d, "%s", help);
     return false;
 }
+
+static const char split_help[] = "split the file, and check the parts one by one";
 
 static void report_duplicate(tn_check *check, const tn_ast_word *name, const char *what, tn_span before)
 {
@@ -63,7 +65,7 @@ static void add_schema(tn_check *check, const tn_ast_schema *ast, size_t unit)
 {
     tn_checked *result = check->result;
     if (!name_fits(check, ast->name) ||
-        !has_room(check, result->schema_count, TN_SCHEMAS_MAX, "schema", ast->name->node.span))
+        !tn_check_room(check, result->schema_count, TN_SCHEMAS_MAX, "schema", ast->name->node.span, split_help))
         return;
     const tn_checked_schema *before = tn_names_get(&check->schemas, ast->name->text);
     if (before) {
@@ -100,7 +102,7 @@ static tn_checked_name *add_name(tn_check *check, const tn_ast_word *word, size_
 static void add_rule(tn_check *check, const tn_ast_rule *ast, size_t unit)
 {
     tn_checked *result = check->result;
-    if (!has_room(check, result->rule_count, TN_RULES_MAX, "rule", ast->name->node.span))
+    if (!tn_check_room(check, result->rule_count, TN_RULES_MAX, "rule", ast->name->node.span, split_help))
         return;
     tn_checked_name *name = add_name(check, ast->name, unit);
     tn_checked_rule *rule = TN_NEW(check->arena, tn_checked_rule);
@@ -114,7 +116,7 @@ static void add_rule(tn_check *check, const tn_ast_rule *ast, size_t unit)
 static void add_library(tn_check *check, const tn_ast_library *ast, size_t unit)
 {
     tn_checked *result = check->result;
-    if (!has_room(check, result->library_count, TN_LIBRARIES_MAX, "library", ast->name->node.span))
+    if (!tn_check_room(check, result->library_count, TN_LIBRARIES_MAX, "library", ast->name->node.span, split_help))
         return;
     tn_checked_name *name = add_name(check, ast->name, unit);
     tn_checked_library *library = TN_NEW(check->arena, tn_checked_library);

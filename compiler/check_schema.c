@@ -376,10 +376,8 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
         return;
     check->allow = tn_ast_empty();
     for (TN_EACH(const tn_ast_forbid, forbid, *list)) {
-        if (schema->forbid_count == TN_FORBIDS_MAX) {
-            tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, forbid->node.span, "this is one `forbid` more than the limit of %u",
-                                         TN_FORBIDS_MAX);
-            tn_help(check->diagnostics, d, "forbid several trays at once: `forbid tray(4' or 8', body dense)`");
+        if (!tn_check_room(check, schema->forbid_count, TN_FORBIDS_MAX, "`forbid`", forbid->node.span,
+                           "forbid several trays at once: `forbid tray(4' or 8', body dense)`")) {
             schema->broken = true;
             return;
         }

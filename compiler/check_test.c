@@ -76,15 +76,6 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, const tn_checked
     return result->by && result->values;
 }
 
-static bool has_room(tn_check *check, tn_span span)
-{
-    if (check->result->program->test_count < TN_TESTS_MAX)
-        return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, span, "this is one `test` more than the limit of %u", TN_TESTS_MAX);
-    tn_help(check->diagnostics, d, "one `test` can have many cases");
-    return false;
-}
-
 static void check_test(tn_check *check, const tn_ast_test *ast, tn_test_block *block)
 {
     tn_test_case *cases = TN_NEW_ARRAY(check->arena, tn_test_case, ast->cases.count);
@@ -117,7 +108,8 @@ void tn_check_tests(tn_check *check)
     for (check->unit = 0; check->unit < check->imports->count; check->unit++) {
         const tn_ast_file *file = check->imports->units[check->unit]->tree;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
-            if (item->kind != TN_ITEM_TEST || !has_room(check, item->node.span))
+            if (item->kind != TN_ITEM_TEST || !tn_check_room(check, result->program->test_count, TN_TESTS_MAX, "test",
+                                                              item->node.span, "one `test` can have many cases"))
                 continue;
             tn_test_block *block = &blocks[result->program->test_count++];
             block->imported = check->unit + 1 < check->imports->count;

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "runtime/vm/nearest.h"
+
 typedef struct tn_expected {
     const char *const *tokens;
     size_t count;
@@ -150,6 +152,27 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     return NULL;
 }
 
+/* The word of the language that a misspelled one is nearest to, among those that could stand here. */
+static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected *e, char *meant, size_t size)
+{
+    char word[40], texts[96][24];
+    const char *words[96];
+    size_t count = 0;
+    if (span.end - span.begin < 3 || span.end - span.begin >= sizeof word)
+        return false;
+    snprintf(word, sizeof word, "%.*s", (int)(span.end - span.begin), parse->text + span.begin);
+    for (size_t i = 0; i < e->count; i++) {
+        if (!is_word(e->tokens[i]))
+            continue;
+        snprintf(texts[count], sizeof texts[count], "%.*s", (int)strcspn(e->tokens[i] + 1, "`"), e->tokens[i] + 1);
+        words[count] = texts[count];
+        count++;
+    }
+    const char *near = tn_nearest(word, words, count);
+    snprintf(meant, size, "%s", near ? near : "");
+    return near != NULL;
+}
+
 void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const char *const *expected, size_t count)
 {
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
@@ -167,6 +190,11 @@ void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const cha
         snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
     tn_diagnostic *d = words[0] ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
                                 : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
+    char meant[40];
     const char *help = likely_fix(parse, found, &e);
-    tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
+    bool misspelled = strcmp(found, "a name") == 0 || (is_word(found) && size > 3);
+    if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
+        tn_help(parse->diagnostics, d, "did you mean `%s`?", meant);
+    else
+        tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
 }

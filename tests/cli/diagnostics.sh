@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# What the front end says about wrong rule files: tests/diagnostics/NAME.plan is checked, and what is then on stderr is
+# NAME.expect. `--update` writes the expectations anew: read the difference before you keep it.
+set -euo pipefail
+: "${TARTAN:?the binary to test}"
+cd "$(dirname "$0")/../diagnostics"
+failed=0
+seen=$(mktemp)
+trap 'rm -f "$seen"' EXIT
+for plan in *.plan; do
+    name=${plan%.plan}
+    status=0
+    said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
+    if [ "${1-}" = --update ]; then
+        printf '%s' "${said:+$said$'\n'}" >"$name.expect"
+        continue
+    fi
+    printf '%s\n' "$said" >>"$seen"
+    if ! diff -u "$name.expect" <(printf '%s' "${said:+$said$'\n'}"); then
+        echo "FAILED: $plan"
+        failed=1
+    fi
+    wanted=0
+    ! grep -q 'error\[' "$name.expect" || wanted=1
+    if [ "$status" != "$wanted" ]; then
+        echo "FAILED: $plan: exit status $status"
+        failed=1
+    fi
+done
+[ "${1-}" != --update ] || exit 0
+# Every code that the front end of .plan files reports is among them.
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/plan.[ly] ../../compiler/{ast*,check*,import,lexical,syntax_error}.c | sort -u)
+codes=$(while read -r name; do
+    case $name in
+    E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'error[E%04d]\n' ;;
+    W_*) sed -nE "s/^WARNING\(([0-9]+), ${name#W_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'warning[W%03d]\n' ;;
+    esac
+done <<<"$names")
+while read -r code; do
+    if ! grep -qF "$code" "$seen"; then
+        echo "FAILED: no file shows $code"
+        failed=1
+    fi
+done <<<"$codes"
+exit "$failed"
