@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "runtime/vm/code.h"
+#include "runtime/vm/condition_text.h"
 #include "runtime/vm/utf8.h"
 
 /* What is listed of one text: a module from anywhere must not make the listing endless. */
@@ -306,6 +307,11 @@ static void write_function(tn_lister *lister, uint32_t index)
     static const char *const kinds[] = {"whole", "holds", "condition"};
     const tn_function_record *function = &lister->module->FUNCTION_records[index];
     fprintf(lister->out, "function %u (%s", index, kinds[function->kind]);
+    if (function->kind == TN_FUNCTION_CONDITION) {
+        char text[TN_CONDITION_TEXT_MAX];
+        tn_condition_text(lister->module, index, text);
+        fprintf(lister->out, " %s", text);
+    }
     if (function->name != 0) {
         fputc(' ', lister->out);
         write_name(lister, function->name);
