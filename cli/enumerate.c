@@ -71,9 +71,9 @@ static bool is_done(const enumeration *e)
     return e->limited && e->written >= e->limit;
 }
 
-static void interrupt(enumeration *e, bool resumable)
+static void interrupt(enumeration *e)
 {
-    tn_session_note(e->session, resumable ? "interrupted; --resume goes on" : "interrupted; nothing is written");
+    tn_session_note(e->session, "interrupted; a database keeps its whole batches, and --resume goes on after them");
     e->session->exit_code = TN_EXIT_INTERRUPTED;
 }
 
@@ -123,7 +123,7 @@ static void enumerate(enumeration *e)
     if (status != TN_OK)
         tn_session_fail(e->session, &error);
     else if (tn_interrupted())
-        interrupt(e, e->session->settings->output != NULL);
+        interrupt(e);
     tn_session_plan_close(e->session, e->writer);
 }
 

@@ -20,6 +20,7 @@ typedef struct matching {
     tn_rules *compiled;
     tn_output output;
     tn_buffer line;
+    bool stopped; /* before the end of the plans */
 } matching;
 
 static const char *rule_name(const void *context, size_t i)
@@ -154,6 +155,7 @@ static bool take(void *context, const tn_sifted *plan)
         tn_error error;
         tn_fail_memory(&error);
         tn_session_fail(m->session, &error);
+        m->stopped = true;
         return false;
     }
     fputc('\n', m->output.stream);
@@ -163,7 +165,8 @@ static bool take(void *context, const tn_sifted *plan)
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     matching *m = context;
-    return tn_session_bad_plan(m->session, m->path, error, text, size);
+    m->stopped = !tn_session_bad_plan(m->session, m->path, error, text, size);
+    return !m->stopped;
 }
 
 static void match_plans(matching *m)
@@ -175,9 +178,11 @@ static void match_plans(matching *m)
         return;
     if (tn_session_output(m->session, m->session->settings->output, &m->output)) {
         tn_sift_calls calls = {m, take, complain};
-        if (tn_sift(reader, m->compiled, tn_session_threads(m->session->settings), &calls, &error) != TN_OK)
+        if (tn_sift(reader, m->compiled, tn_session_threads(m->session->settings), &calls, &error) != TN_OK) {
             tn_session_fail(m->session, &error);
-        tn_session_commit(m->session, &m->output);
+            m->stopped = true;
+        }
+        tn_session_close(m->session, &m->output, !m->stopped);
     }
     tn_plan_reader_free(reader);
 }

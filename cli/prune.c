@@ -19,6 +19,7 @@ typedef struct pruning {
     tn_output kept, dropped;
     FILE *dropped_stream; /* NULL where nobody asked */
     tn_buffer line;
+    bool stopped; /* before the end of the plans */
 } pruning;
 
 static const char *clause_name(const void *context, size_t i)
@@ -104,6 +105,7 @@ static bool take(void *context, const tn_sifted *plan)
         tn_error error;
         tn_fail_memory(&error);
         tn_session_fail(p->session, &error);
+        p->stopped = true;
         return false;
     }
     fwrite(p->line.data, 1, p->line.size, stream);
@@ -113,7 +115,8 @@ static bool take(void *context, const tn_sifted *plan)
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     pruning *p = context;
-    return tn_session_bad_plan(p->session, p->path, error, text, size);
+    p->stopped = !tn_session_bad_plan(p->session, p->path, error, text, size);
+    return !p->stopped;
 }
 
 static bool compile_clauses(pruning *p)
@@ -160,11 +163,13 @@ static void prune_plans(pruning *p)
         return;
     if (open_outputs(p)) {
         tn_sift_calls calls = {p, take, complain};
-        if (tn_sift(reader, p->rules, tn_session_threads(p->session->settings), &calls, &error) != TN_OK)
+        if (tn_sift(reader, p->rules, tn_session_threads(p->session->settings), &calls, &error) != TN_OK) {
             tn_session_fail(p->session, &error);
-        tn_session_commit(p->session, &p->kept);
+            p->stopped = true;
+        }
+        tn_session_close(p->session, &p->kept, !p->stopped);
         if (p->dropped.stream)
-            tn_session_commit(p->session, &p->dropped);
+            tn_session_close(p->session, &p->dropped, !p->stopped);
     }
     tn_plan_reader_free(reader);
 }

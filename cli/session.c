@@ -134,17 +134,17 @@ bool tn_session_output(tn_session *session, const char *path, tn_output *output)
     return false;
 }
 
-bool tn_session_output_failed(tn_session *session, tn_output *output)
-{
-    if (!ferror(output->stream))
-        return false;
-    tn_session_commit(session, output);
-    return true;
-}
-
 void tn_session_commit(tn_session *session, tn_output *output)
 {
     tn_error error;
     if (tn_output_commit(output, &error) != TN_OK)
         tn_session_fail(session, &error);
+}
+
+void tn_session_close(tn_session *session, tn_output *output, bool complete)
+{
+    if (complete || !output->temporary)
+        tn_session_commit(session, output);
+    else
+        tn_output_discard(output);
 }

@@ -65,10 +65,11 @@ int tn_exit_code(tn_status status);
 /* An output by option: NULL is standard output. */
 bool tn_session_output(tn_session *session, const char *path, tn_output *output);
 
-/* Has writing to it failed? Then the failure is recorded and the output given up. */
-bool tn_session_output_failed(tn_session *session, tn_output *output);
-
-/* Commits the output, or, where the session has failed in a way that makes its contents worthless, discards it. */
+/* Puts the output in place. A failure is recorded. */
 void tn_session_commit(tn_session *session, tn_output *output);
+
+/* The same where the work came to its end; otherwise a file is given up (its target stays as it was), and standard
+ * output keeps what was written. */
+void tn_session_close(tn_session *session, tn_output *output, bool complete);
 
 #endif

@@ -27,6 +27,12 @@ golden fallback "tartan match sheds.plan $scratch/plans --format bits --max-stat
 golden dfa_limit "tartan match sheds.plan $scratch/plans --format bits --max-states 1 --engine dfa"
 golden missing_file 'tartan match sheds.plan nowhere.txt'
 
+# A file is written whole or not at all; skipping a bad plan is the author's own wish.
+exits 1 "$TARTAN" match "$files/sheds.plan" "$scratch/bad" -o "$scratch/answers"
+[ ! -e "$scratch/answers" ] || fail 'half a file of answers'
+exits 1 "$TARTAN" match "$files/sheds.plan" "$scratch/bad" -o "$scratch/answers" --on-error skip
+is 'answers to good plans' "$(wc -l <"$scratch/answers")" 2
+
 # Thousands of plans, in order, whatever the engine and the number of threads; from a module too.
 "$TARTAN" enumerate "$files/sheds.plan" --library any-sheds --trays 0..7 --limit 20000 >"$scratch/many"
 "$TARTAN" match "$files/sheds.plan" "$scratch/many" --format bits --engine vm --threads 1 >"$scratch/one"
