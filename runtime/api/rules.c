@@ -160,21 +160,20 @@ tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *trays, size_
     return tn_match(matcher->matcher, trays, length, bits, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
-/* The plans [begin, end) of tartan_match_all, in one thread. */
-static tartan_status match_some(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t begin,
-                                size_t end, uint64_t *bits, tartan_error *error)
+/* The plans [begin, end) of tartan_match_all, in one thread; fills `error` where one fails. */
+static void match_some(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t begin, size_t end,
+                       uint64_t *bits, tartan_error *error)
 {
     tartan_matcher *matcher;
     tartan_status status = tartan_matcher_new(rules, &matcher, error);
     if (status != TARTAN_OK)
-        return status;
+        return;
     size_t words = tartan_rules_words(rules);
     for (size_t i = begin; i < end && status == TARTAN_OK; i++) {
         size_t start = i ? ends[i - 1] : 0;
         status = tartan_match(matcher, trays + start, ends[i] - start, bits + i * words, error);
     }
     tartan_matcher_free(matcher);
-    return status;
 }
 
 tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
@@ -186,22 +185,19 @@ tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays,
     size_t workers = threads ? threads : (size_t)omp_get_num_procs();
     if (workers > count)
         workers = count ? count : 1;
-    tartan_status result = TARTAN_OK;
-    size_t failed = SIZE_MAX; /* the first share that failed: the same error however many threads there are */
+    tartan_error *errors = calloc(workers, sizeof *errors); /* each share's own */
+    if (!errors)
+        return out_of_memory(error);
 #pragma omp parallel for num_threads((int)workers) schedule(static, 1)
-    for (size_t share = 0; share < workers; share++) {
-        tartan_error mine;
-        tartan_status status =
-            match_some(rules, trays, ends, count * share / workers, count * (share + 1) / workers, bits, &mine);
-        if (status == TARTAN_OK)
-            continue;
-#pragma omp critical(tartan_match_all)
-        if (share < failed) {
-            failed = share;
-            result = status;
-            if (error)
-                *error = mine;
-        }
-    }
+    for (size_t share = 0; share < workers; share++)
+        match_some(rules, trays, ends, count * share / workers, count * (share + 1) / workers, bits, &errors[share]);
+    /* the first that failed: the same error however many threads there are */
+    size_t failed = 0;
+    while (failed < workers && errors[failed].status == TARTAN_OK)
+        failed++;
+    tartan_status result = failed < workers ? errors[failed].status : TARTAN_OK;
+    if (error && failed < workers)
+        *error = errors[failed];
+    free(errors);
     return result;
 }

@@ -13,10 +13,11 @@ failures=0
 for cases in fixtures paper_cases; do
     out=$scratch/$cases
     python3 "$oracle/to_plan.py" "$oracle/$cases.jsonl" "$out"
+    "$TARTAN" build "$out/rules.plan" -o "$out/rules.tnb" 2>/dev/null
     for expect in "$out"/r*.expect; do
         name=$(basename "$expect" .expect)
         for engine in vm dfa; do
-            if ! "$TARTAN" match "$out/rules.plan" --rule "$name" --engine="$engine" --format bits "$out/$name.plans" >"$out/got" ||
+            if ! "$TARTAN" match "$out/rules.tnb" --rule "$name" --threads 1 --engine="$engine" --format bits "$out/$name.plans" >"$out/got" ||
                 ! cmp -s "$out/got" "$expect"; then
                 echo "$cases, rule $name, --engine=$engine: not as the reference decides:"
                 grep -n "^rule $name " "$out/rules.plan"
