@@ -2,16 +2,27 @@
  * loads. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+#include <strings.h>
 
 #include "compiler/compile.h"
 #include "runtime/vm/module.h"
 #include "tests/fuzz/fuzz.h"
 
-/* Imports by name reach the stdlib; by path they could reach anything on this machine. */
+/* Imports by name reach the stdlib; by path they could reach anything on this machine. A text in quotes shortly after a
+ * `use`, with a slash or a dot in it, is taken for a path. */
 static bool imports_by_path(const uint8_t *data, size_t size)
 {
-    return memmem(data, size, "use", 3) && (memchr(data, '/', size) || memchr(data, '.', size));
+    size_t use = size; /* where the last `use` was */
+    for (size_t i = 0; i + 3 < size; i++) {
+        if (strncasecmp((const char *)data + i, "use", 3) == 0)
+            use = i;
+        if (data[i] != '"' || use == size || i - use > 100)
+            continue;
+        for (size_t k = i + 1; k < size && data[k] != '"' && data[k] != '\n'; k++)
+            if (data[k] == '/' || data[k] == '.')
+                return true;
+    }
+    return false;
 }
 
 static void show(tn_compilation *compilation, bool json)
