@@ -102,9 +102,10 @@ typedef struct tn_module {
 } tn_module;
 
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
-#define TN_FIELDS_MAX 64u  /* fields of a schema */
-#define TN_VALUES_MAX 255u /* values of a field: engines number them in a byte */
-#define TN_NAME_MAX 255u   /* bytes of a name or spelling */
+#define TN_FIELDS_MAX 64u    /* fields of a schema */
+#define TN_VALUES_MAX 255u   /* values of a field: engines number them in a byte */
+#define TN_NAME_MAX 255u     /* bytes of a name */
+#define TN_SPELLING_MAX 511u /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
 
 #define TN_STACK_MAX 65536u /* values on a function's stack: engines set aside room for them */
 

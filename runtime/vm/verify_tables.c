@@ -76,9 +76,19 @@ static tn_status check_strings(tn_checker *checker)
 }
 
 /* Names are looked up, compared and shown: they are neither empty nor endless. */
+static bool is_text(const tn_module *module, tn_string text, size_t limit)
+{
+    return text != 0 && strnlen(tn_text(module, text), limit + 1) <= limit;
+}
+
 static bool is_name(const tn_module *module, tn_string name)
 {
-    return name != 0 && strnlen(tn_text(module, name), TN_NAME_MAX + 1) <= TN_NAME_MAX;
+    return is_text(module, name, TN_NAME_MAX);
+}
+
+static bool is_spelling(const tn_module *module, tn_string spelling)
+{
+    return is_text(module, spelling, TN_SPELLING_MAX);
 }
 
 static int compare_names(const void *left, const void *right)
@@ -145,8 +155,10 @@ static tn_status check_value(tn_checker *checker, size_t index)
 {
     const tn_module *module = checker->module;
     const tn_value_record *value = &module->VALUE_records[index];
-    if (!is_name(module, value->name) || !is_name(module, value->spelling))
-        return refuse(checker, "value %zu has no name or spelling of 1 to %u bytes", index, TN_NAME_MAX);
+    if (!is_name(module, value->name))
+        return refuse(checker, "value %zu has no name of 1 to %u bytes", index, TN_NAME_MAX);
+    if (!is_spelling(module, value->spelling))
+        return refuse(checker, "value %zu has no spelling of 1 to %u bytes", index, TN_SPELLING_MAX);
     if (value->measure != 0 && !is_name(module, value->measure))
         return refuse(checker, "value %zu has a measure of more than %u bytes", index, TN_NAME_MAX);
     if (value->role >= TN_FILL_ROLE_COUNT)
@@ -296,8 +308,8 @@ static tn_status check_clauses(const tn_checker *checker, const tn_library_recor
     for (uint32_t i = 0; i < library->clause_count; i++) {
         uint32_t index = library->clause_first + i;
         const tn_clause_record *clause = &module->CLAUSE_records[index];
-        if (!is_name(module, clause->name))
-            return refuse(checker, "clause %u has no name of 1 to %u bytes", index, TN_NAME_MAX);
+        if (!is_spelling(module, clause->name))
+            return refuse(checker, "clause %u has no name of 1 to %u bytes", index, TN_SPELLING_MAX);
         if (clause->kind >= TN_CLAUSE_KIND_COUNT)
             return refuse(checker, "clause %u is of an unknown kind", index);
         if (!is_function(module, clause->holds, TN_FUNCTION_HOLDS, library->schema))

@@ -91,7 +91,7 @@ static void test_names(void **state)
     REFUSED(FIELD, tn_field_record, 2, name = 0, "field 2 has no name");
     REFUSED(FIELD, tn_field_record, 2, name = sample_FIELD(0).name, "two fields of schema 0 have the same name");
     REFUSED(VALUE, tn_value_record, 3, name = 0, "value 3 has no name");
-    REFUSED(VALUE, tn_value_record, 3, spelling = 0, "value 3 has no name or spelling");
+    REFUSED(VALUE, tn_value_record, 3, spelling = 0, "value 3 has no spelling");
     REFUSED(VALUE, tn_value_record, 3, spelling = sample_VALUE(2).spelling, "two values of field 1 are spelled alike");
     REFUSED(RULE, tn_rule_record, 0, name = 0, "rule 0 has no name");
     REFUSED(LIBRARY, tn_library_record, 0, name = 0, "library 0 has no name");
