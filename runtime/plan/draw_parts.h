@@ -6,6 +6,7 @@
 #include <cairo.h>
 
 #include "runtime/plan/draw.h"
+#include "runtime/vm/length_style.h"
 
 #define TN_NO_FIELD UINT32_MAX
 #define TN_BANDS_MAX 32u
@@ -14,13 +15,6 @@
 #define TN_LINE_CUT 1.3
 #define TN_LINE_EDGE 0.5
 #define TN_LINE_HAIR 0.22
-
-typedef enum tn_length_style {
-    TN_STYLE_FEET,
-    TN_STYLE_METRES,
-    TN_STYLE_CENTIMETRES,
-    TN_STYLE_MILLIMETRES
-} tn_length_style;
 
 /* What a schema's roles mean for drawing it. */
 typedef struct tn_draw_roles {

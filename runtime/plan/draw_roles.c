@@ -1,10 +1,5 @@
 /* What a schema's roles mean for drawing it. */
-#include <inttypes.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "runtime/plan/draw_parts.h"
-#include "runtime/vm/length.h"
 
 /* Can a band be absent, going by the roles and depths of its values? */
 static bool may_be_absent(const tn_schema *schema, uint32_t field)
@@ -13,17 +8,6 @@ static bool may_be_absent(const tn_schema *schema, uint32_t field)
         if (schema->values[v].role == TN_FILL_ABSENT || schema->values[v].length == 0)
             return true;
     return false;
-}
-
-static tn_length_style style_of(const tn_schema *schema, uint32_t field)
-{
-    const char *spelling = tn_text(schema->module, schema->values[schema->value_start[field]].name);
-    size_t length = strlen(spelling);
-    if (length < 2 || spelling[length - 1] != 'm')
-        return TN_STYLE_FEET;
-    return spelling[length - 2] == 'm'   ? TN_STYLE_MILLIMETRES
-           : spelling[length - 2] == 'c' ? TN_STYLE_CENTIMETRES
-                                         : TN_STYLE_METRES;
 }
 
 static void take_role(tn_draw_roles *roles, uint32_t field)
@@ -69,7 +53,7 @@ void tn_draw_roles_find(const tn_schema *schema, tn_draw_roles *roles)
         roles->spine = 0;
     uint32_t length = roles->length != TN_NO_FIELD ? roles->length : tn_schema_length_field(schema);
     if (length != TN_NO_FIELD)
-        roles->style = style_of(schema, length);
+        roles->style = tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[length]].name));
 }
 
 bool tn_draw_written(const tn_draw_roles *roles, uint32_t field)
@@ -82,30 +66,7 @@ bool tn_draw_written(const tn_draw_roles *roles, uint32_t field)
     return true;
 }
 
-/* A decimal number of `unit` nanometres, without trailing zeros. */
-static void write_decimal(int64_t nanometres, int64_t unit, const char *name, char *text, size_t size)
-{
-    char fraction[24];
-    int digits = snprintf(fraction, sizeof fraction, "%" PRId64, unit + nanometres % unit) - 1;
-    while (digits > 0 && fraction[digits] == '0')
-        digits--;
-    snprintf(text, size, "%" PRId64 "%s%.*s%s", nanometres / unit, digits ? "." : "", digits, fraction + 1, name);
-}
-
 void tn_draw_length(const tn_draw_roles *roles, int64_t nanometres, char *text, size_t size)
 {
-    switch (roles->style) {
-    case TN_STYLE_FEET:
-        tn_length_write(nanometres, text, size);
-        break;
-    case TN_STYLE_METRES:
-        write_decimal(nanometres, INT64_C(1000000000), "m", text, size);
-        break;
-    case TN_STYLE_CENTIMETRES:
-        write_decimal(nanometres, 10000000, "cm", text, size);
-        break;
-    case TN_STYLE_MILLIMETRES:
-        write_decimal(nanometres, 1000000, "mm", text, size);
-        break;
-    }
+    tn_length_write_style(nanometres, roles->style, text, size);
 }

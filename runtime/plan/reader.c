@@ -329,6 +329,8 @@ tn_status tn_plan_reader_next(tn_plan_reader *reader, const tn_plan **plan, tn_e
         return TN_OK;
     }
     filled->line = reader->line;
+    if (filled->column == 0)
+        filled->column = filled->column_end = 1;
     bool one_plan = filled->code != 604 && (status == TN_INVALID || filled->code == 605 || filled->code == 805);
     reader->at_end = !one_plan;
     return status;

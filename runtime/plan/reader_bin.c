@@ -10,9 +10,12 @@ static const uint8_t *input(const tn_plan_reader *reader)
     return (const uint8_t *)reader->data + reader->begin;
 }
 
+/* The path stands in the message where the error has no line. */
 static tn_status damaged(const tn_plan_reader *reader, const char *what, tn_error *error)
 {
-    return tn_fail(error, TN_INVALID, 604, "%s: the packed plans are damaged: %s", reader->path, what);
+    bool opening = reader->line == 0;
+    return tn_fail(error, TN_INVALID, 604, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
+                   opening ? ": " : "", what);
 }
 
 /* Drops `count` bytes of input, which may be more than fit in memory. */

@@ -128,10 +128,10 @@ static tn_status parse_plan(tn_plan_reader *reader, const csv_field *written, tn
     return status;
 }
 
-static tn_status bad_record(tn_plan_reader *reader, size_t at, const char *message, tn_error *error)
+static tn_status bad_record(tn_plan_reader *reader, size_t at, const char *message, const char *help, tn_error *error)
 {
     tn_fail(error, TN_INVALID, 601, "%s", message);
-    tn_error_help(error, "a field with quotes in it stands in quotes, with each quote in it doubled");
+    tn_error_help(error, "%s", help);
     tn_error_place(error, reader->line, at + 1, at + 2);
     return TN_INVALID;
 }
@@ -148,7 +148,8 @@ tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *erro
     for (size_t column = 0; at < reader->text_size || column == 0; column++) {
         csv_field field;
         if (!take_field(reader->text, reader->text_size, &at, &field))
-            return bad_record(reader, at, "the record has a quote that does not belong", error);
+            return bad_record(reader, at, "the record has a quote that does not belong",
+                              "a field with quotes in it stands in quotes, with each quote in it doubled", error);
         if (column == reader->plan_column)
             plan = field;
         if (column == reader->rank_column && !tn_buffer_append(&reader->rank, field.text, field.size))
@@ -158,5 +159,6 @@ tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *erro
     if (!plan.text && reader->text[size - 1] == ',')
         plan = (csv_field){.text = reader->text + size, .column = size + 1}; /* an empty last field: the empty plan */
     return plan.text ? parse_plan(reader, &plan, error)
-                     : bad_record(reader, size, "the record ends before the column named plan", error);
+                     : bad_record(reader, size, "the record ends before the column named plan",
+                                  "a record has a field for each column that the header names", error);
 }

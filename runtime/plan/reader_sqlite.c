@@ -12,8 +12,9 @@ static tn_status failed(const tn_plan_reader *reader, tn_error *error)
     if (code == SQLITE_NOMEM)
         return tn_fail_memory(error);
     bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
-    return tn_fail(error, damaged ? TN_INVALID : TN_IO, damaged ? 604 : 901, "%s: %s", reader->path,
-                   sqlite3_errmsg(reader->database));
+    bool opening = reader->line == 0; /* later the error has a line, and so a file */
+    return tn_fail(error, damaged ? TN_INVALID : TN_IO, damaged ? 604 : 901, "%s%s%s", opening ? reader->path : "",
+                   opening ? ": " : "", sqlite3_errmsg(reader->database));
 }
 
 /* Was the library made with this schema? A library without metadata is read by its plan lines. */

@@ -147,10 +147,11 @@ static void help_value(const tn_schema *schema, uint32_t field, const tn_word *w
     const char *near = tn_nearest(shown, candidates, count);
     uint32_t other = field_with_value(schema, word);
     char fields[160];
+    int64_t length;
     if (other != UINT32_MAX)
-        tn_error_help(error, "%s is a value of %s; the values of a tray stand in the schema's order: %s", shown,
+        tn_error_help(error, "'%s' is a value of %s; the values of a tray stand in the schema's order: %s", shown,
                       text_of(schema, schema->fields[other].name), tn_value_fields(schema, fields, sizeof fields));
-    else if (near)
+    else if (near && !read_length(word, &length)) /* another length is no slip of the pen */
         tn_error_help(error, "did you mean %s?", near);
 }
 
@@ -193,8 +194,7 @@ tn_status tn_value_tray(const tn_schema *schema, const uint8_t *values, const tn
     uint32_t spec = tn_schema_forbidden_by(schema, values);
     if (spec != UINT32_MAX)
         spec_text(schema->module, spec, text, sizeof text);
-    tn_fail(error, TN_INVALID, 603, "schema %.60s has no such tray: forbid %s", text_of(schema, schema->record->name),
-            text);
+    tn_fail(error, TN_INVALID, 603, "schema %.60s has no such tray: %s", text_of(schema, schema->record->name), text);
     tn_error_help(error, "change one of the values that the `forbid` names");
     return tn_word_refuse(place, error);
 }

@@ -6,7 +6,6 @@
 
 #include "runtime/plan/pack.h"
 #include "runtime/vm/bytes.h"
-#include "runtime/vm/length.h"
 
 #define BATCH_DEFAULT 50000u
 
@@ -130,6 +129,9 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
     writer->schema = schema;
     writer->format = options->format;
     writer->length_field = tn_schema_length_field(schema);
+    if (writer->length_field != UINT32_MAX)
+        writer->total_style = tn_length_style_of(
+            tn_text(schema->module, schema->values[schema->value_start[writer->length_field]].spelling));
     writer->batch = options->batch > 0 ? options->batch : BATCH_DEFAULT;
     tn_status status = open_writer(writer, path, options, error);
     if (status != TN_OK) {
@@ -166,7 +168,7 @@ static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *
         return false;
     if (writer->length_field != UINT32_MAX) {
         char total[48];
-        tn_length_write(tn_writer_total(writer, trays, length), total, sizeof total);
+        tn_length_write_style(tn_writer_total(writer, trays, length), writer->total_style, total, sizeof total);
         if (!append_field(out, total, strlen(total)) || !append_text(out, ","))
             return false;
     }

@@ -6,6 +6,7 @@
 
 #include "runtime/plan/stream.h"
 #include "runtime/vm/file.h"
+#include "runtime/vm/length_style.h"
 
 /* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
 #define TN_LIBRARY_APPLICATION_ID 0x54415254
@@ -25,7 +26,8 @@ struct tn_plan_writer {
     tn_output output; /* of every format but SQLite */
     bool closed;
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
-    tn_buffer text;        /* of the plan in hand */
+    tn_length_style total_style;
+    tn_buffer text; /* of the plan in hand */
     tn_buffer packed;
 
     sqlite3 *database;

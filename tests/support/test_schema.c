@@ -104,7 +104,7 @@ uint32_t test_schema_add(tn_builder *builder, const test_schema *schema)
         uint32_t spec = test_spec_add(builder, index, schema->forbids[i]);
         uint32_t mask = (uint32_t)tn_builder_count(builder, TN_SECTION_MASK) - 1;
         tn_builder_set_SPEC(builder, spec,
-                            &(tn_spec_record){.schema = index, .mask_first = mask, .begin = 7, .end = 9});
+                            &(tn_spec_record){.schema = index, .mask_first = mask, .begin = 0, .end = 9});
     }
     return tn_builder_add_SCHEMA(builder, &record);
 }

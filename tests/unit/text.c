@@ -163,7 +163,7 @@ static void test_errors(void **state)
         {"8' doubel - empty", 602, 4, 10, "'doubel' is not a value of height, which can be single or double",
          "did you mean double?"},
         {"5' single - empty", 602, 1, 3, "'5'' is not a value of width, which can be 4', 8' or 12'", ""},
-        {"double 8' - empty", 602, 1, 7, "is not a value of width", "double is a value of height; the values"},
+        {"double 8' - empty", 602, 1, 7, "is not a value of width", "'double' is a value of height; the values"},
         {"8' single - dense:5'", 602, 13, 21, "dense:4', dense:8' or empty", "did you mean dense:"},
         {"8' single - empty:4'", 602, 13, 21, "'empty:4''", ""},
         {"8' single - open", 602, 13, 17, "'open' is not a value of machine", ""},
