@@ -4,7 +4,10 @@
 #include <string.h>
 
 /* A batch ends at so many plans or so many trays, whichever comes first. */
-enum { BATCH_PLANS = 8192, BATCH_TRAYS = 1 << 20 };
+enum { BATCH_PLANS = 65536, BATCH_TRAYS = 1 << 22 };
+
+/* Steps of automata (a tray, a rule) below which waking the other threads takes longer than doing without them. */
+#define STEPS_WORTH_THREADS 4000000u
 
 typedef struct sift {
     tn_plan_reader *reader;
@@ -13,7 +16,8 @@ typedef struct sift {
     size_t words; /* of result bits a plan */
     tn_matcher **matchers;
     int threads;
-    tn_tray *trays; /* of all plans of the batch, one after another */
+    bool interprets; /* some rule has no automaton: then every plan is work enough */
+    tn_tray *trays;  /* of all plans of the batch, one after another */
     size_t tray_count, tray_room;
     size_t *starts; /* of plan i in trays; one past the last too */
     uint64_t *lines, *bits;
@@ -32,6 +36,8 @@ static tn_status sift_new(sift *s, tn_error *error)
     s->matchers = calloc((size_t)s->threads, sizeof *s->matchers);
     if (!s->starts || !s->lines || !s->bits || !s->statuses || !s->matchers)
         return tn_fail_memory(error);
+    for (size_t i = 0; i < tn_rules_count(s->rules); i++)
+        s->interprets |= tn_rules_states(s->rules, i) == 0;
     tn_status status = TN_OK;
     for (int i = 0; status == TN_OK && i < s->threads; i++)
         status = tn_matcher_new(s->rules, &s->matchers[i], error);
@@ -82,9 +88,11 @@ static void match_share(sift *s, size_t first, size_t last, tn_matcher *matcher)
 /* Matches the batch, each thread its share of it, and hands it on. */
 static void flush(sift *s)
 {
-    size_t share = (s->count + (size_t)s->threads - 1) / (size_t)s->threads;
-#pragma omp parallel for num_threads(s->threads) schedule(static, 1)
-    for (int t = 0; t < s->threads; t++) {
+    bool together = s->interprets || s->tray_count * tn_rules_count(s->rules) >= STEPS_WORTH_THREADS;
+    int threads = together && s->count > 1 ? s->threads : 1;
+    size_t share = (s->count + (size_t)threads - 1) / (size_t)threads;
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
         size_t first = share * (size_t)t, last = first + share;
         if (first < s->count)
             match_share(s, first, last < s->count ? last : s->count, s->matchers[t]);
