@@ -148,7 +148,8 @@ unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double w
     return lines;
 }
 
-void tn_type_digits(cairo_t *context, double x, double baseline, const char *digits)
+/* Sets the groups from x on and returns where they end; only measures where `show` is false. */
+static double set_digits(cairo_t *context, double x, double baseline, const char *digits, bool show)
 {
     cairo_font_extents_t font;
     cairo_font_extents(context, &font);
@@ -157,8 +158,21 @@ void tn_type_digits(cairo_t *context, double x, double baseline, const char *dig
         char group[4];
         size_t size = (length - i) % 3 ? (length - i) % 3 : 3;
         snprintf(group, sizeof group, "%.*s", (int)size, digits + i);
-        tn_type_line(context, x, baseline, TN_ALIGN_LEFT, group);
+        if (show)
+            tn_type_line(context, x, baseline, TN_ALIGN_LEFT, group);
         x += tn_type_width(context, group) + font.height * 0.12;
         i += size;
     }
+    return x;
+}
+
+void tn_type_digits(cairo_t *context, double x, double baseline, double width, const char *digits)
+{
+    double natural = set_digits(context, 0, 0, digits, false);
+    cairo_save(context);
+    cairo_translate(context, x, baseline);
+    if (natural > width && width > 0)
+        cairo_scale(context, width / natural, width / natural);
+    set_digits(context, 0, 0, digits, true);
+    cairo_restore(context);
 }

@@ -24,7 +24,7 @@ void tn_type_fit(cairo_t *context, double x, double baseline, tn_align align, do
 unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double width, double leading,
                            unsigned max_lines, const char *text);
 
-/* Sets digits in groups of three, kept apart by a little space. */
-void tn_type_digits(cairo_t *context, double x, double baseline, const char *digits);
+/* Sets digits in groups of three, kept apart by a little space; smaller where they are wider than `width`. */
+void tn_type_digits(cairo_t *context, double x, double baseline, double width, const char *digits);
 
 #endif

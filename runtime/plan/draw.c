@@ -254,7 +254,8 @@ static void draw_frame(const drawing *d, cairo_t *context, size_t page, size_t p
     cairo_restore(context);
 }
 
-static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double baseline)
+static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double baseline,
+                        double width)
 {
     if (!plan->number)
         return;
@@ -262,7 +263,7 @@ static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan 
     tn_type_line(context, x, baseline, TN_ALIGN_LEFT, d->options->number_name);
     double used = tn_type_width(context, d->options->number_name) + 3;
     tn_type_face(context, NUMBER_SIZE, true);
-    tn_type_digits(context, x + used, baseline, plan->number);
+    tn_type_digits(context, x + used, baseline, width - used, plan->number);
 }
 
 static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double y)
@@ -271,7 +272,7 @@ static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *p
         double left = x + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double spine = y + d->extent.above * d->factor, bottom = spine + d->extent.below * d->factor;
         tn_draw_plan(context, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
-        draw_number(d, context, plan, left, y + d->cell_height - 2);
+        draw_number(d, context, plan, left, y + d->cell_height - 2, d->cell_width - (left - x));
         return;
     }
     cairo_save(context);
@@ -279,7 +280,8 @@ static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *p
     cairo_scale(context, d->factor, d->factor);
     tn_draw_table_plan(context, &d->roles, &d->table, plan, 0, 0);
     cairo_restore(context);
-    draw_number(d, context, plan, x + d->table.name_width * d->factor, y + d->cell_height - 2);
+    double indent = d->table.name_width * d->factor;
+    draw_number(d, context, plan, x + indent, y + d->cell_height - 2, d->cell_width - indent);
 }
 
 /* The gap that spreads `count` cells over the room, between the usual gap and three times that. */

@@ -7,6 +7,7 @@
 
 #define DIMENSION_SIZE 5.5
 #define WRITTEN_SIZE 4.6
+#define WRITTEN_MIN 10.0 /* a tray narrower than this has no room for words */
 #define WRITTEN_LEADING 5.8
 #define HATCH_SPACING 2.8
 #define DIMENSION_GAP 11.0 /* from the plan to the line that measures trays */
@@ -269,6 +270,8 @@ static void write_values(const picture *p, size_t i, double x, double y, double 
 {
     tn_tray tray = p->plan->trays[i];
     const tn_schema *schema = p->roles->schema;
+    if (width < WRITTEN_MIN)
+        return;
     tn_type_face(p->context, WRITTEN_SIZE, false);
     for (uint32_t f = 0; f < schema->field_count; f++) {
         if (!is_worth_writing(p->roles, tray, f))

@@ -7,6 +7,7 @@
 #include "runtime/draw/paper.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/draw_parts.h"
+#include "runtime/vm/length.h"
 
 #define HEADING_SIZE 5.2
 #define LABEL_SIZE 6.4
@@ -240,21 +241,36 @@ static void list_fields(strip *s)
     }
 }
 
-/* The scale in words, and a bar of four steps, each the schema's smallest length. */
+/* The step of the scale bar: the schema's smallest length, or where that is longer than the bar, a foot or metre, or a
+ * part of one. */
+static int64_t bar_step(const tn_draw_roles *roles, double longest)
+{
+    static const int64_t metric[] = {1000000000, 100000000, 10000000, 1000000},
+                         feet[] = {TN_FOOT_NM, TN_INCH_NM, TN_INCH_NM / 8};
+    const tn_schema *schema = roles->schema;
+    int64_t step = INT64_MAX;
+    for (uint32_t v = schema->value_start[roles->length]; v < schema->value_start[roles->length + 1]; v++)
+        if (schema->values[v].length > 0 && schema->values[v].length < step)
+            step = schema->values[v].length;
+    bool in_feet = roles->style == TN_STYLE_FEET;
+    size_t count = in_feet ? sizeof feet / sizeof *feet : sizeof metric / sizeof *metric;
+    for (size_t i = 0; i < count && (double)step > longest; i++)
+        step = in_feet ? feet[i] : metric[i];
+    return step;
+}
+
+/* The scale in words, and a bar of four steps at most. */
 static void draw_scale(const strip *s, uint32_t scale, double zoom)
 {
     const tn_draw_roles *roles = s->roles;
-    const tn_schema *schema = roles->schema;
     char text[64];
     heading(s, "SCALE");
     tn_scale_write(scale, roles->style != TN_STYLE_FEET, text, sizeof text);
     tn_type_face(s->context, 9, false);
     tn_type_line(s->context, s->x + PADDING, s->y + 32, TN_ALIGN_LEFT, text);
-    int64_t step = INT64_MAX;
-    for (uint32_t v = schema->value_start[roles->length]; v < schema->value_start[roles->length + 1]; v++)
-        if (schema->values[v].length > 0 && schema->values[v].length < step)
-            step = schema->values[v].length;
-    double width = (double)step * TN_POINTS_PER_NM / scale / zoom, room = SCALE_WIDTH - 2 * PADDING - 4;
+    double room = SCALE_WIDTH - 2 * PADDING - 4;
+    int64_t step = bar_step(roles, room / (TN_POINTS_PER_NM / scale / zoom));
+    double width = (double)step * TN_POINTS_PER_NM / scale / zoom;
     int steps = (int)fmin(4, floor(room / width));
     double x = s->x + PADDING + 1, y = s->y + 48;
     tn_type_face(s->context, HEADING_SIZE, false);

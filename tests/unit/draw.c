@@ -118,7 +118,8 @@ static void sets_any_text(void **state)
         assert_int_equal(cairo_status(context), CAIRO_STATUS_SUCCESS);
     }
     tn_type_fit(context, 0, 20, TN_ALIGN_LEFT, 40, huge);
-    tn_type_digits(context, 0, 30, "1234567");
+    tn_type_digits(context, 0, 30, 100, "1234567");
+    tn_type_digits(context, 0, 30, 2, "12345678901234567890");
     assert_int_equal(tn_type_paragraph(context, 0, 30, 1000, 8, 3, "one line"), 1);
     assert_int_equal(tn_type_paragraph(context, 0, 30, 1, 8, 3, "five short words in lines"), 3);
     assert_true(tn_type_width(context, "mm") > tn_type_width(context, "m"));
