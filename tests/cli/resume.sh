@@ -10,8 +10,7 @@ contents() {
 import sqlite3, sys
 db = sqlite3.connect(sys.argv[1])
 for (table,) in sorted(db.execute("select name from sqlite_master where type = 'table'")):
-    for row in db.execute(f'select * from "{table}" order by 1'):
-        print(table, row)
+    sys.stdout.write("\n".join(map(repr, db.execute(f'select * from "{table}" order by 1'))) + "\n")
 PYTHON
 }
 "${enumerate[@]}" -o "$scratch/whole.sqlite"
@@ -19,19 +18,18 @@ contents "$scratch/whole.sqlite" >"$scratch/whole"
 [ "$(wc -l <"$scratch/whole")" -gt 349525 ] || fail 'the database lacks plans'
 
 broken=0
-for delay in 0.05 0.15 0.3; do
-    for signal in KILL TERM; do
-        rm -f "$scratch/part.sqlite"*
-        "${enumerate[@]}" -o "$scratch/part.sqlite" 2>/dev/null &
-        pid=$!
-        sleep "$delay"
-        if kill -$signal "$pid" 2>/dev/null; then
-            broken=$((broken + 1))
-        fi
-        wait "$pid" 2>/dev/null || true
-        "${enumerate[@]}" -o "$scratch/part.sqlite" --resume 2>/dev/null || fail "cannot resume after SIG$signal at ${delay}s"
-        contents "$scratch/part.sqlite" | cmp -s - "$scratch/whole" || fail "another database after SIG$signal at ${delay}s"
-    done
+for attempt in 'KILL 0.05' 'KILL 0.2' 'TERM 0.1' 'KILL 0.4'; do
+    read -r signal delay <<<"$attempt"
+    rm -f "$scratch/part.sqlite"*
+    "${enumerate[@]}" -o "$scratch/part.sqlite" 2>/dev/null &
+    pid=$!
+    sleep "$delay"
+    if kill -"$signal" "$pid" 2>/dev/null; then
+        broken=$((broken + 1))
+    fi
+    wait "$pid" 2>/dev/null || true
+    "${enumerate[@]}" -o "$scratch/part.sqlite" --resume 2>/dev/null || fail "cannot resume after SIG$signal at ${delay}s"
+    contents "$scratch/part.sqlite" | cmp -s - "$scratch/whole" || fail "another database after SIG$signal at ${delay}s"
 done
 [ "$broken" -gt 0 ] || echo 'note: every run ended before it was killed'
 
