@@ -203,6 +203,38 @@ static void test_empty_plan(void **state)
     tn_module_free(module);
 }
 
+/* What no rule of the language compiles to, but a module may hold: `somewhere` of a relation with empty stretches. */
+static void test_somewhere_needs_a_tray(void **state)
+{
+    (void)state;
+    tn_builder *builder = tn_builder_new();
+    test_schema_add(builder, &test_schema_tiny);
+    uint32_t spec = test_spec_add(builder, 0, 0xd); /* width 4' */
+    tn_builder_emit(builder, TN_OP_TRAY, spec, 0);
+    tn_builder_emit(builder, TN_OP_NOT, 0, 0);
+    tn_builder_emit(builder, TN_OP_SOMEWHERE, 0, 0);
+    tn_builder_emit(builder, TN_OP_RETURN, 0, 0);
+    tn_builder_add_FUNCTION(builder, &(tn_function_record){.name = tn_builder_string(builder, "f"),
+                                                           .kind = TN_FUNCTION_HOLDS,
+                                                           .code_end = tn_builder_offset(builder),
+                                                           .stack_max = 1});
+    tn_module *module = test_module(builder);
+    tn_schema *schema = test_schema_open(module, 0);
+    tn_plan_vm *vm = NULL;
+    tn_error error;
+    test_ok(tn_plan_vm_new(schema, 0, &vm, &error), &error);
+    const tn_tray trays[] = {0, 3}; /* 4', then 8' */
+    for (size_t length = 0; length <= 2; length++) {
+        bool in = false;
+        test_ok(tn_plan_vm_plan(vm, trays, length, &error), &error);
+        test_ok(tn_plan_vm_holds(vm, 0, &in, &error), &error);
+        assert_int_equal(in, length == 2);
+    }
+    tn_plan_vm_free(vm);
+    tn_schema_free(schema);
+    tn_module_free(module);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +244,7 @@ int main(void)
         cmocka_unit_test(test_long_call_chain),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_empty_plan),
+        cmocka_unit_test(test_somewhere_needs_a_tray),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
