@@ -24,6 +24,9 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
     if (size > TN_SOURCE_BYTES_MAX)
         return tn_fail(error, TN_LIMIT, 804, "%s is %zu bytes long; the limit for a source file is %u", path, size,
                        TN_SOURCE_BYTES_MAX);
+    if (size > TN_SOURCES_BYTES_MAX - sources->bytes)
+        return tn_fail(error, TN_LIMIT, 804, "with %s the source files together pass the limit of %u bytes", path,
+                       TN_SOURCES_BYTES_MAX);
     tn_status status = grow(sources, error);
     if (status != TN_OK)
         return status;
@@ -35,6 +38,7 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
     }
     if (size > 0)
         memcpy(source.text, text, size);
+    sources->bytes += size;
     *file = (uint32_t)sources->count;
     sources->files[sources->count++] = source;
     return TN_OK;

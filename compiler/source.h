@@ -25,11 +25,14 @@ typedef struct tn_source {
 typedef struct tn_sources {
     tn_source *files;
     size_t count, capacity;
+    size_t bytes; /* of all texts */
 } tn_sources;
 
-#define TN_SOURCE_BYTES_MAX (16u << 20)
+#define TN_SOURCE_BYTES_MAX (16u << 20)  /* of one text */
+#define TN_SOURCES_BYTES_MAX (64u << 20) /* of all together: with it, a compilation's memory is bounded */
 
-/* Adds a copy of a text; its index in *file. TN_LIMIT (E0804) past TN_SOURCE_BYTES_MAX. */
+/* Adds a copy of a text; its index in *file. TN_LIMIT (E0804) past TN_SOURCE_BYTES_MAX or
+ * TN_SOURCES_BYTES_MAX. */
 tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file,
                          tn_error *error);
 void tn_sources_clear(tn_sources *sources);

@@ -127,7 +127,12 @@ static void test_too_large(void **state)
     assert_int_equal(tn_sources_add(&sources, "big", text, TN_SOURCE_BYTES_MAX + 1u, &file, &error), TN_LIMIT);
     assert_int_equal(error.code, 804);
     assert_string_equal(error.message, "big is 16777217 bytes long; the limit for a source file is 16777216");
-    assert_int_equal(tn_sources_add(&sources, "big", text, TN_SOURCE_BYTES_MAX, &file, &error), TN_OK);
+    for (uint32_t i = 0; i < TN_SOURCES_BYTES_MAX / TN_SOURCE_BYTES_MAX; i++)
+        assert_int_equal(tn_sources_add(&sources, "big", text, TN_SOURCE_BYTES_MAX, &file, &error), TN_OK);
+    assert_int_equal(tn_sources_add(&sources, "small", "x", 1, &file, &error), TN_LIMIT);
+    assert_int_equal(error.code, 804);
+    assert_string_equal(error.message, "with small the source files together pass the limit of 67108864 bytes");
+    assert_int_equal(tn_sources_add(&sources, "empty", "", 0, &file, &error), TN_OK);
     free(text);
     tn_sources_clear(&sources);
 }
