@@ -80,7 +80,8 @@ tn_ast_range tn_ast_range_new(tn_span span, const tn_ast_word *low, const tn_ast
 tn_ast_range tn_ast_range_dash(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high)
 {
     if (low && high) {
-        tn_diagnostic *d = tn_report(parse->diagnostics, E_RANGE_DASH, span, "a range is written with two dots, not with a dash");
+        tn_diagnostic *d =
+            tn_report(parse->diagnostics, E_RANGE_DASH, span, "a range is written with two dots, not with a dash");
         tn_help(parse->diagnostics, d, "write `%s..%s`", low->text, high->text);
     }
     return tn_ast_range_new(span, low, high);
@@ -121,7 +122,8 @@ static tn_ast_cond *cond_new(tn_parse *parse, tn_cond_kind kind, tn_span span)
     return cond;
 }
 
-tn_ast_cond *tn_ast_compare(tn_parse *parse, tn_span span, const tn_ast_word *left, tn_operator op, const tn_ast_word *right)
+tn_ast_cond *tn_ast_compare(tn_parse *parse, tn_span span, const tn_ast_word *left, tn_operator op,
+                            const tn_ast_word *right)
 {
     tn_ast_cond *cond = cond_new(parse, TN_COND_COMPARE, span);
     if (!cond || !left || !right)
@@ -141,7 +143,8 @@ tn_ast_cond *tn_ast_chained(tn_parse *parse, tn_span span, tn_ast_cond *first, t
 {
     if (!first || !right)
         return NULL;
-    tn_diagnostic *d = tn_report(parse->diagnostics, E_CHAINED_COMPARISON, span, "a comparison has two sides, and this one has three");
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_CHAINED_COMPARISON, span, "a comparison has two sides, and this one has three");
     const tn_ast_word *low = first->left, *middle = first->right;
     bool range = middle->kind == TN_WORD_NAME && low->kind != TN_WORD_NAME && right->kind != TN_WORD_NAME;
     if (range && first->op == TN_AT_MOST && op == TN_AT_MOST)

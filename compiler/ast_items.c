@@ -55,12 +55,14 @@ void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast
     return field;
 }
 
-void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc, tn_ast_body body)
+void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                        tn_ast_body body)
 {
     tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
     if (!schema || !name)
         return NULL;
-    *schema = (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
+    *schema =
+        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
     return schema;
 }
 
@@ -132,7 +134,8 @@ tn_ast_clause *tn_ast_trays(tn_parse *parse, tn_span span, tn_ast_range range)
     return clause;
 }
 
-tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_ast_range range, const tn_ast_word *doc)
+tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_ast_range range,
+                                  const tn_ast_word *doc)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_TOTAL_RANGE, span);
     if (!clause || !range.low || !range.high)
@@ -166,7 +169,8 @@ tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, 
     return clause;
 }
 
-tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name, const tn_ast_word *doc)
+tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
+                            const tn_ast_word *doc)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_PRUNE, span);
     if (!clause || !expr)

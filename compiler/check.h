@@ -33,11 +33,11 @@ typedef struct tn_checked_field {
 
 typedef struct tn_checked_spec {
     struct tn_checked_schema *schema;
-    uint64_t *mask;     /* schema->words; a bit per value */
+    uint64_t *mask; /* schema->words; a bit per value */
     tn_span span;
-    const char *key;    /* equal for equal masks of one schema */
-    uint32_t index;     /* emitted: of its record */
-    bool broken;        /* already reported */
+    const char *key; /* equal for equal masks of one schema */
+    uint32_t index;  /* emitted: of its record */
+    bool broken;     /* already reported */
 } tn_checked_spec;
 
 typedef struct tn_checked_schema {
@@ -50,9 +50,9 @@ typedef struct tn_checked_schema {
     uint32_t length_field;       /* the first of kind length, or TN_NONE */
     tn_checked_spec **forbids;
     uint32_t forbid_count;
-    bool broken;                 /* something of it was already reported */
-    uint32_t index;              /* of its record */
-    uint32_t field_first;        /* emitted: of its first FIELD record */
+    bool broken;          /* something of it was already reported */
+    uint32_t index;       /* of its record */
+    uint32_t field_first; /* emitted: of its first FIELD record */
 } tn_checked_schema;
 
 /* One instruction of a condition. */
@@ -80,7 +80,7 @@ typedef struct tn_checked_rule {
     struct tn_checked_rule **uses;
     tn_ast_expr **use_places;
     size_t use_count, use_capacity;
-    int state;                 /* of ordering */
+    int state; /* of ordering */
     size_t next_use;
     uint32_t index, whole, holds; /* emitted: of its record and functions */
 } tn_checked_rule;
@@ -95,7 +95,7 @@ typedef struct tn_checked_clause {
     tn_checked_spec *any;            /* total */
     uint32_t field;                  /* total */
     tn_span span;
-    uint32_t function;               /* emitted: plus one; 0: not yet */
+    uint32_t function; /* emitted: plus one; 0: not yet */
 } tn_checked_clause;
 
 typedef struct tn_checked_library {
@@ -106,7 +106,7 @@ typedef struct tn_checked_library {
     struct tn_checked_library *from;
     tn_checked_clause **clauses;
     size_t clause_count, clause_capacity;
-    tn_names clause_names;     /* name -> tn_checked_clause */
+    tn_names clause_names;      /* name -> tn_checked_clause */
     const tn_ast_clause *trays; /* its own, or taken over */
     uint32_t trays_min, trays_max;
     tn_ast_list allow;
@@ -139,12 +139,12 @@ typedef struct tn_check {
     tn_diagnostics *diagnostics;
     const tn_imports *imports;
     tn_checked *result;
-    tn_names schemas;    /* name -> tn_checked_schema */
-    tn_names names;      /* name -> tn_checked_name */
-    tn_names specs;      /* key -> tn_checked_spec */
-    tn_names conditions; /* key -> tn_checked_condition */
-    bool incomplete;     /* names may be missing because of errors already reported */
-    bool skipped;        /* clauses may be missing because of errors already reported */
+    tn_names schemas;     /* name -> tn_checked_schema */
+    tn_names names;       /* name -> tn_checked_name */
+    tn_names specs;       /* key -> tn_checked_spec */
+    tn_names conditions;  /* key -> tn_checked_condition */
+    bool incomplete;      /* names may be missing because of errors already reported */
+    bool skipped;         /* clauses may be missing because of errors already reported */
     bool *no_schema_said; /* per unit */
     bool too_many_said;
 
@@ -163,9 +163,11 @@ typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want;
 void tn_check_collect(tn_check *check); /* makes the lists and tables of schemas, rules, libraries */
 /* Is there room for one more than `count`? The first time that there is none is reported (E0831). */
 bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span, const char *help);
-tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_ast_word *using, tn_span place); /* NULL: reported */
+tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_ast_word *using,
+                                       tn_span place);                                        /* NULL: reported */
 const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, tn_want want); /* NULL: reported */
-void tn_check_allow(tn_check *check, tn_ast_list codes);  /* resolves the words of an `allow`: value is the tn_code, 0 where wrong */
+void tn_check_allow(tn_check *check,
+                    tn_ast_list codes);    /* resolves the words of an `allow`: value is the tn_code, 0 where wrong */
 void tn_check_allowances(tn_check *check); /* collects all of them for the program */
 bool tn_check_wanted(const tn_check *check, tn_code warning); /* is it not allowed in what is being checked? */
 
@@ -199,7 +201,7 @@ bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths); /
 void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field);
 
 /* ---- check_rule.c */
-void tn_check_expr(tn_check *check, tn_ast_expr *expr);   /* names, specifiers, conditions, what may stand where */
+void tn_check_expr(tn_check *check, tn_ast_expr *expr);    /* names, specifiers, conditions, what may stand where */
 void tn_check_meaning(tn_check *check, tn_ast_expr *expr); /* what needs the rules that it names to be in order */
 uint32_t tn_min_trays(const tn_ast_expr *expr);            /* a lower bound of what it fits */
 

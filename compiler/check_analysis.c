@@ -107,7 +107,8 @@ static void try_around(tn_trial *trial, int64_t constant)
 
 void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field)
 {
-    tn_trial trial = {.condition = condition, .unit = check->schema && !check->schema->broken ? unit_of(check->schema, field) : 0};
+    tn_trial trial = {.condition = condition,
+                      .unit = check->schema && !check->schema->broken ? unit_of(check->schema, field) : 0};
     if (trial.unit == 0)
         return;
     trial.period = period_of(condition, trial.unit);
@@ -116,7 +117,8 @@ void tn_check_truth(tn_check *check, const tn_checked_condition *condition, cons
     try_around(&trial, 0);
     for (size_t i = 0; i < condition->count; i++) {
         const tn_condition_step *step = &condition->steps[i];
-        if (step->opcode == TN_OP_LESS || step->opcode == TN_OP_EQUAL || step->opcode == TN_OP_GREATER || step->opcode == TN_OP_WITHIN)
+        if (step->opcode == TN_OP_LESS || step->opcode == TN_OP_EQUAL || step->opcode == TN_OP_GREATER ||
+            step->opcode == TN_OP_WITHIN)
             try_around(&trial, step->first);
         if (step->opcode == TN_OP_WITHIN)
             try_around(&trial, step->second);
@@ -126,12 +128,14 @@ void tn_check_truth(tn_check *check, const tn_checked_condition *condition, cons
     tn_code code = trial.seen[1] ? W_ALWAYS_TRUE : W_NEVER_TRUE;
     if (!tn_check_wanted(check, code))
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, code, condition->span, "this is %s true", trial.seen[1] ? "always" : "never");
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, code, condition->span, "this is %s true", trial.seen[1] ? "always" : "never");
     if (field == TN_NONE)
         tn_help(check->diagnostics, d, "`%s` is a whole number, 0 or more: compare it with another one", variable);
     else {
         char text[400];
         tn_say_values(&check->schema->fields[field], NULL, text, sizeof text);
-        tn_help(check->diagnostics, d, "`%s` adds values of `%s`: %s", variable, check->schema->fields[field].name, text);
+        tn_help(check->diagnostics, d, "`%s` adds values of `%s`: %s", variable, check->schema->fields[field].name,
+                text);
     }
 }

@@ -7,9 +7,9 @@
 typedef struct tn_condition_builder {
     tn_check *check;
     tn_checked_condition *condition;
-    uint32_t field;                /* whose lengths are added, or TN_NONE */
-    const tn_ast_word *variable;   /* as first written */
-    bool warned;                   /* about a remainder: nothing more is said about the whole */
+    uint32_t field;              /* whose lengths are added, or TN_NONE */
+    const tn_ast_word *variable; /* as first written */
+    bool warned;                 /* about a remainder: nothing more is said about the whole */
 } tn_condition_builder;
 
 /* ---- steps */
@@ -63,11 +63,14 @@ static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
         return true;
     tn_diagnostic *d;
     if (lengths) {
-        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "a sum is a length, and `%s` has no unit", word->text);
+        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "a sum is a length, and `%s` has no unit",
+                      word->text);
         tn_help(check->diagnostics, d, "write it with its unit, such as `%s'` or `%sm`", word->text, word->text);
     } else {
-        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "trays are counted, and `%s` is a length", word->text);
-        tn_help(check->diagnostics, d, "write a plain number; lengths are added up by `sum(FIELD, w > %s)` or `total`", word->text);
+        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "trays are counted, and `%s` is a length",
+                      word->text);
+        tn_help(check->diagnostics, d, "write a plain number; lengths are added up by `sum(FIELD, w > %s)` or `total`",
+                word->text);
     }
     return false;
 }
@@ -77,7 +80,8 @@ static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
     if (word->kind != TN_WORD_NAME)
         return check_unit(b->check, word, b->field != TN_NONE) || fail(b);
     if (!word->broken) {
-        tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span, "a number has to stand here, and `%s` is none", word->text);
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
+                                     "a number has to stand here, and `%s` is none", word->text);
         tn_help(b->check->diagnostics, d, "a condition compares its one variable with numbers");
     }
     return fail(b);
@@ -87,7 +91,8 @@ static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
 {
     if (word->kind != TN_WORD_NAME) {
         if (!word->broken) {
-            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, word->node.span, "a variable has to stand here, such as `n`");
+            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, word->node.span,
+                                         "a variable has to stand here, such as `n`");
             tn_help(b->check->diagnostics, d, "a condition says something about a number that you name: `n > 1`");
         }
         return fail(b);
@@ -96,8 +101,9 @@ static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
         b->variable = word;
     if (strcmp(b->variable->text, word->text) == 0)
         return true;
-    tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span, "a condition has one variable, and this one has `%s` and `%s`",
-                                 b->variable->text, word->text);
+    tn_diagnostic *d =
+        tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
+                  "a condition has one variable, and this one has `%s` and `%s`", b->variable->text, word->text);
     tn_note(b->check->diagnostics, d, &b->variable->node.span, "`%s` is here", b->variable->text);
     tn_help(b->check->diagnostics, d, "use the same name for both, or join two rules by `and`");
     return fail(b);
@@ -110,7 +116,8 @@ bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths)
         good &= check_unit(check, range->high, lengths);
     if (!good || range->low->value <= range->high->value)
         return good;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_RANGE_BACKWARDS, range->span, "this range ends before it starts");
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RANGE_BACKWARDS, range->span, "this range ends before it starts");
     tn_help(check->diagnostics, d, "write `%s..%s`", range->high->text, range->low->text);
     return false;
 }
@@ -131,7 +138,8 @@ static void add_compare(tn_condition_builder *b, const tn_ast_cond *cond)
     const tn_ast_word *left = cond->left, *right = cond->right;
     if (left->kind != TN_WORD_NAME && right->kind != TN_WORD_NAME) {
         if (!left->broken && !right->broken) {
-            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, cond->node.span, "this compares two numbers, and no variable");
+            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, cond->node.span,
+                                         "this compares two numbers, and no variable");
             tn_help(b->check->diagnostics, d, "write a name of your choice for the number that is counted: `n > 1`");
         }
         fail(b);
@@ -157,8 +165,8 @@ static bool warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!tn_check_wanted(b->check, W_REMAINDER_NEVER))
         return false;
-    tn_diagnostic *d = tn_report(b->check->diagnostics, W_REMAINDER_NEVER, cond->node.span, "a remainder by %s is never %s", cond->modulus->text,
-                                 cond->right->text);
+    tn_diagnostic *d = tn_report(b->check->diagnostics, W_REMAINDER_NEVER, cond->node.span,
+                                 "a remainder by %s is never %s", cond->modulus->text, cond->right->text);
     if (cond->modulus->kind == TN_WORD_NUMBER)
         tn_help(b->check->diagnostics, d, "it can be 0 to %lld", (long long)cond->modulus->value - 1);
     else
@@ -172,15 +180,17 @@ static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
         return;
     int64_t modulus = cond->modulus->value, remainder = cond->right->value;
     if (modulus <= 0) {
-        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->modulus->node.span, "there is no remainder by %s", cond->modulus->text);
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->modulus->node.span,
+                                     "there is no remainder by %s", cond->modulus->text);
         tn_help(b->check->diagnostics, d, "write a number above 0: `%s mod 2 = 0` means even", cond->left->text);
         fail(b);
         return;
     }
     if (cond->op != TN_EQUAL && cond->op != TN_UNEQUAL) {
-        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->node.span, "a remainder is compared by `=` or `!=` only");
-        tn_help(b->check->diagnostics, d, "join several by `or`: `%s mod %s = 0 or %s mod %s = 1`", cond->left->text, cond->modulus->text,
-                cond->left->text, cond->modulus->text);
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->node.span,
+                                     "a remainder is compared by `=` or `!=` only");
+        tn_help(b->check->diagnostics, d, "join several by `or`: `%s mod %s = 0 or %s mod %s = 1`", cond->left->text,
+                cond->modulus->text, cond->left->text, cond->modulus->text);
         fail(b);
         return;
     }
@@ -233,7 +243,8 @@ static tn_checked_condition *share(tn_check *check, tn_checked_condition *condit
         return NULL;
     for (size_t i = 0; i < condition->count; i++)
         used += (size_t)snprintf(key + used, STEP, "%d %llx %llx;", (int)condition->steps[i].opcode,
-                                 (unsigned long long)condition->steps[i].first, (unsigned long long)condition->steps[i].second);
+                                 (unsigned long long)condition->steps[i].first,
+                                 (unsigned long long)condition->steps[i].second);
     tn_checked_condition *same = tn_names_get(&check->conditions, key);
     if (same)
         return same;

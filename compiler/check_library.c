@@ -36,7 +36,8 @@ static const char *make_name(tn_check *check, const tn_checked_library *library,
 }
 
 /* Is the name that the author gave free? Where it is not, says so. The same rule pruned twice is harmless. */
-static bool name_is_free(tn_check *check, const tn_checked_library *library, const tn_checked_clause *clause, tn_span place)
+static bool name_is_free(tn_check *check, const tn_checked_library *library, const tn_checked_clause *clause,
+                         tn_span place)
 {
     const tn_checked_clause *before = tn_names_get(&library->clause_names, clause->name);
     if (!before)
@@ -44,13 +45,15 @@ static bool name_is_free(tn_check *check, const tn_checked_library *library, con
     if (clause->rule && before->rule == clause->rule && before->kind == clause->kind) {
         if (tn_check_wanted(check, W_PRUNED_TWICE)) {
             const char *verb = clause->kind == TN_CLAUSE_PRUNE ? "prunes" : "requires";
-            tn_diagnostic *d = tn_report(check->diagnostics, W_PRUNED_TWICE, place, "library `%s` %s `%s` twice", library->name, verb, clause->name);
+            tn_diagnostic *d = tn_report(check->diagnostics, W_PRUNED_TWICE, place, "library `%s` %s `%s` twice",
+                                         library->name, verb, clause->name);
             tn_note(check->diagnostics, d, &before->span, "the first time is here");
             tn_help(check->diagnostics, d, "leave this one out");
         }
         return false;
     }
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_CLAUSE, place, "library `%s` has a clause `%s` already", library->name, clause->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_CLAUSE, place,
+                                 "library `%s` has a clause `%s` already", library->name, clause->name);
     tn_note(check->diagnostics, d, &before->span, "it is here");
     tn_help(check->diagnostics, d, "give one of the two another name with `as`");
     return false;
@@ -63,7 +66,8 @@ static void check_clause_expr(tn_check *check, tn_ast_expr *expr)
     tn_check_warnings(check, expr);
 }
 
-static void add_expr_clause(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast, tn_checked_clause *clause)
+static void add_expr_clause(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast,
+                            tn_checked_clause *clause)
 {
     clause->expr = ast->expr;
     check_clause_expr(check, ast->expr);
@@ -76,8 +80,8 @@ static void add_expr_clause(tn_check *check, tn_checked_library *library, const 
     if (ast->name)
         clause->name = ast->name->text;
     if (ast->name && strlen(clause->name) > TN_NAME_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span, "this name is longer than the limit of %u bytes",
-                                     TN_NAME_MAX);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span,
+                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
         tn_help(check->diagnostics, d, "choose a shorter name");
     } else if (clause->name) {
         if (name_is_free(check, library, clause, ast->name ? ast->name->node.span : ast->expr->node.span))
@@ -99,12 +103,14 @@ static void add_total(tn_check *check, tn_checked_library *library, const tn_ast
         if (schema->broken)
             return;
         tn_span place = ast->field ? ast->field->node.span : ast->node.span;
-        tn_diagnostic *d = ast->field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, place, "schema `%s` has no field of lengths `%s`", schema->name,
-                                                  ast->field->text)
-                                      : tn_report(check->diagnostics, E_NO_LENGTH_FIELD, place, "schema `%s` has no field of lengths to add up",
-                                                  schema->name);
+        tn_diagnostic *d = ast->field
+                               ? tn_report(check->diagnostics, E_NOT_A_LENGTH, place,
+                                           "schema `%s` has no field of lengths `%s`", schema->name, ast->field->text)
+                               : tn_report(check->diagnostics, E_NO_LENGTH_FIELD, place,
+                                           "schema `%s` has no field of lengths to add up", schema->name);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
-        tn_help(check->diagnostics, d, "name a field of lengths, or a zone, whose depths are added: `total width 40'..56'`");
+        tn_help(check->diagnostics, d,
+                "name a field of lengths, or a zone, whose depths are added: `total width 40'..56'`");
         return;
     }
     clause->condition = tn_check_total(check, ast, clause->field);
@@ -118,7 +124,8 @@ static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast
 {
     bool own = library->trays && (!library->from || library->trays != library->from->trays);
     if (own) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_TRAYS_TWICE, ast->node.span, "library `%s` says twice how many trays a plan has", library->name);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_TRAYS_TWICE, ast->node.span,
+                                     "library `%s` says twice how many trays a plan has", library->name);
         tn_note(check->diagnostics, d, &library->trays->node.span, "the first time is here");
         tn_help(check->diagnostics, d, "write one range: `trays 4..9`");
         return;
@@ -128,7 +135,8 @@ static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast
         return;
     int64_t low = ast->range.low->value, high = ast->range.high->value;
     if (low < 0 || high > TN_TRAYS_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TRAYS, ast->range.span, "a plan cannot have %lld trays", (long long)(low < 0 ? low : high));
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TRAYS, ast->range.span, "a plan cannot have %lld trays",
+                                     (long long)(low < 0 ? low : high));
         tn_help(check->diagnostics, d, "the number of trays lies between 0 and %u", TN_TRAYS_MAX);
         return;
     }
@@ -139,20 +147,24 @@ static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast
 static void add_clause(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast)
 {
     static const tn_clause_kind kinds[] = {
-        [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL, [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,
-        [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,       [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
+        [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
+        [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
+        [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
     };
     if (ast->form == TN_FORM_TRAYS) {
         set_trays(check, library, ast);
         return;
     }
-    if (ast->form == TN_FORM_ALLOW ||
-        !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause", ast->node.span, "join some of them by `or`"))
+    if (ast->form == TN_FORM_ALLOW || !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause",
+                                                     ast->node.span, "join some of them by `or`"))
         return;
     tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
     if (!clause)
         return;
-    *clause = (tn_checked_clause){.ast = ast, .kind = kinds[ast->form], .doc = ast->doc ? ast->doc->text : NULL, .span = ast->node.span,
+    *clause = (tn_checked_clause){.ast = ast,
+                                  .kind = kinds[ast->form],
+                                  .doc = ast->doc ? ast->doc->text : NULL,
+                                  .span = ast->node.span,
                                   .field = TN_NONE};
     if (clause->kind != TN_CLAUSE_TOTAL)
         add_expr_clause(check, library, ast, clause);
@@ -174,8 +186,9 @@ static void take_over(tn_check *check, tn_checked_library *library)
     if (!name)
         return;
     if (name->library->state == OPEN) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_LIBRARY_CYCLE, word->node.span, "library `%s` is made from itself%s", library->name,
-                                     name->library == library ? "" : ", by way of others");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_LIBRARY_CYCLE, word->node.span, "library `%s` is made from itself%s",
+                      library->name, name->library == library ? "" : ", by way of others");
         tn_note(check->diagnostics, d, &name->span, "`%s` is here", name->library->name);
         tn_help(check->diagnostics, d, "start one of them with `using SCHEMA` instead of `from`");
         return;
@@ -224,8 +237,8 @@ static void check_library(tn_check *check, tn_checked_library *library)
     library->broken |= ast->from && (!library->from || library->from->broken);
     if (library->trays || check->skipped || library->broken)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_TRAYS, ast->name->node.span, "library `%s` does not say how many trays its plans have",
-                                 library->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_TRAYS, ast->name->node.span,
+                                 "library `%s` does not say how many trays its plans have", library->name);
     tn_help(check->diagnostics, d, "add a line such as `trays 4..9`");
 }
 

@@ -8,7 +8,7 @@
 typedef struct tn_tray_reader {
     tn_check *check;
     const tn_checked_schema *schema;
-    const tn_ast_word *word; /* the next to be read; NULL at the end */
+    const tn_ast_word *word;                   /* the next to be read; NULL at the end */
     const tn_ast_word *written[TN_FIELDS_MAX]; /* where a field's value is written */
     uint8_t *values;
 } tn_tray_reader;
@@ -23,10 +23,11 @@ static const tn_ast_word *next_word(tn_tray_reader *tray)
 static bool set(tn_tray_reader *tray, uint32_t field, uint32_t value, const tn_ast_word *word)
 {
     if (tray->written[field]) {
-        tn_diagnostic *d = tn_report(tray->check->diagnostics, E_FIELD_TWICE, word->node.span, "`%s` is written twice in one tray",
-                                     tray->schema->fields[field].name);
+        tn_diagnostic *d = tn_report(tray->check->diagnostics, E_FIELD_TWICE, word->node.span,
+                                     "`%s` is written twice in one tray", tray->schema->fields[field].name);
         tn_note(tray->check->diagnostics, d, &tray->written[field]->node.span, "the first time is here");
-        tn_help(tray->check->diagnostics, d, "a tray has one `%s`; trays are separated by `|`", tray->schema->fields[field].name);
+        tn_help(tray->check->diagnostics, d, "a tray has one `%s`; trays are separated by `|`",
+                tray->schema->fields[field].name);
         return false;
     }
     tray->written[field] = word;
@@ -82,10 +83,11 @@ static bool set_fill(tn_tray_reader *tray, uint32_t field, const tn_ast_word *fi
     }
     char legal[400];
     tn_say_values(f, fill->text, legal, sizeof legal);
-    tn_diagnostic *d = tn_report(tray->check->diagnostics, E_ILLEGAL_VALUE, depth->node.span, "`%s %s` cannot be %s deep", f->name, fill->text,
-                                 depth->text);
+    tn_diagnostic *d = tn_report(tray->check->diagnostics, E_ILLEGAL_VALUE, depth->node.span,
+                                 "`%s %s` cannot be %s deep", f->name, fill->text, depth->text);
     tn_note(tray->check->diagnostics, d, &f->ast->name->node.span, "`%s` is declared here", f->name);
-    tn_help(tray->check->diagnostics, d, "it can be %s; a length after a zone belongs to the zone: write others before it", legal);
+    tn_help(tray->check->diagnostics, d,
+            "it can be %s; a length after a zone belongs to the zone: write others before it", legal);
     return false;
 }
 
@@ -116,7 +118,8 @@ static bool read_named(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
         return set(tray, field, 1, name);
     const tn_ast_word *word = next_word(tray);
     if (!word)
-        return misread(tray, name, "this field has no value here", "write its value after its name, such as `width 8'`");
+        return misread(tray, name, "this field has no value here",
+                       "write its value after its name, such as `width 8'`");
     if (word->kind == TN_WORD_NUMBER) {
         tn_report_unit(tray->check, word);
         return false;
@@ -155,7 +158,8 @@ static bool read_not(tn_tray_reader *tray, const tn_ast_word *negation)
     uint32_t field = word && word->kind == TN_WORD_NAME ? tn_field_find(tray->schema, word->text) : TN_NONE;
     if (field != TN_NONE && tray->schema->fields[field].kind == TN_FIELD_FLAG)
         return set(tray, field, 0, word);
-    return misread(tray, word ? word : negation, "in a plan only a flag can be negated", "write the value that the tray has");
+    return misread(tray, word ? word : negation, "in a plan only a flag can be negated",
+                   "write the value that the tray has");
 }
 
 static bool read_word(tn_tray_reader *tray)
@@ -173,8 +177,8 @@ static bool read_word(tn_tray_reader *tray)
         return set_length(tray, tray->schema->length_field, word);
     if (tray->schema->broken || word->broken)
         return false;
-    tn_diagnostic *d = tn_report(tray->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span, "schema `%s` has no field of lengths",
-                                 tray->schema->name);
+    tn_diagnostic *d = tn_report(tray->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span,
+                                 "schema `%s` has no field of lengths", tray->schema->name);
     tn_help(tray->check->diagnostics, d, "write a length after the zone whose depth it is");
     return false;
 }
@@ -206,14 +210,17 @@ static bool narrows(const tn_checked_spec *spec, const tn_checked_field *field)
 static void report_forbidden(tn_tray_reader *tray, const tn_checked_spec *spec, tn_span place, tn_span forbid)
 {
     const tn_checked_schema *schema = tray->schema;
-    tn_diagnostic *d = tn_report(tray->check->diagnostics, E_FORBIDDEN_TRAY, place, "schema `%s` forbids this tray", schema->name);
+    tn_diagnostic *d =
+        tn_report(tray->check->diagnostics, E_FORBIDDEN_TRAY, place, "schema `%s` forbids this tray", schema->name);
     tn_note(tray->check->diagnostics, d, &forbid, "it is forbidden here");
     for (uint32_t f = 0; f < schema->field_count; f++) {
         const tn_checked_field *field = &schema->fields[f];
         if (tray->written[f] || !narrows(spec, field))
             continue;
         const char *value = field->kind == TN_FIELD_FLAG ? "not set" : field->values[tray->values[f]].spelling;
-        tn_help(tray->check->diagnostics, d, "`%s` is not written, so it is %s, the first value of the schema: write another one", field->name, value);
+        tn_help(tray->check->diagnostics, d,
+                "`%s` is not written, so it is %s, the first value of the schema: write another one", field->name,
+                value);
         return;
     }
     tn_help(tray->check->diagnostics, d, "change one of the values that the `forbid` names");
@@ -238,9 +245,11 @@ static bool check_legal(tn_tray_reader *tray, tn_span place)
 
 static bool read_tray(tn_check *check, const tn_checked_schema *schema, const tn_ast_tray *ast, uint8_t *values)
 {
-    tn_tray_reader tray = {.check = check, .schema = schema, .word = (const tn_ast_word *)ast->words.first, .values = values};
+    tn_tray_reader tray = {
+        .check = check, .schema = schema, .word = (const tn_ast_word *)ast->words.first, .values = values};
     if (!tray.word) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_TRAY, ast->node.span, "nothing is written between these bars");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_EMPTY_TRAY, ast->node.span, "nothing is written between these bars");
         tn_help(check->diagnostics, d, "write at least one value of the tray, such as its width");
         return false;
     }
@@ -257,8 +266,9 @@ const uint8_t *tn_check_plan(tn_check *check, const tn_checked_schema *schema, t
     if (!only || (trays.count == 1 && !only->words.first)) /* [ ]: the empty plan */
         return tn_arena_alloc(check->arena, 1);
     if (trays.count > TN_LITERAL_TRAYS_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_TOO_LONG, trays.last->span, "this plan has %zu trays, more than the limit of %u",
-                                     trays.count, TN_LITERAL_TRAYS_MAX);
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_PLAN_TOO_LONG, trays.last->span,
+                      "this plan has %zu trays, more than the limit of %u", trays.count, TN_LITERAL_TRAYS_MAX);
         tn_help(check->diagnostics, d, "put long plans into a file of plans, and match that");
         return NULL;
     }

@@ -36,7 +36,8 @@ bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what
     if (check->too_many_said)
         return false;
     check->too_many_said = true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, span, "this is one %s more than the limit of %zu", what, limit);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_TOO_MANY, span, "this is one %s more than the limit of %zu", what, limit);
     tn_help(check->diagnostics, d, "%s", help);
     return false;
 }
@@ -45,7 +46,8 @@ static const char split_help[] = "split the file, and check the parts one by one
 
 static void report_duplicate(tn_check *check, const tn_ast_word *name, const char *what, tn_span before)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_NAME, name->node.span, "the name `%s` is already taken", name->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_DUPLICATE_NAME, name->node.span, "the name `%s` is already taken", name->text);
     tn_note(check->diagnostics, d, &before, "the %s `%s` is here", what, name->text);
     tn_help(check->diagnostics, d, "choose another name for one of the two");
 }
@@ -54,8 +56,8 @@ static bool name_fits(tn_check *check, const tn_ast_word *name)
 {
     if (strlen(name->text) <= TN_NAME_MAX)
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, name->node.span, "this name is longer than the limit of %u bytes",
-                                 TN_NAME_MAX);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, name->node.span,
+                                 "this name is longer than the limit of %u bytes", TN_NAME_MAX);
     tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
     check->incomplete = true;
     return false;
@@ -122,7 +124,8 @@ static void add_library(tn_check *check, const tn_ast_library *ast, size_t unit)
     tn_checked_library *library = TN_NEW(check->arena, tn_checked_library);
     if (!name || !library)
         return;
-    *library = (tn_checked_library){.ast = ast, .name = ast->name->text, .unit = unit, .index = (uint32_t)result->library_count};
+    *library = (tn_checked_library){
+        .ast = ast, .name = ast->name->text, .unit = unit, .index = (uint32_t)result->library_count};
     library->clause_names.arena = check->arena;
     name->library = library;
     result->libraries[result->library_count++] = library;
@@ -165,8 +168,8 @@ static const char *path_of(const tn_check *check, size_t unit)
 /* A name that exists, but in a file that this one does not use. */
 static void report_invisible(tn_check *check, const tn_ast_word *word, size_t unit, tn_span there)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_IMPORTED, word->node.span, "`%s` is in a file that this one does not use",
-                                 word->text);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_IMPORTED, word->node.span,
+                                 "`%s` is in a file that this one does not use", word->text);
     tn_note(check->diagnostics, d, &there, "`%s` is here", word->text);
     const char *recorded = check->imports->units[unit]->recorded;
     const char *slash = strrchr(path_of(check, unit), '/');
@@ -197,7 +200,8 @@ static tn_checked_schema *named_schema(tn_check *check, size_t unit, const tn_as
     }
     if (check->incomplete || using->broken)
         return NULL;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_SCHEMA, using->node.span, "there is no schema `%s`", using->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_UNKNOWN_SCHEMA, using->node.span, "there is no schema `%s`", using->text);
     const char *near = nearest_schema(check, using->text);
     if (near)
         tn_help(check->diagnostics, d, "did you mean `%s`?", near);
@@ -233,7 +237,8 @@ tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_as
         report_no_schema(check, unit, place);
     if (!other)
         return found;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_SEVERAL_SCHEMAS, place, "several schemas are in scope here, and it is not said which counts");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SEVERAL_SCHEMAS, place,
+                                 "several schemas are in scope here, and it is not said which counts");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "schema `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "schema `%s`", found->name);
     tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name", other->name, found->name);
@@ -259,14 +264,16 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
     if (check->incomplete || word->broken)
         return;
     tn_code code = want == TN_WANT_LIBRARY ? E_UNKNOWN_LIBRARY : E_UNKNOWN_RULE;
-    tn_diagnostic *d = tn_report(check->diagnostics, code, word->node.span, "there is no %s `%s`", wanted_words[want], word->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, code, word->node.span, "there is no %s `%s`", wanted_words[want], word->text);
     const char *near = nearest_name(check, word->text, want);
     const tn_checked_schema *schema = want == TN_WANT_RULE ? check->schema : NULL;
     bool is_word = schema && tn_field_find(schema, word->text) != TN_NONE;
     for (uint32_t f = 0; schema && f < schema->field_count; f++)
         is_word |= tn_field_has(&schema->fields[f], word->text);
     if (is_word)
-        tn_help(check->diagnostics, d, "`%s` is a word of schema `%s`: write `tray(%s)`", word->text, schema->name, word->text);
+        tn_help(check->diagnostics, d, "`%s` is a word of schema `%s`: write `tray(%s)`", word->text, schema->name,
+                word->text);
     else if (near)
         tn_help(check->diagnostics, d, "did you mean `%s`?", near);
     else
@@ -286,8 +293,8 @@ const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, t
     }
     if (want == TN_WANT_EITHER || (want == TN_WANT_LIBRARY) == (name->library != NULL))
         return name;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` is a %s, not a %s", word->text,
-                                 name->library ? "library" : "rule", wanted_words[want]);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` is a %s, not a %s",
+                                 word->text, name->library ? "library" : "rule", wanted_words[want]);
     tn_note(check->diagnostics, d, &name->span, "`%s` is here", word->text);
     tn_help(check->diagnostics, d, "name a %s here", wanted_words[want]);
     return NULL;
@@ -323,7 +330,8 @@ void tn_check_allow(tn_check *check, tn_ast_list codes)
         word->value = warning_code(word->text);
         if (word->value != 0 || word->broken)
             continue;
-        tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WARNING, word->node.span, "there is no warning `%s`", word->text);
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_UNKNOWN_WARNING, word->node.span, "there is no warning `%s`", word->text);
         tn_help(check->diagnostics, d, "warnings have codes such as W012; they are shown with each warning");
     }
 }
@@ -350,8 +358,10 @@ void tn_check_allowances(tn_check *check)
     result->program->allowances = allowances;
     for (size_t i = 0; i < result->rule_count; i++)
         for (TN_EACH(const tn_ast_word, word, result->rules[i]->ast->allow))
-            allowances[result->program->allowance_count++] = (tn_allowance){result->rules[i]->ast->top.node.span, (uint32_t)word->value};
+            allowances[result->program->allowance_count++] =
+                (tn_allowance){result->rules[i]->ast->top.node.span, (uint32_t)word->value};
     for (size_t i = 0; i < result->library_count; i++)
         for (TN_EACH(const tn_ast_word, word, result->libraries[i]->allow))
-            allowances[result->program->allowance_count++] = (tn_allowance){result->libraries[i]->ast->top.node.span, (uint32_t)word->value};
+            allowances[result->program->allowance_count++] =
+                (tn_allowance){result->libraries[i]->ast->top.node.span, (uint32_t)word->value};
 }

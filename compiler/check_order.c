@@ -15,8 +15,8 @@ static void report_circle(tn_walk *walk, size_t start)
 {
     tn_diagnostics *diagnostics = walk->check->diagnostics;
     tn_checked_rule *first = walk->stack[start];
-    tn_diagnostic *d = tn_report(diagnostics, E_RULE_CYCLE, first->ast->name->node.span, "rule `%s` uses itself%s", first->name,
-                                 start + 1 == walk->depth ? "" : ", by way of others");
+    tn_diagnostic *d = tn_report(diagnostics, E_RULE_CYCLE, first->ast->name->node.span, "rule `%s` uses itself%s",
+                                 first->name, start + 1 == walk->depth ? "" : ", by way of others");
     enum { SHOWN = 8 };
     for (size_t i = start; i < walk->depth && i < start + SHOWN; i++) {
         tn_checked_rule *rule = walk->stack[i];

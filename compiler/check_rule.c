@@ -48,9 +48,11 @@ static bool is_edge(const tn_ast_expr *expr)
 static void report_edge(tn_check *check, const tn_ast_expr *edge)
 {
     bool beginning = edge->kind == TN_EXPR_BEGINNING;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_END, edge->node.span, "`%s` can only be the %s part of a neighbour",
-                                 beginning ? "beginning" : "end", beginning ? "first" : "last");
-    tn_help(check->diagnostics, d, beginning ? "write `neighbour(beginning, tray(...))`" : "write `neighbour(tray(...), end)`");
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_MISPLACED_END, edge->node.span, "`%s` can only be the %s part of a neighbour",
+                  beginning ? "beginning" : "end", beginning ? "first" : "last");
+    tn_help(check->diagnostics, d,
+            beginning ? "write `neighbour(beginning, tray(...))`" : "write `neighbour(tray(...), end)`");
 }
 
 static void check_neighbour(tn_check *check, tn_ast_expr *neighbour)
@@ -68,10 +70,13 @@ static void check_neighbour(tn_check *check, tn_ast_expr *neighbour)
         tn_check_expr(check, part->kind == TN_EXPR_OPTIONAL ? (tn_ast_expr *)part->parts.first : part);
     }
     if (trays == 0) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_NEIGHBOUR, neighbour->node.span, "this neighbour asks for no tray");
-        tn_help(check->diagnostics, d, "write what stands there: `neighbour(beginning, any, end)` is a plan of one tray");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_EMPTY_NEIGHBOUR, neighbour->node.span, "this neighbour asks for no tray");
+        tn_help(check->diagnostics, d,
+                "write what stands there: `neighbour(beginning, any, end)` is a plan of one tray");
     } else if (optional == trays) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_NEIGHBOUR, neighbour->node.span, "all parts of this neighbour are optional");
+        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_NEIGHBOUR, neighbour->node.span,
+                                     "all parts of this neighbour are optional");
         tn_help(check->diagnostics, d, "one part at least has to be there: write it without `optional`");
     }
 }
@@ -107,18 +112,25 @@ static void check_sum(tn_check *check, tn_ast_expr *sum)
     const tn_checked_field *field = sum->field == TN_NONE ? NULL : &schema->fields[sum->field];
     bool lengths = field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE);
     if (!lengths && !schema->broken && !name->broken) {
-        tn_diagnostic *d = field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span, "`%s` has no lengths to add up", name->text)
-                                 : tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span, "there is no field `%s` to add up", name->text);
+        tn_diagnostic *d = field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span,
+                                             "`%s` has no lengths to add up", name->text)
+                                 : tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span,
+                                             "there is no field `%s` to add up", name->text);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
         if (field)
-            tn_help(check->diagnostics, d, "fields of lengths and the depths of zones can be added up; to count trays write "
-                                           "`quantity(tray(%s ...), n > 1)`", name->text);
+            tn_help(check->diagnostics, d,
+                    "fields of lengths and the depths of zones can be added up; to count trays write "
+                    "`quantity(tray(%s ...), n > 1)`",
+                    name->text);
         else
             help_length_field(check, d, name->text);
     }
     if (lengths && sum->detail && !(field->kind == TN_FIELD_ZONE && tn_word_is(sum->detail, "depth"))) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_LENGTH, sum->detail->node.span, "`%s` is too much here", sum->detail->text);
-        tn_help(check->diagnostics, d, field->kind == TN_FIELD_ZONE ? "of a zone only the `depth` can be added up" : "write the field's name alone");
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_LENGTH, sum->detail->node.span,
+                                     "`%s` is too much here", sum->detail->text);
+        tn_help(check->diagnostics, d,
+                field->kind == TN_FIELD_ZONE ? "of a zone only the `depth` can be added up"
+                                             : "write the field's name alone");
     }
     if (!sum->parts.first)
         sum->spec = tn_check_any(check, check->schema, sum->node.span);
@@ -162,7 +174,8 @@ void tn_check_expr(tn_check *check, tn_ast_expr *expr)
         check_neighbour(check, expr);
         break;
     case TN_EXPR_OPTIONAL: {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_OPTIONAL, expr->node.span, "`optional` can only be a part of a neighbour");
+        tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_OPTIONAL, expr->node.span,
+                                     "`optional` can only be a part of a neighbour");
         tn_help(check->diagnostics, d, "write `neighbour(tray(...), optional(...), tray(...))`");
         check_parts(check, expr);
         break;
@@ -204,10 +217,13 @@ static void check_same_schema(tn_check *check, const tn_ast_expr *name)
 {
     if (!name->rule || !name->rule->schema || !check->schema || name->rule->schema == check->schema)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_SCHEMA, name->node.span, "`%s` is a rule for schema `%s`, and this is for `%s`",
-                                 name->rule->name, name->rule->schema->name, check->schema->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_SCHEMA, name->node.span,
+                                 "`%s` is a rule for schema `%s`, and this is for `%s`", name->rule->name,
+                                 name->rule->schema->name, check->schema->name);
     tn_note(check->diagnostics, d, &name->rule->ast->name->node.span, "`%s` is here", name->rule->name);
-    tn_help(check->diagnostics, d, "use rules of one schema together; `using %s` after the name says which schema counts", name->rule->schema->name);
+    tn_help(check->diagnostics, d,
+            "use rules of one schema together; `using %s` after the name says which schema counts",
+            name->rule->schema->name);
 }
 
 static void note_name(tn_check *check, tn_diagnostic *d, const tn_ast_expr *expr)
@@ -222,9 +238,11 @@ static void check_symmetric(tn_check *check, const tn_ast_expr *symmetric)
     const tn_ast_expr *meant = meaning(part);
     if (!meant || meant->kind == TN_EXPR_NEIGHBOUR || meant->kind == TN_EXPR_OCCURRENCES)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_SYMMETRIC_OF, part->node.span, "`symmetric` is for a neighbour, and this is none");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SYMMETRIC_OF, part->node.span,
+                                 "`symmetric` is for a neighbour, and this is none");
     note_name(check, d, part);
-    tn_help(check->diagnostics, d, "write `symmetric neighbour(...)`, or leave `symmetric` out: only an order can be mirrored");
+    tn_help(check->diagnostics, d,
+            "write `symmetric neighbour(...)`, or leave `symmetric` out: only an order can be mirrored");
 }
 
 static void check_distance(tn_check *check, const tn_ast_expr *distance)
@@ -233,7 +251,8 @@ static void check_distance(tn_check *check, const tn_ast_expr *distance)
     const tn_ast_expr *meant = meaning(by);
     if (!meant || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM || meant->kind == TN_EXPR_OCCURRENCES)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DISTANCE_BY, by->node.span, "what a distance is measured by has to be a number");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_DISTANCE_BY, by->node.span,
+                                 "what a distance is measured by has to be a number");
     note_name(check, d, by);
     tn_help(check->diagnostics, d, "write `by quantity(..., n >= 2)` or `by sum(..., w > 12')`");
 }

@@ -16,8 +16,8 @@ static bool is_reserved(const tn_ast_word *word)
 static bool name_is_good(tn_check *check, tn_checked_schema *schema, const tn_ast_word *word)
 {
     if (strlen(word->text) > TN_NAME_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, word->node.span, "this name is longer than the limit of %u bytes",
-                                     TN_NAME_MAX);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, word->node.span,
+                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
         tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
     } else if (is_reserved(word)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_RESERVED_WORD, word->node.span,
@@ -43,8 +43,13 @@ static unsigned find_role(tn_check *check, const tn_ast_word *word, const char *
             return i;
     char list[160] = "";
     for (unsigned i = 1; i < count; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i == 1 ? "" : i + 1 == count ? " or " : ", ", roles[i]);
-    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_ROLE, word->node.span, "there is no role `%s` here", word->text);
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
+                 i == 1           ? ""
+                 : i + 1 == count ? " or "
+                                  : ", ",
+                 roles[i]);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_UNKNOWN_ROLE, word->node.span, "there is no role `%s` here", word->text);
     const char *near = tn_nearest(word->text, roles + 1, count - 1);
     if (near)
         tn_help(check->diagnostics, d, "did you mean `%s`?", near);
@@ -55,7 +60,8 @@ static unsigned find_role(tn_check *check, const tn_ast_word *word, const char *
 
 static void misplaced_role(tn_check *check, const tn_ast_word *role, const char *needs)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_ROLE, role->node.span, "the role `%s` does not fit here", role->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_MISPLACED_ROLE, role->node.span, "the role `%s` does not fit here", role->text);
     tn_help(check->diagnostics, d, "%s", needs);
 }
 
@@ -70,7 +76,8 @@ static void check_field_role(tn_check *check, tn_checked_field *field)
         const char *needs;
     } needs[TN_FIELD_ROLE_COUNT] = {
         [TN_ROLE_LENGTH] = {TN_FIELD_LENGTH, "`role length` is for a field of lengths"},
-        [TN_ROLE_LEVEL] = {TN_FIELD_CHOICE, "`role level` is for a field whose values are names, the n-th with n levels"},
+        [TN_ROLE_LEVEL] = {TN_FIELD_CHOICE,
+                           "`role level` is for a field whose values are names, the n-th with n levels"},
         [TN_ROLE_PUBLIC_END] = {TN_FIELD_FLAG, "`role public-end` is for a flag"},
         [TN_ROLE_GREAT_HALL] = {TN_FIELD_FLAG, "`role great-hall` is for a flag"},
         [TN_ROLE_BAND] = {TN_FIELD_ZONE, "`role band` is for a zone"},
@@ -111,8 +118,8 @@ static const char *zone_spelling(tn_check *check, const char *fill, const char *
     return text ? text : "";
 }
 
-static void report_twice(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field, tn_span span, const char *what,
-                         tn_span before)
+static void report_twice(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field, tn_span span,
+                         const char *what, tn_span before)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_VALUE, span, "`%s` has %s already", field->name, what);
     tn_note(check->diagnostics, d, &before, "the first is here");
@@ -125,8 +132,8 @@ static bool has_room(tn_check *check, tn_checked_schema *schema, const tn_checke
     if (field->value_count < TN_VALUES_MAX)
         return true;
     if (!schema->broken) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_SCHEMA_TOO_LARGE, span, "`%s` has more values than the limit of %u",
-                                     field->name, TN_VALUES_MAX);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_SCHEMA_TOO_LARGE, span,
+                                     "`%s` has more values than the limit of %u", field->name, TN_VALUES_MAX);
         tn_help(check->diagnostics, d, "divide it into two fields");
     }
     schema->broken = true;
@@ -152,8 +159,13 @@ static void add_length(tn_check *check, tn_checked_schema *schema, tn_checked_fi
             return;
         }
     const char *spelling = spell(check, ast->word);
-    add_value(check, schema, field, (tn_checked_value){.name = spelling, .spelling = spelling, .measure = "", .span = ast->word->node.span,
-                                                       .length = ast->word->value, .doc = ast->doc ? ast->doc->text : NULL});
+    add_value(check, schema, field,
+              (tn_checked_value){.name = spelling,
+                                 .spelling = spelling,
+                                 .measure = "",
+                                 .span = ast->word->node.span,
+                                 .length = ast->word->value,
+                                 .doc = ast->doc ? ast->doc->text : NULL});
 }
 
 static const tn_checked_value *named(const tn_checked_field *field, const char *name)
@@ -172,8 +184,12 @@ static void add_choice(tn_check *check, tn_checked_schema *schema, tn_checked_fi
     if (before)
         report_twice(check, schema, field, ast->word->node.span, "this value", before->span);
     else
-        add_value(check, schema, field, (tn_checked_value){.name = ast->word->text, .spelling = ast->word->text, .measure = "",
-                                                           .span = ast->word->node.span, .doc = ast->doc ? ast->doc->text : NULL});
+        add_value(check, schema, field,
+                  (tn_checked_value){.name = ast->word->text,
+                                     .spelling = ast->word->text,
+                                     .measure = "",
+                                     .span = ast->word->node.span,
+                                     .doc = ast->doc ? ast->doc->text : NULL});
 }
 
 /* A zone's fill, with each of its depths. */
@@ -186,7 +202,10 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
         report_twice(check, schema, field, ast->word->node.span, "this fill", before->span);
         return;
     }
-    tn_checked_value value = {.name = ast->word->text, .spelling = ast->word->text, .measure = "", .span = ast->word->node.span,
+    tn_checked_value value = {.name = ast->word->text,
+                              .spelling = ast->word->text,
+                              .measure = "",
+                              .span = ast->word->node.span,
                               .doc = ast->doc ? ast->doc->text : NULL};
     value.role = ast->role ? (tn_fill_role)find_role(check, ast->role, fill_roles, TN_FILL_ROLE_COUNT) : TN_FILL_NONE;
     if (!ast->has_depths)
@@ -198,7 +217,8 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
             if (depth->kind == TN_WORD_NUMBER) {
                 tn_report_unit(check, depth);
             } else if (!depth->broken) {
-                tn_diagnostic *d = tn_report(check->diagnostics, E_MIXED_VALUES, depth->node.span, "`%s` is not a depth", depth->text);
+                tn_diagnostic *d =
+                    tn_report(check->diagnostics, E_MIXED_VALUES, depth->node.span, "`%s` is not a depth", depth->text);
                 tn_help(check->diagnostics, d, "the depths of a fill are lengths: `%s(4', 8')`", ast->word->text);
             }
             continue;
@@ -222,19 +242,25 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
 
 /* ---- fields */
 
-static void report_mixed(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field, const tn_ast_value *value)
+static void report_mixed(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field,
+                         const tn_ast_value *value)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_MIXED_VALUES, value->node.span, "`%s` has both lengths and names as values", field->name);
-    tn_help(check->diagnostics, d, "a field has either; for a filling with a depth declare a zone: `zone %s = dense(4', 8') | empty`", field->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_MIXED_VALUES, value->node.span,
+                                 "`%s` has both lengths and names as values", field->name);
+    tn_help(check->diagnostics, d,
+            "a field has either; for a filling with a depth declare a zone: `zone %s = dense(4', 8') | empty`",
+            field->name);
     schema->broken = true;
 }
 
-static void check_plain_value(tn_check *check, tn_checked_schema *schema, tn_checked_field *field, const tn_ast_value *value)
+static void check_plain_value(tn_check *check, tn_checked_schema *schema, tn_checked_field *field,
+                              const tn_ast_value *value)
 {
     if (value->role)
         misplaced_role(check, value->role, "roles are for fields, zones and the fills of zones");
     if (value->has_depths) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_DEPTHS, value->node.span, "only the fills of a zone have depths");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_MISPLACED_DEPTHS, value->node.span, "only the fills of a zone have depths");
         tn_help(check->diagnostics, d, "write `zone %s = ...` if `%s` is a zone", field->name, field->name);
         schema->broken = true;
     }
@@ -251,14 +277,16 @@ static void check_plain_value(tn_check *check, tn_checked_schema *schema, tn_che
     }
 }
 
-static void check_zone_value(tn_check *check, tn_checked_schema *schema, tn_checked_field *field, const tn_ast_value *value)
+static void check_zone_value(tn_check *check, tn_checked_schema *schema, tn_checked_field *field,
+                             const tn_ast_value *value)
 {
     if (value->word->kind == TN_WORD_NAME) {
         add_fill(check, schema, field, value);
         return;
     }
     schema->broken = true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_ZONE_LENGTH, value->node.span, "a zone's alternatives are fills, and this is none");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_ZONE_LENGTH, value->node.span,
+                                 "a zone's alternatives are fills, and this is none");
     tn_help(check->diagnostics, d, "write the fill and its depths: `open(%s)`", value->word->text);
 }
 
@@ -274,7 +302,8 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
 {
     uint32_t before = tn_field_find(schema, ast->name->text);
     if (before != TN_NONE) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_FIELD, ast->name->node.span, "there is a field `%s` already", ast->name->text);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_FIELD, ast->name->node.span,
+                                     "there is a field `%s` already", ast->name->text);
         tn_note(check->diagnostics, d, &schema->fields[before].ast->name->node.span, "the first is here");
         tn_help(check->diagnostics, d, "choose another name for one of the two");
         schema->broken = true;
@@ -286,14 +315,17 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
     if (!field->values)
         return;
     const tn_ast_value *first = (const tn_ast_value *)ast->values.first;
-    field->kind = ast->form == TN_FORM_FLAG                    ? TN_FIELD_FLAG
-                  : ast->form == TN_FORM_ZONE                  ? TN_FIELD_ZONE
+    field->kind = ast->form == TN_FORM_FLAG                     ? TN_FIELD_FLAG
+                  : ast->form == TN_FORM_ZONE                   ? TN_FIELD_ZONE
                   : !first || first->word->kind == TN_WORD_NAME ? TN_FIELD_CHOICE
                                                                 : TN_FIELD_LENGTH;
     name_is_good(check, schema, ast->name);
     if (field->kind == TN_FIELD_FLAG) {
-        add_value(check, schema, field, (tn_checked_value){.name = "-", .spelling = "-", .measure = "", .span = ast->node.span});
-        add_value(check, schema, field, (tn_checked_value){.name = field->name, .spelling = field->name, .measure = "", .span = ast->node.span});
+        add_value(check, schema, field,
+                  (tn_checked_value){.name = "-", .spelling = "-", .measure = "", .span = ast->node.span});
+        add_value(
+            check, schema, field,
+            (tn_checked_value){.name = field->name, .spelling = field->name, .measure = "", .span = ast->node.span});
     }
     for (TN_EACH(const tn_ast_value, value, ast->values)) {
         if (field->kind == TN_FIELD_ZONE)
@@ -329,7 +361,8 @@ void tn_check_schema(tn_check *check, tn_checked_schema *schema)
     }
     schema->words = (schema->value_count + 63) / 64;
     if (body->fields.count == 0 && !schema->broken) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_SCHEMA, schema->ast->name->node.span, "schema `%s` has no fields", schema->name);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_SCHEMA, schema->ast->name->node.span,
+                                     "schema `%s` has no fields", schema->name);
         tn_help(check->diagnostics, d, "write at least one, such as `width = 4' | 8' | 12'`");
         schema->broken = true;
     }
@@ -389,7 +422,8 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
     }
     if (schema->broken || schema->forbid_count == 0 || has_legal_tray(schema))
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NOTHING_LEGAL, schema->ast->name->node.span, "schema `%s` forbids every tray", schema->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOTHING_LEGAL, schema->ast->name->node.span,
+                                 "schema `%s` forbids every tray", schema->name);
     tn_note(check->diagnostics, d, &schema->forbids[schema->forbid_count - 1]->span, "the last `forbid` is here");
     tn_help(check->diagnostics, d, "leave one `forbid` out, or narrow it with more items");
     schema->broken = true;

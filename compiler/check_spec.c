@@ -1,7 +1,7 @@
 /* Tray specifiers: from the words of their items to a mask of values.
  *
- * An item is about one field: alternatives joined by `or`, each of them a value, a comparison or a negation of these. The
- * field is named, or clear from the value.
+ * An item is about one field: alternatives joined by `or`, each of them a value, a comparison or a negation of these.
+ * The field is named, or clear from the value.
  */
 #include <string.h>
 
@@ -11,8 +11,8 @@
 typedef struct tn_item_reader {
     tn_check *check;
     const tn_checked_schema *schema;
-    uint32_t field;      /* TN_NONE: not known yet */
-    const char *fill;    /* of the alternative before: `dense 4' or 8'` */
+    uint32_t field;   /* TN_NONE: not known yet */
+    const char *fill; /* of the alternative before: `dense 4' or 8'` */
     bool chosen[TN_VALUES_MAX];
     bool found[TN_VALUES_MAX]; /* by the alternative at hand */
     const tn_ast_word *word;   /* the next to be read; NULL at the end */
@@ -54,7 +54,8 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item,
     else if (item->field != TN_NONE && item->schema->fields[item->field].kind != TN_FIELD_FLAG)
         tn_help(item->check->diagnostics, d, "`%s` can be %s", item->schema->fields[item->field].name, legal);
     else
-        tn_help(item->check->diagnostics, d, "write items such as `8'`, `public`, `not public`, `machine dense 4'`, `width >= 8'`");
+        tn_help(item->check->diagnostics, d,
+                "write items such as `8'`, `public`, `not public`, `machine dense 4'`, `width >= 8'`");
     return false;
 }
 
@@ -67,7 +68,8 @@ static bool set_field(tn_item_reader *item, uint32_t field, const tn_ast_word *w
     if (item->field != TN_NONE && item->field != field) {
         const tn_checked_field *fields = item->schema->fields;
         tn_diagnostic *d = tn_report(item->check->diagnostics, E_OR_ACROSS_FIELDS, word->node.span,
-                                     "`or` joins alternatives of one field, and these are `%s` and `%s`", fields[item->field].name, fields[field].name);
+                                     "`or` joins alternatives of one field, and these are `%s` and `%s`",
+                                     fields[item->field].name, fields[field].name);
         tn_help(item->check->diagnostics, d, "join two specifiers: `tray(...) or tray(...)`");
         return false;
     }
@@ -81,8 +83,8 @@ static bool length_field(tn_item_reader *item, const tn_ast_word *word)
         return set_field(item, item->schema->length_field, word);
     if (item->schema->broken || word->broken)
         return false;
-    tn_diagnostic *d = tn_report(item->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span, "schema `%s` has no field of lengths",
-                                 item->schema->name);
+    tn_diagnostic *d = tn_report(item->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span,
+                                 "schema `%s` has no field of lengths", item->schema->name);
     tn_help(item->check->diagnostics, d, "name the zone whose depth it is");
     return false;
 }
@@ -103,12 +105,14 @@ static bool field_of_name(tn_item_reader *item)
         next_word(item);
         if (!set_field(item, field, word))
             return false;
-        return is_flag || item->word || bad_item(item, word->node.span, "`%s` is a field; say which `%s`", word->text, word->text);
+        return is_flag || item->word ||
+               bad_item(item, word->node.span, "`%s` is a field; say which `%s`", word->text, word->text);
     }
     if (is_flag) {
-        tn_diagnostic *d = tn_report(item->check->diagnostics, E_AMBIGUOUS_VALUE, word->node.span, "`%s` is a flag and a value of another field",
-                                     word->text);
-        tn_help(item->check->diagnostics, d, "name the other field before the value; for the flag, rename one of the two in the schema");
+        tn_diagnostic *d = tn_report(item->check->diagnostics, E_AMBIGUOUS_VALUE, word->node.span,
+                                     "`%s` is a flag and a value of another field", word->text);
+        tn_help(item->check->diagnostics, d,
+                "name the other field before the value; for the flag, rename one of the two in the schema");
         return false;
     }
     uint32_t owner = tn_value_field(item->check, schema, word);
@@ -163,8 +167,8 @@ static const tn_ast_word *read_length(tn_item_reader *item)
     return NULL;
 }
 
-/* Marks the values whose fill is `fill` (NULL: any) and whose length compares so. A value that must be one of the field's, and
- * is not, is an error. */
+/* Marks the values whose fill is `fill` (NULL: any) and whose length compares so. A value that must be one of the
+ * field's, and is not, is an error. */
 static bool mark_lengths(tn_item_reader *item, const char *fill, tn_operator op, const tn_ast_word *word)
 {
     const tn_checked_field *field = &item->schema->fields[item->field];
@@ -185,7 +189,8 @@ static bool mark_lengths(tn_item_reader *item, const char *fill, tn_operator op,
         return false;
     char legal[400];
     tn_say_values(field, fill, legal, sizeof legal);
-    tn_diagnostic *d = tn_report(item->check->diagnostics, E_ILLEGAL_VALUE, word->node.span, "`%s %s` cannot be %s deep", field->name, fill, word->text);
+    tn_diagnostic *d = tn_report(item->check->diagnostics, E_ILLEGAL_VALUE, word->node.span,
+                                 "`%s %s` cannot be %s deep", field->name, fill, word->text);
     tn_note(item->check->diagnostics, d, &field->ast->name->node.span, "`%s` is declared here", field->name);
     tn_help(item->check->diagnostics, d, "it can be %s", legal);
     return false;
@@ -239,7 +244,8 @@ static bool read_zone(tn_item_reader *item, tn_operator op, bool compared)
 {
     const tn_ast_word *word = item->word;
     const char *fill = item->fill;
-    if (word && tn_word_is(word, "depth") && !compared && !tn_field_has(&item->schema->fields[item->field], word->text)) {
+    if (word && tn_word_is(word, "depth") && !compared &&
+        !tn_field_has(&item->schema->fields[item->field], word->text)) {
         next_word(item);
         fill = NULL;
         read_operator(item, &op);
@@ -284,7 +290,8 @@ static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alt
         }
     }
     if (good && item->word)
-        good = bad_item(item, item->word->node.span, "`%s` does not belong to the item about `%s`", item->word->text, field->name);
+        good = bad_item(item, item->word->node.span, "`%s` does not belong to the item about `%s`", item->word->text,
+                        field->name);
     if (good && negated)
         invert(item);
     for (uint32_t v = 0; v < field->value_count; v++)
@@ -307,7 +314,8 @@ static bool read_item(tn_item_reader *item, const tn_ast_item *ast)
         return false;
     char legal[400];
     tn_say_values(field, NULL, legal, sizeof legal);
-    tn_diagnostic *d = tn_report(item->check->diagnostics, E_NO_SUCH_VALUE, ast->node.span, "no `%s` is so", field->name);
+    tn_diagnostic *d =
+        tn_report(item->check->diagnostics, E_NO_SUCH_VALUE, ast->node.span, "no `%s` is so", field->name);
     tn_note(item->check->diagnostics, d, &field->ast->name->node.span, "`%s` is declared here", field->name);
     tn_help(item->check->diagnostics, d, "it can be %s", legal);
     return false;
@@ -357,19 +365,22 @@ static void allow_all(tn_checked_spec *spec, uint32_t field)
         set_bit(spec, f->first_bit + v);
 }
 
-static void report_field_twice(tn_check *check, const tn_checked_field *field, const tn_ast_item *first, const tn_ast_item *second)
+static void report_field_twice(tn_check *check, const tn_checked_field *field, const tn_ast_item *first,
+                               const tn_ast_item *second)
 {
     const char *text = check->diagnostics->sources->files[second->node.span.file].text;
     tn_span a = first->node.span, b = second->node.span;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_FIELD_TWICE, b, "`%s` is asked for twice in one specifier", field->name);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_FIELD_TWICE, b, "`%s` is asked for twice in one specifier", field->name);
     tn_note(check->diagnostics, d, &a, "the first time is here");
     if (field->kind == TN_FIELD_ZONE)
-        tn_help(check->diagnostics, d, "name a zone once, with fill and depth (`%s FILL DEPTH`), or join alternatives by `or`", field->name);
+        tn_help(check->diagnostics, d,
+                "name a zone once, with fill and depth (`%s FILL DEPTH`), or join alternatives by `or`", field->name);
     else if (field->kind == TN_FIELD_FLAG)
         tn_help(check->diagnostics, d, "leave one of the two out");
     else
-        tn_help(check->diagnostics, d, "for either of the two write `%.*s or %.*s`", (int)(a.end - a.begin), text + a.begin, (int)(b.end - b.begin),
-                text + b.begin);
+        tn_help(check->diagnostics, d, "for either of the two write `%.*s or %.*s`", (int)(a.end - a.begin),
+                text + a.begin, (int)(b.end - b.begin), text + b.begin);
 }
 
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span)

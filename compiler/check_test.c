@@ -10,14 +10,20 @@ static bool expectation_fits(tn_check *check, const tn_ast_case *ast, const tn_c
     bool for_library = ast->expectation == TN_EXPECT_KEEP || ast->expectation == TN_EXPECT_DROP;
     if (for_library == (subject->library != NULL))
         return true;
-    static const char *const words[] = {
-        [TN_EXPECT_MATCH] = "match", [TN_EXPECT_REJECT] = "reject", [TN_EXPECT_KEEP] = "keep", [TN_EXPECT_DROP] = "drop"};
-    static const tn_expectation others[] = {[TN_EXPECT_MATCH] = TN_EXPECT_DROP, [TN_EXPECT_REJECT] = TN_EXPECT_KEEP,
-                                            [TN_EXPECT_KEEP] = TN_EXPECT_REJECT, [TN_EXPECT_DROP] = TN_EXPECT_MATCH};
+    static const char *const words[] = {[TN_EXPECT_MATCH] = "match",
+                                        [TN_EXPECT_REJECT] = "reject",
+                                        [TN_EXPECT_KEEP] = "keep",
+                                        [TN_EXPECT_DROP] = "drop"};
+    static const tn_expectation others[] = {[TN_EXPECT_MATCH] = TN_EXPECT_DROP,
+                                            [TN_EXPECT_REJECT] = TN_EXPECT_KEEP,
+                                            [TN_EXPECT_KEEP] = TN_EXPECT_REJECT,
+                                            [TN_EXPECT_DROP] = TN_EXPECT_MATCH};
     tn_span word = ast->node.span;
     word.end = word.begin + (uint32_t)strlen(words[ast->expectation]);
-    tn_diagnostic *d = subject->library ? tn_report(check->diagnostics, E_WRONG_EXPECTATION, word, "a library keeps plans or drops them, it does not match")
-                                        : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word, "a rule matches plans or rejects them, it does not prune");
+    tn_diagnostic *d = subject->library ? tn_report(check->diagnostics, E_WRONG_EXPECTATION, word,
+                                                    "a library keeps plans or drops them, it does not match")
+                                        : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word,
+                                                    "a rule matches plans or rejects them, it does not prune");
     tn_note(check->diagnostics, d, &subject->span, "the %s is here", subject->library ? "library" : "rule");
     tn_help(check->diagnostics, d, "write `%s`", words[others[ast->expectation]]);
     return false;
@@ -31,13 +37,15 @@ static void report_clause(tn_check *check, const tn_checked_library *library, co
     for (size_t i = 0; i < library->clause_count; i++)
         names[i] = library->clauses[i]->name;
     names[library->clause_count] = "trays";
-    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_CLAUSE, word->node.span, "library `%s` has no clause `%s`", library->name, word->text);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_CLAUSE, word->node.span,
+                                 "library `%s` has no clause `%s`", library->name, word->text);
     tn_note(check->diagnostics, d, &library->ast->name->node.span, "library `%s` is here", library->name);
     const char *near = tn_nearest(word->text, names, library->clause_count + 1);
     if (near)
         tn_help(check->diagnostics, d, "did you mean `%s`?", near);
     else
-        tn_help(check->diagnostics, d, "name a rule that it prunes, `trays`, `total`, or `require@` and `prune@` with a line's number");
+        tn_help(check->diagnostics, d,
+                "name a rule that it prunes, `trays`, `total`, or `require@` and `prune@` with a line's number");
 }
 
 /* The names after `by`; NULL where one is wrong. */
@@ -47,7 +55,8 @@ static const char *const *check_by(tn_check *check, const tn_ast_case *ast, cons
     size_t count = 0;
     bool good = names != NULL;
     if (ast->by.count > 0 && ast->expectation != TN_EXPECT_DROP) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_EXPECTATION, ast->by.first->span, "`by` is for `drop` alone");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_WRONG_EXPECTATION, ast->by.first->span, "`by` is for `drop` alone");
         tn_help(check->diagnostics, d, "leave `by` out, or write `drop`");
         return NULL;
     }
@@ -69,7 +78,8 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, const tn_checked
 {
     if (!expectation_fits(check, ast, subject))
         return false;
-    *result = (tn_test_case){.expectation = ast->expectation, .span = ast->node.span, .doc = ast->doc ? ast->doc->text : NULL};
+    *result = (tn_test_case){
+        .expectation = ast->expectation, .span = ast->node.span, .doc = ast->doc ? ast->doc->text : NULL};
     result->by = check_by(check, ast, subject);
     result->by_count = ast->by.count;
     result->values = check->schema ? tn_check_plan(check, check->schema, ast->trays, &result->length) : NULL;
@@ -109,7 +119,7 @@ void tn_check_tests(tn_check *check)
         const tn_ast_file *file = check->imports->units[check->unit]->tree;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
             if (item->kind != TN_ITEM_TEST || !tn_check_room(check, result->program->test_count, TN_TESTS_MAX, "test",
-                                                              item->node.span, "one `test` can have many cases"))
+                                                             item->node.span, "one `test` can have many cases"))
                 continue;
             tn_test_block *block = &blocks[result->program->test_count++];
             block->imported = check->unit + 1 < check->imports->count;

@@ -76,8 +76,8 @@ static const char *nearest_word(tn_check *check, const tn_checked_schema *schema
 
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span, "`%s` is neither a field nor a value of schema `%s`",
-                                 word->text, schema->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span,
+                                 "`%s` is neither a field nor a value of schema `%s`", word->text, schema->name);
     tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
     const char *near = nearest_word(check, schema, word->text);
     char fields[300] = "";
@@ -108,7 +108,8 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
         report_unknown_word(check, schema, word);
         return TN_NONE;
     }
-    tn_diagnostic *d = tn_report(check->diagnostics, E_AMBIGUOUS_VALUE, word->node.span, "%u fields have a value `%s`", (unsigned)count, word->text);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_AMBIGUOUS_VALUE, word->node.span, "%u fields have a value `%s`",
+                                 (unsigned)count, word->text);
     tn_help(check->diagnostics, d, "say which: write %s", list);
     return TN_NONE;
 }
@@ -142,7 +143,8 @@ void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t 
     const tn_checked_field *f = &schema->fields[field];
     char legal[400];
     tn_say_values(f, NULL, legal, sizeof legal);
-    tn_diagnostic *d = tn_report(check->diagnostics, E_ILLEGAL_VALUE, word->node.span, "`%s` cannot be %s", f->name, word->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_ILLEGAL_VALUE, word->node.span, "`%s` cannot be %s", f->name, word->text);
     tn_note(check->diagnostics, d, &f->ast->name->node.span, "`%s` is declared here", f->name);
     const char *other = word->kind == TN_WORD_LENGTH ? other_field(schema, field, word->value) : NULL;
     if (other)

@@ -1,7 +1,8 @@
 /* Rules that are legal, but hardly say what was meant. */
 #include "compiler/check.h"
 
-/* Could one tray meet both? And does each leave trays out that the other lets in? (If not, one of them says nothing new.) */
+/* Could one tray meet both? And does each leave trays out that the other lets in? (If not, one of them says nothing
+ * new.) */
 static bool both_and_neither(const tn_checked_spec *a, const tn_checked_spec *b)
 {
     const tn_checked_schema *schema = a->schema;
@@ -44,14 +45,16 @@ static void warn_not_tray(tn_check *check, const tn_ast_expr *part)
 {
     if (!tn_check_wanted(check, W_NOT_TRAY_PART))
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span, "this part fits any number of trays, of which none is so");
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span,
+                                 "this part fits any number of trays, of which none is so");
     tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not 8')`");
 }
 
 static void warn_neighbour(tn_check *check, const tn_ast_expr *neighbour)
 {
     for (TN_EACH(const tn_ast_expr, part, neighbour->parts)) {
-        bool outer = (const tn_ast_node *)part == neighbour->parts.first || (const tn_ast_node *)part == neighbour->parts.last;
+        bool outer =
+            (const tn_ast_node *)part == neighbour->parts.first || (const tn_ast_node *)part == neighbour->parts.last;
         if (!outer && part->kind == TN_EXPR_NOT && ((const tn_ast_expr *)part->parts.first)->kind == TN_EXPR_TRAY)
             warn_not_tray(check, part);
     }
@@ -64,15 +67,16 @@ static void warn_counted(tn_check *check, const tn_ast_expr *expr)
     if (trays < 2 || !tn_check_wanted(check, W_NEVER_ONE_TRAY))
         return;
     const char *what = expr->kind == TN_EXPR_QUANTITY ? "quantity" : expr->kind == TN_EXPR_SUM ? "sum" : "many";
-    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, part->node.span, "`%s` looks at single trays, and this takes %u or more",
-                                 what, (unsigned)trays);
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, part->node.span,
+                                 "`%s` looks at single trays, and this takes %u or more", what, (unsigned)trays);
     if (expr->kind == TN_EXPR_QUANTITY)
         tn_help(check->diagnostics, d, "did you mean `occurrences`, which counts the places where it starts?");
     else
         tn_help(check->diagnostics, d, "name what a single tray has to be");
 }
 
-/* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one place? */
+/* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one
+ * place? */
 static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
 {
     switch (expr->kind) {

@@ -7,7 +7,8 @@
 #include "runtime/vm/file.h"
 
 /* What `use` needs to know of a .plan file. */
-static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses, size_t *use_count)
+static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,
+                       size_t *use_count)
 {
     tn_ast_file *tree = tn_parse_plan(arena, diagnostics, file);
     if (!tree)
@@ -35,8 +36,8 @@ static tn_status compile(const tn_compile_options *options, tn_compilation *comp
     tn_imports imports;
     tn_checked checked;
     tn_diagnostics *diagnostics = &compilation->diagnostics;
-    tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count, ".plan", parse_plan, 0,
-                                     &imports);
+    tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
+                                     ".plan", parse_plan, 0, &imports);
     if (status == TN_OK)
         status = tn_check_program(compilation->arena, diagnostics, &imports, &checked);
     if (status != TN_OK || diagnostics->failed)
@@ -64,13 +65,15 @@ static tn_status finish(tn_compilation *compilation, tn_status status, const tn_
     return status;
 }
 
-tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options, tn_compilation *compilation)
+tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options,
+                          tn_compilation *compilation)
 {
     tn_error error = {0};
     uint32_t file;
     start(compilation);
     compilation->arena = tn_arena_new();
-    tn_status status = compilation->arena ? tn_sources_add(&compilation->sources, path, text, size, &file, &error) : tn_fail_memory(&error);
+    tn_status status = compilation->arena ? tn_sources_add(&compilation->sources, path, text, size, &file, &error)
+                                          : tn_fail_memory(&error);
     if (status == TN_OK)
         status = compile(options, compilation, &error);
     return finish(compilation, status, &error, path);

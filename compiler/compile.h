@@ -1,8 +1,8 @@
 /* Compiling: a source file and all that it uses, to a module's bytes.
  *
- * The way through: grammar/ parses each file into an AST (ast.h), `use` imports are followed (import.h), names, schemas,
- * specifiers and expressions are checked (check_*.h) into a program (program.h), which is emitted (emit.h). Errors of all
- * files are collected; nothing is emitted where there is one.
+ * The way through: grammar/ parses each file into an AST (ast.h), `use` imports are followed (import.h), names,
+ * schemas, specifiers and expressions are checked (check_*.h) into a program (program.h), which is emitted (emit.h).
+ * Errors of all files are collected; nothing is emitted where there is one.
  */
 #ifndef TARTAN_COMPILER_COMPILE_H
 #define TARTAN_COMPILER_COMPILE_H
@@ -26,12 +26,14 @@ typedef struct tn_compilation {
     size_t module_size;
 } tn_compilation;
 
-/* Compiles the file at `path` ("-": standard input). The result's diagnostics say what is wrong; returns TN_OK, or TN_INVALID
- * where there is an error, TN_IO where the named file itself cannot be read (reported as a diagnostic too). Free with tn_compilation_clear in any case. */
+/* Compiles the file at `path` ("-": standard input). The result's diagnostics say what is wrong; returns TN_OK, or
+ * TN_INVALID where there is an error, TN_IO where the named file itself cannot be read (reported as a diagnostic too).
+ * Free with tn_compilation_clear in any case. */
 tn_status tn_compile_file(const char *path, const tn_compile_options *options, tn_compilation *compilation);
 
 /* The same from memory; `path` is its name in diagnostics and where relative imports start. */
-tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options, tn_compilation *compilation);
+tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options,
+                          tn_compilation *compilation);
 
 void tn_compilation_clear(tn_compilation *compilation);
 

@@ -37,7 +37,8 @@ uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind)
                                                   });
 }
 
-/* The sources' texts and paths, and a hash over the texts: paths of the standard library are recorded as they are everywhere. */
+/* The sources' texts and paths, and a hash over the texts: paths of the standard library are recorded as they are
+ * everywhere. */
 static void emit_sources(tn_emit *emit, const tn_sources *sources)
 {
     uint64_t hash = 0;
@@ -47,15 +48,18 @@ static void emit_sources(tn_emit *emit, const tn_sources *sources)
         for (size_t u = 0; u < emit->imports->count; u++)
             if (emit->imports->units[u]->file == i)
                 path = emit->imports->units[u]->recorded;
-        tn_builder_add_SOURCE(emit->builder, &(tn_source_record){tn_builder_string(emit->builder, path),
-                                                                 tn_builder_string_n(emit->builder, source->text, source->size)});
+        tn_builder_add_SOURCE(emit->builder,
+                              &(tn_source_record){tn_builder_string(emit->builder, path),
+                                                  tn_builder_string_n(emit->builder, source->text, source->size)});
         hash = XXH3_64bits_withSeed(source->text, source->size, hash);
     }
-    tn_builder_add_PRODUCER(emit->builder, &(tn_producer_record){tn_builder_string(emit->builder, "tartan " TARTAN_VERSION), (int64_t)hash});
+    tn_builder_add_PRODUCER(
+        emit->builder,
+        &(tn_producer_record){tn_builder_string(emit->builder, "tartan " TARTAN_VERSION), (int64_t)hash});
 }
 
-tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics, uint8_t **bytes,
-                         size_t *size, tn_error *error)
+tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
+                         uint8_t **bytes, size_t *size, tn_error *error)
 {
     tn_emit emit = {.builder = tn_builder_new(), .checked = checked, .imports = imports};
     if (!emit.builder)
@@ -66,8 +70,9 @@ tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, t
     tn_emit_libraries(&emit);
     tn_status status = TN_OK;
     if (emit.instructions > TN_INSTRUCTIONS_MAX) {
-        status = tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE, "the rules need %zu instructions, more than the limit of %u", emit.instructions,
-                         TN_INSTRUCTIONS_MAX);
+        status =
+            tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE, "the rules need %zu instructions, more than the limit of %u",
+                    emit.instructions, TN_INSTRUCTIONS_MAX);
         tn_error_help(error, "split the file, or give parts that are written out often a name of their own");
     } else {
         status = tn_builder_finish(emit.builder, bytes, size, error);

@@ -1,7 +1,7 @@
 /* Emitting: from the checked program to a module's bytes. Internal to emit_*.c and compile.c.
  *
- * Functions are emitted callees first. A rule has two: WHOLE (judgement M of docs/plan-language.md: the stretch taken whole)
- * and HOLDS (judgement H: somewhere in the region).
+ * Functions are emitted callees first. A rule has two: WHOLE (judgement M of docs/plan-language.md: the stretch taken
+ * whole) and HOLDS (judgement H: somewhere in the region).
  */
 #ifndef TARTAN_COMPILER_EMIT_H
 #define TARTAN_COMPILER_EMIT_H
@@ -20,8 +20,8 @@ typedef struct tn_emit {
 } tn_emit;
 
 /* The module's bytes, which the caller frees with free(). E0810 where it would be too large to load. */
-tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics, uint8_t **bytes,
-                         size_t *size, tn_error *error);
+tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
+                         uint8_t **bytes, size_t *size, tn_error *error);
 
 /* ---- emit.c */
 void tn_emit_begin(tn_emit *emit, uint32_t schema); /* a function's code begins */

@@ -1,7 +1,7 @@
 /* Rules, straight from the equations of docs/plan-language.md.
  *
- * A name is a call, never written out: thirty doublings stay thirty functions. Recursion here is as deep as expressions nest, at
- * most TN_NESTING_MAX.
+ * A name is a call, never written out: thirty doublings stay thirty functions. Recursion here is as deep as expressions
+ * nest, at most TN_NESTING_MAX.
  */
 #include <stdio.h>
 
@@ -13,7 +13,8 @@ uint32_t tn_emit_condition(tn_emit *emit, tn_checked_condition *condition)
         return condition->function - 1;
     tn_emit_begin(emit, 0);
     for (size_t i = 0; i < condition->count; i++)
-        tn_emit_op(emit, condition->steps[i].span, condition->steps[i].opcode, condition->steps[i].first, condition->steps[i].second);
+        tn_emit_op(emit, condition->steps[i].span, condition->steps[i].opcode, condition->steps[i].first,
+                   condition->steps[i].second);
     tn_emit_op(emit, condition->span, TN_OP_ANSWER, 0, 0);
     condition->function = tn_emit_end(emit, NULL, TN_FUNCTION_CONDITION) + 1;
     return condition->function - 1;
@@ -119,7 +120,8 @@ static void emit_whole(tn_emit *emit, const tn_ast_expr *expr)
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
         emit_whole(emit, first_part(expr));
-        tn_emit_op(emit, span, expr->kind == TN_EXPR_QUANTITY ? TN_OP_QUANTITY : TN_OP_OCCURRENCES, condition_of(expr), 0);
+        tn_emit_op(emit, span, expr->kind == TN_EXPR_QUANTITY ? TN_OP_QUANTITY : TN_OP_OCCURRENCES, condition_of(expr),
+                   0);
         break;
     case TN_EXPR_SUM:
         emit_sum(emit, expr);
@@ -193,7 +195,8 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
 static void emit_rule_holds(tn_emit *emit, const tn_checked_rule *rule)
 {
     const tn_ast_expr *body = rule->ast->body;
-    bool joined = body->kind == TN_EXPR_AND || body->kind == TN_EXPR_OR || body->kind == TN_EXPR_NOT || body->kind == TN_EXPR_NAME;
+    bool joined = body->kind == TN_EXPR_AND || body->kind == TN_EXPR_OR || body->kind == TN_EXPR_NOT ||
+                  body->kind == TN_EXPR_NAME;
     if (joined) {
         tn_emit_holds(emit, body);
         return;
@@ -226,16 +229,17 @@ void tn_emit_rules(tn_emit *emit)
     for (size_t i = 0; i < checked->rule_count; i++) {
         const tn_checked_rule *rule = checked->rules[i];
         tn_span span = rule->ast->top.node.span;
-        tn_builder_add_RULE(emit->builder, &(tn_rule_record){
-                                               .name = tn_builder_string(emit->builder, rule->name),
-                                               .doc = tn_builder_string(emit->builder, rule->ast->doc ? rule->ast->doc->text : NULL),
-                                               .schema = rule->schema->index,
-                                               .whole = rule->whole,
-                                               .holds = rule->holds,
-                                               .flags = rule->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
-                                               .file = span.file,
-                                               .begin = span.begin,
-                                               .end = span.end,
-                                           });
+        tn_builder_add_RULE(emit->builder,
+                            &(tn_rule_record){
+                                .name = tn_builder_string(emit->builder, rule->name),
+                                .doc = tn_builder_string(emit->builder, rule->ast->doc ? rule->ast->doc->text : NULL),
+                                .schema = rule->schema->index,
+                                .whole = rule->whole,
+                                .holds = rule->holds,
+                                .flags = rule->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
+                                .file = span.file,
+                                .begin = span.begin,
+                                .end = span.end,
+                            });
     }
 }

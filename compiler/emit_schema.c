@@ -35,7 +35,8 @@ static uint32_t add_spec(tn_emit *emit, const tn_checked_spec *spec, tn_span spa
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MASK);
     for (uint32_t w = 0; w < spec->schema->words; w++)
         tn_builder_add_MASK(emit->builder, &(tn_mask_record){(int64_t)spec->mask[w]});
-    return tn_builder_add_SPEC(emit->builder, &(tn_spec_record){spec->schema->index, first, span.file, span.begin, span.end});
+    return tn_builder_add_SPEC(emit->builder,
+                               &(tn_spec_record){spec->schema->index, first, span.file, span.begin, span.end});
 }
 
 uint32_t tn_emit_spec(tn_emit *emit, tn_checked_spec *spec)

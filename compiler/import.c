@@ -25,7 +25,8 @@ typedef struct tn_importer {
     tn_imports *imports;
 } tn_importer;
 
-static const char *join(tn_importer *importer, const char *folder, size_t folder_size, const char *name, const char *extension)
+static const char *join(tn_importer *importer, const char *folder, size_t folder_size, const char *name,
+                        const char *extension)
 {
     size_t size = folder_size + strlen(name) + strlen(extension) + 2;
     char *path = tn_arena_alloc(importer->arena, size);
@@ -71,7 +72,8 @@ static const char *find(tn_importer *importer, const char *user, const char *pat
         return found && exists(found) ? found : NULL;
     }
     for (size_t i = 0; i < importer->stdlib_dir_count; i++) {
-        const char *found = join(importer, importer->stdlib_dirs[i], strlen(importer->stdlib_dirs[i]), path, importer->extension);
+        const char *found =
+            join(importer, importer->stdlib_dirs[i], strlen(importer->stdlib_dirs[i]), path, importer->extension);
         if (found && exists(found))
             return found;
     }
@@ -109,9 +111,10 @@ static void report_missing(tn_importer *importer, const tn_use *use, const char 
     const char *names[ROOM];
     size_t count = 0;
     bool bare = is_bare(use->path);
-    tn_diagnostic *d = bare ? tn_report(importer->diagnostics, E_IMPORT_NOT_FOUND, use->span,
-                                        "the standard library has no `%s`", use->path)
-                            : tn_report(importer->diagnostics, E_IMPORT_NOT_FOUND, use->span, "there is no file `%s`", use->path);
+    tn_diagnostic *d =
+        bare ? tn_report(importer->diagnostics, E_IMPORT_NOT_FOUND, use->span, "the standard library has no `%s`",
+                         use->path)
+             : tn_report(importer->diagnostics, E_IMPORT_NOT_FOUND, use->span, "there is no file `%s`", use->path);
     if (bare) {
         for (size_t i = 0; i < importer->stdlib_dir_count; i++)
             count += list_folder(importer, importer->stdlib_dirs[i], true, names + count, ROOM - count);
@@ -125,11 +128,14 @@ static void report_missing(tn_importer *importer, const tn_use *use, const char 
     const char *near = tn_nearest(last ? last + 1 : use->path, names, count);
     const char *neighbour = bare ? beside(importer, user, use->path, importer->extension) : NULL;
     if (neighbour && exists(neighbour))
-        tn_help(importer->diagnostics, d, "for the file beside this one write `use \"%s%s\"`", use->path, importer->extension);
+        tn_help(importer->diagnostics, d, "for the file beside this one write `use \"%s%s\"`", use->path,
+                importer->extension);
     else if (near)
-        tn_help(importer->diagnostics, d, "did you mean `%.*s%s`?", last ? (int)(last - use->path) + 1 : 0, use->path, near);
+        tn_help(importer->diagnostics, d, "did you mean `%.*s%s`?", last ? (int)(last - use->path) + 1 : 0, use->path,
+                near);
     else if (bare)
-        tn_help(importer->diagnostics, d, "for a file of yours write its extension too: `use \"%s%s\"`", use->path, importer->extension);
+        tn_help(importer->diagnostics, d, "for a file of yours write its extension too: `use \"%s%s\"`", use->path,
+                importer->extension);
     else
         tn_help(importer->diagnostics, d, "the path starts at the folder of the file that says `use`");
 }
@@ -143,19 +149,22 @@ static void report_cycle(tn_importer *importer, const tn_use *use, const tn_unit
         start++;
     for (size_t i = start; i < importer->chain_count && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s uses ", files[importer->chain[i]->file].path);
-    tn_diagnostic *d = tn_report(importer->diagnostics, E_IMPORT_CYCLE, use->span, "files use each other in a circle: %.*s%s",
-                                 (int)(used < sizeof text ? used : sizeof text - 1), text, files[again->file].path);
-    tn_help(importer->diagnostics, d, "%s", start + 1 == importer->chain_count
-                                                ? "a file need not use itself: leave this out"
-                                                : "put what they share into a file of its own, which uses neither");
+    tn_diagnostic *d =
+        tn_report(importer->diagnostics, E_IMPORT_CYCLE, use->span, "files use each other in a circle: %.*s%s",
+                  (int)(used < sizeof text ? used : sizeof text - 1), text, files[again->file].path);
+    tn_help(importer->diagnostics, d, "%s",
+            start + 1 == importer->chain_count ? "a file need not use itself: leave this out"
+                                               : "put what they share into a file of its own, which uses neither");
 }
 
 /* ---- following */
 
-static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result);
+static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded,
+                      tn_unit **result);
 
 /* Reads a file that is used into the sources; *unit stays NULL where that fails. */
-static tn_status read_unit(tn_importer *importer, const tn_use *use, const char *path, const char *identity, bool is_stdlib, tn_unit **unit)
+static tn_status read_unit(tn_importer *importer, const tn_use *use, const char *path, const char *identity,
+                           bool is_stdlib, tn_unit **unit)
 {
     tn_error error;
     uint8_t *bytes;
@@ -223,7 +232,8 @@ static tn_status follow(tn_importer *importer, tn_unit *unit, const tn_use *use)
 }
 
 /* Parses a source and follows its uses. Recursion is as deep as files nest, at most TN_FILES_MAX. */
-static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded, tn_unit **result)
+static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded,
+                      tn_unit **result)
 {
     tn_unit *unit = TN_NEW(importer->arena, tn_unit);
     uint64_t *reach = TN_NEW_ARRAY(importer->arena, uint64_t, REACH_WORDS);
@@ -260,12 +270,12 @@ tn_status tn_import_all(tn_arena *arena, tn_diagnostics *diagnostics, const char
     if (!state || !imports->units)
         return TN_MEMORY;
     *state = (tn_importer){.arena = arena,
-                        .diagnostics = diagnostics,
-                        .stdlib_dirs = stdlib_dirs,
-                        .stdlib_dir_count = stdlib_dir_count,
-                        .extension = extension,
-                        .parse = parse,
-                        .imports = imports};
+                           .diagnostics = diagnostics,
+                           .stdlib_dirs = stdlib_dirs,
+                           .stdlib_dir_count = stdlib_dir_count,
+                           .extension = extension,
+                           .parse = parse,
+                           .imports = imports};
     const char *path = diagnostics->sources->files[main_file].path;
     const char *identity = identify(state, path);
     const char *recorded = tn_arena_copy(arena, path, strlen(path));

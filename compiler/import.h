@@ -23,17 +23,17 @@ typedef bool tn_parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_
                            size_t *use_count);
 
 typedef struct tn_unit {
-    uint32_t file;         /* in the sources */
-    const char *identity;  /* the file's real path: the same file has one, whatever way leads to it */
-    const char *recorded;  /* the path that the module records: the same wherever the standard library is installed */
-    void *tree;            /* what the notation's parser made of it */
-    bool loading;          /* its uses are being followed */
-    bool incomplete;       /* something that it uses, directly or not, could not be read */
-    uint64_t *reach;       /* bit set over units: itself and what it uses, directly or not */
+    uint32_t file;        /* in the sources */
+    const char *identity; /* the file's real path: the same file has one, whatever way leads to it */
+    const char *recorded; /* the path that the module records: the same wherever the standard library is installed */
+    void *tree;           /* what the notation's parser made of it */
+    bool loading;         /* its uses are being followed */
+    bool incomplete;      /* something that it uses, directly or not, could not be read */
+    uint64_t *reach;      /* bit set over units: itself and what it uses, directly or not */
 } tn_unit;
 
 typedef struct tn_imports {
-    tn_unit **units;       /* what a file uses comes before it; the named file is the last */
+    tn_unit **units; /* what a file uses comes before it; the named file is the last */
     size_t count;
 } tn_imports;
 

@@ -14,8 +14,9 @@ bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file)
             continue;
         unsigned byte = (unsigned char)source->text[i];
         tn_span span = {file, (uint32_t)i, (uint32_t)(i + 1)};
-        tn_diagnostic *d = tn_report(diagnostics, E_INVALID_UTF8, span, "this is not text: byte %zu of the file is %s0x%02x",
-                                     i + 1, byte == 0 ? "the zero byte " : "", byte);
+        tn_diagnostic *d =
+            tn_report(diagnostics, E_INVALID_UTF8, span, "this is not text: byte %zu of the file is %s0x%02x", i + 1,
+                      byte == 0 ? "the zero byte " : "", byte);
         tn_help(diagnostics, d, "save the file as UTF-8 text; if it is not a rule file, it cannot be used here");
         return false;
     }
@@ -91,9 +92,10 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
     const char *text = diagnostics->sources->files[span.file].text + span.begin;
     size_t size = span.end - span.begin;
     bool visible = (unsigned char)text[0] > ' ' && text[0] != 0x7f;
-    tn_diagnostic *d = visible ? tn_report(diagnostics, E_STRAY_CHARACTER, span, "`%.*s` means nothing here", (int)size, text)
-                               : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
-                                           (unsigned char)text[0]);
+    tn_diagnostic *d =
+        visible ? tn_report(diagnostics, E_STRAY_CHARACTER, span, "`%.*s` means nothing here", (int)size, text)
+                : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
+                            (unsigned char)text[0]);
     const char *help = "leave it out";
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         if (strlen(table[i].found) == size && memcmp(text, table[i].found, size) == 0)

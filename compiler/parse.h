@@ -26,10 +26,10 @@ typedef struct tn_parse {
     int last_token, token_before;
     tn_lex_mode mode, outer_mode; /* outer_mode: what the tray specifier or plan stands in */
     uint32_t parens;              /* open inside the tray specifier */
-    bool schema_head; /* a `schema` was read, and its { not yet */
+    bool schema_head;             /* a `schema` was read, and its { not yet */
     bool in_braces;
-    tn_span brace;   /* the { that is open */
-    int held_token;  /* to be given out next; 0: none */
+    tn_span brace;  /* the { that is open */
+    int held_token; /* to be given out next; 0: none */
     tn_span held_span;
     bool virtual_brace; /* the last } was not written: it closes what the author forgot to */
     uint32_t stray_end; /* where the last stray character ended: a run of them is reported once */

@@ -1,4 +1,5 @@
-/* What remains of a compilation beside the module: the test blocks, with their plans resolved to tray numbers, for `tartan test`. */
+/* What remains of a compilation beside the module: the test blocks, with their plans resolved to tray numbers, for
+ * `tartan test`. */
 #ifndef TARTAN_COMPILER_PROGRAM_H
 #define TARTAN_COMPILER_PROGRAM_H
 
@@ -8,19 +9,19 @@ typedef enum tn_expectation { TN_EXPECT_MATCH, TN_EXPECT_REJECT, TN_EXPECT_KEEP,
 
 typedef struct tn_test_case {
     tn_expectation expectation;
-    const uint8_t *values;      /* [tray][field]: index of the value within its field */
-    size_t length;              /* trays */
-    const char *doc;            /* or NULL */
-    const char *const *by;      /* drop ... by NAME, NAME: clause names; all must be among the reasons */
+    const uint8_t *values; /* [tray][field]: index of the value within its field */
+    size_t length;         /* trays */
+    const char *doc;       /* or NULL */
+    const char *const *by; /* drop ... by NAME, NAME: clause names; all must be among the reasons */
     size_t by_count;
     tn_span span;
 } tn_test_case;
 
 typedef struct tn_test_block {
-    const char *subject;        /* name of the rule or library */
+    const char *subject; /* name of the rule or library */
     bool is_library;
-    uint32_t index;             /* of its RULE or LIBRARY record */
-    uint32_t schema;            /* of its SCHEMA record */
+    uint32_t index;  /* of its RULE or LIBRARY record */
+    uint32_t schema; /* of its SCHEMA record */
     bool imported;
     const tn_test_case *cases;
     size_t case_count;

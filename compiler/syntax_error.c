@@ -19,21 +19,22 @@ static bool expects(const tn_expected *e, const char *token)
     return false;
 }
 
-/* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers all
- * of its tokens. */
+/* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers
+ * all of its tokens. */
 static const struct {
     const char *phrase;
     const char *tokens[18];
 } groups[] = {
-    {"a rule expression", {"`tray`", "`neighbour`", "`any`", "a name", "`not`", "`symmetric`", "`quantity`", "`sum`", "`many`",
-                           "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`"}},
+    {"a rule expression",
+     {"`tray`", "`neighbour`", "`any`", "a name", "`not`", "`symmetric`", "`quantity`", "`sum`", "`many`",
+      "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`"}},
     {"a condition such as `n > 1`", {"`-`", "`(`", "`not`", "a number", "a name", "a length"}},
     {"a variable or a number", {"`-`", "a name", "a number", "a length"}},
     {"a number", {"`-`", "a number", "a length"}},
     {"a value", {"a length", "a name", "a number", "`not`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
-    {"the next `rule`, `schema`, `library`, `test` or `use`", {"`rule`", "`schema`", "`library`", "`test`", "`use`",
-                                                               "the end of the file"}},
+    {"the next `rule`, `schema`, `library`, `test` or `use`",
+     {"`rule`", "`schema`", "`library`", "`test`", "`use`", "the end of the file"}},
     {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
     {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
     {"a field (`name = values`)", {"a field", "`forbid`", "`zone`"}},
@@ -64,8 +65,8 @@ static size_t say_groups(tn_expected *e, char *text, size_t size)
     return said;
 }
 
-/* What could have stood here, in words; empty where that would be no help. Texts are optional nearly everywhere: they are
- * named only where nothing else is. */
+/* What could have stood here, in words; empty where that would be no help. Texts are optional nearly everywhere: they
+ * are named only where nothing else is. */
 static void say_expected(const char *const *tokens, size_t count, char *text, size_t size)
 {
     tn_expected e = {.tokens = tokens, .count = count < 96 ? count : 96};
@@ -115,7 +116,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     if (parse->mode == TN_LEX_SCHEMA && expects(e, "`|`"))
         return "alternatives are separated by `|`, and a field starts with `NAME =`";
     if (parse->mode == TN_LEX_SCHEMA && expects(e, "a field"))
-        return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a forbidden tray "
+        return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a "
+               "forbidden tray "
                "`forbid tray(...)`";
     if (expects(e, "`)`") && (strcmp(found, "the end of the file") == 0 || (is_word(found) && !expects(e, "a name"))))
         return "close the `(` before this";
@@ -188,8 +190,9 @@ void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const cha
         snprintf(here, sizeof here, "%s", found);
     else
         snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
-    tn_diagnostic *d = words[0] ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
-                                : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
+    tn_diagnostic *d = words[0]
+                           ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
+                           : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
     char meant[40];
     const char *help = likely_fix(parse, found, &e);
     bool misspelled = strcmp(found, "a name") == 0 || (is_word(found) && size > 3);

@@ -5,7 +5,8 @@
 #include "compiler/lexical.h"
 #include "compiler/parse.h"
 
-/* Reports E0001 or a code of its own for a mistake that is known. `found` and `expected` are the grammar's names of tokens
+/* Reports E0001 or a code of its own for a mistake that is known. `found` and `expected` are the grammar's names of
+ * tokens
  * ("`rule`", "a name"). */
 void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const char *const *expected, size_t count);
 

@@ -1,5 +1,5 @@
-/* What rules compile to: the instructions of each kind of expression, sharing, order, places, limits. Every module made here
- * goes through the loader. */
+/* What rules compile to: the instructions of each kind of expression, sharing, order, places, limits. Every module made
+ * here goes through the loader. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,7 +57,8 @@ static const char *listing(const tn_module *module, uint32_t function)
     size_t used = 0;
     for (uint32_t at = record->code_begin; at < record->code_end;) {
         tn_instruction instruction = tn_code_read(module->code, at);
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", tn_opcode_describe((uint8_t)instruction.opcode)->name);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
+                                 tn_opcode_describe((uint8_t)instruction.opcode)->name);
         at += instruction.length;
     }
     return text;
@@ -92,10 +93,11 @@ static void expressions(void **state)
            "TRAY SOMEWHERE TRAY SOMEWHERE AND TRAY SOMEWHERE OR RETURN");
     expect("rule r = not tray(4')", "TRAY SOMEWHERE NOT RETURN", "TRAY SOMEWHERE NOT RETURN");
     expect("rule r = not not any", "TRAY SOMEWHERE NOT NOT RETURN", "TRAY SOMEWHERE NOT NOT RETURN");
-    expect("rule r = neighbour(tray(4'), tray(8'), any)", "TRAY NONEMPTY TRAY NONEMPTY CHAIN TRAY NONEMPTY CHAIN RETURN",
-           "CALL SOMEWHERE RETURN");
+    expect("rule r = neighbour(tray(4'), tray(8'), any)",
+           "TRAY NONEMPTY TRAY NONEMPTY CHAIN TRAY NONEMPTY CHAIN RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = neighbor(beginning, any, end)", "TRAY NONEMPTY BEGINNING END RETURN", "CALL SOMEWHERE RETURN");
-    expect("rule r = neighbour(any, optional(any))", "TRAY NONEMPTY TRAY NONEMPTY OPTIONAL CHAIN RETURN", "CALL SOMEWHERE RETURN");
+    expect("rule r = neighbour(any, optional(any))", "TRAY NONEMPTY TRAY NONEMPTY OPTIONAL CHAIN RETURN",
+           "CALL SOMEWHERE RETURN");
     expect("rule r = neighbour(not any, quantity(any, n = 0))",
            "TRAY SOMEWHERE NOT NONEMPTY TRAY QUANTITY NONEMPTY CHAIN RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = quantity(any, n > 1)", "TRAY QUANTITY RETURN", "CALL RETURN");
@@ -103,8 +105,8 @@ static void expressions(void **state)
     expect("rule r = sum(width, w > 4')", "TRAY SUM RETURN", "CALL RETURN");
     expect("rule r = sum(machine depth of tray(4'), w > 4')", "TRAY SUM RETURN", "CALL RETURN");
     expect("rule r = many(any)", "TRAY MANY RETURN", "CALL SOMEWHERE RETURN");
-    expect("rule r = distance(from tray(4'), to any, by quantity(any, n > 2))", "TRAY TRAY TRAY QUANTITY DISTANCE RETURN",
-           "CALL SOMEWHERE RETURN");
+    expect("rule r = distance(from tray(4'), to any, by quantity(any, n > 2))",
+           "TRAY TRAY TRAY QUANTITY DISTANCE RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = symmetric neighbour(beginning, tray(4'))", "CALL MIRROR OR RETURN", "CALL SOMEWHERE RETURN");
 }
 
@@ -113,12 +115,13 @@ static void names(void **state)
     (void)state;
     expect("rule a = any\nrule r = a", "CALL RETURN", "CALL RETURN");
     expect("rule a = any\nrule r = a and not a", "CALL CALL NOT AND RETURN", "CALL CALL NOT AND RETURN");
-    expect("rule q = quantity(any, n > 2)\nrule p = q\nrule r = distance(from any, to any, by p)", "TRAY TRAY CALL DISTANCE RETURN",
-           "CALL SOMEWHERE RETURN");
+    expect("rule q = quantity(any, n > 2)\nrule p = q\nrule r = distance(from any, to any, by p)",
+           "TRAY TRAY CALL DISTANCE RETURN", "CALL SOMEWHERE RETURN");
     expect("rule n = neighbour(any, any)\nrule r = symmetric n", "CALL MIRROR OR RETURN", "CALL SOMEWHERE RETURN");
 }
 
-/* Which of a name's functions is called: in a neighbour that of the whole stretch, under `not` and at the top that of somewhere. */
+/* Which of a name's functions is called: in a neighbour that of the whole stretch, under `not` and at the top that of
+ * somewhere. */
 static void judgements(void **state)
 {
     (void)state;
@@ -241,8 +244,10 @@ static void expect_mask(const char *item, unsigned field_bits, unsigned first, u
     char text[1000];
     snprintf(text, sizeof text, SCHEMA "rule r = tray(%s)", item);
     compiled c = compile(text);
-    const tn_spec_record *spec = &c.module->SPEC_records[instruction(c.module, c.module->RULE_records[0].whole, 0).first];
-    uint64_t mask = (uint64_t)c.module->MASK_records[spec->mask_first].bits, of_field = ((UINT64_C(1) << count) - 1) << first;
+    const tn_spec_record *spec =
+        &c.module->SPEC_records[instruction(c.module, c.module->RULE_records[0].whole, 0).first];
+    uint64_t mask = (uint64_t)c.module->MASK_records[spec->mask_first].bits, of_field = ((UINT64_C(1) << count) - 1)
+                                                                                        << first;
     if (mask != ((0x3ff & ~of_field) | (uint64_t)field_bits << first))
         fail_msg("tray(%s) has the mask %llx", item, (unsigned long long)mask);
     drop(&c);
@@ -316,7 +321,8 @@ static void libraries(void **state)
     for (uint32_t i = 0; i < 7; i++)
         assert_string_equal(clause_name(m, small->clause_first + i), names_of_small[i]);
     for (uint32_t i = 0; i < 4; i++)
-        assert_int_equal(m->CLAUSE_records[small->clause_first + i].holds, m->CLAUSE_records[all->clause_first + i].holds);
+        assert_int_equal(m->CLAUSE_records[small->clause_first + i].holds,
+                         m->CLAUSE_records[all->clause_first + i].holds);
     const tn_clause_record *clause = &m->CLAUSE_records[small->clause_first];
     assert_int_equal(clause[0].kind, TN_CLAUSE_REQUIRE);
     assert_int_equal(clause[0].holds, m->RULE_records[0].holds);
@@ -334,8 +340,10 @@ static void libraries(void **state)
 static void places_and_stacks(void **state)
 {
     (void)state;
-    compiled c = compile(SCHEMA "rule r = neighbour(tray(4'), neighbour(any, any) or distance(from any, to any, by quantity(any, n > 1)))\n"
-                                "library l { trays 2 prune r require sum(width, w > 8') }");
+    compiled c = compile(
+        SCHEMA
+        "rule r = neighbour(tray(4'), neighbour(any, any) or distance(from any, to any, by quantity(any, n > 1)))\n"
+        "library l { trays 2 prune r require sum(width, w > 8') }");
     const tn_module *m = c.module;
     size_t count = 0;
     for (size_t f = 0; f < m->FUNCTION_count; f++) {
@@ -381,7 +389,8 @@ static void long_chains(void **state)
 static void same_bytes(void **state)
 {
     (void)state;
-    static const char text[] = SCHEMA "rule a = symmetric neighbour(tray(4'), quantity(any, n > 1))\nlibrary l { trays 2 prune a, any }";
+    static const char text[] =
+        SCHEMA "rule a = symmetric neighbour(tray(4'), quantity(any, n > 1))\nlibrary l { trays 2 prune a, any }";
     compiled first = compile(text), second = compile(text);
     assert_int_equal(first.compilation.module_size, second.compilation.module_size);
     assert_memory_equal(first.compilation.module, second.compilation.module, first.compilation.module_size);
@@ -430,13 +439,13 @@ static void allowances(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(expressions),    cmocka_unit_test(names),
-        cmocka_unit_test(judgements),     cmocka_unit_test(nested_symmetric),
-        cmocka_unit_test(conditions),     cmocka_unit_test(equal_parts_are_shared),
-        cmocka_unit_test(doublings),      cmocka_unit_test(schemas),
-        cmocka_unit_test(specifiers),     cmocka_unit_test(libraries),
+        cmocka_unit_test(expressions),       cmocka_unit_test(names),
+        cmocka_unit_test(judgements),        cmocka_unit_test(nested_symmetric),
+        cmocka_unit_test(conditions),        cmocka_unit_test(equal_parts_are_shared),
+        cmocka_unit_test(doublings),         cmocka_unit_test(schemas),
+        cmocka_unit_test(specifiers),        cmocka_unit_test(libraries),
         cmocka_unit_test(places_and_stacks), cmocka_unit_test(long_chains),
-        cmocka_unit_test(same_bytes),     cmocka_unit_test(tests_of_files),
+        cmocka_unit_test(same_bytes),        cmocka_unit_test(tests_of_files),
         cmocka_unit_test(allowances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
