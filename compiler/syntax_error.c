@@ -66,22 +66,23 @@ static size_t say_groups(tn_expected *e, char *text, size_t size)
 }
 
 /* What could have stood here, in words; empty where that would be no help. Texts are optional nearly everywhere: they
- * are named only where nothing else is. */
+ * are named only where nothing else is. Single tokens come first. */
 static void say_expected(const char *const *tokens, size_t count, char *text, size_t size)
 {
+    enum { SINGLES_MAX = 7 };
     tn_expected e = {.tokens = tokens, .count = count < 96 ? count : 96};
-    char singles[400] = "";
-    size_t single_count = 0;
+    char groups_text[400] = "";
+    size_t group_count = say_groups(&e, groups_text, sizeof groups_text), said = 0;
     text[0] = '\0';
-    size_t said = say_groups(&e, text, size);
     for (size_t i = 0; i < e.count; i++)
         if (!e.said[i] && (e.count == 1 || strcmp(tokens[i], "a text in quotes") != 0))
-            add_phrase(singles, sizeof singles, tokens[i], &single_count);
-    if (single_count == 0 || single_count > 7)
-        return;
-    char groups_text[400];
-    snprintf(groups_text, sizeof groups_text, "%s", text);
-    snprintf(text, size, "%s%s%s", singles, said ? "; " : "", groups_text);
+            add_phrase(text, size, tokens[i], &said);
+    if (said > SINGLES_MAX) {
+        said = 0;
+        text[0] = '\0';
+    }
+    if (group_count > 0)
+        add_phrase(text, size, groups_text, &said);
 }
 
 /* "a; b; c" -> "a, b or c" */
