@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/job.h"
 #include "cli/option_rows.h"
-#include "cli/session.h"
 
 /* houses.plan -> houses.tnb, in the folder where we are called; the caller frees it. NULL where out of memory. */
 static char *default_output(const char *path)
@@ -18,31 +18,31 @@ static char *default_output(const char *path)
     return name;
 }
 
-static void write_module(tn_session *session, const char *path)
+static void write_module(tn_job *job, const char *path)
 {
-    const tn_compilation *compilation = &session->opened.compilation;
+    const tn_compilation *compilation = &job->opened.compilation;
     tn_output output;
-    if (!tn_session_output(session, path, &output))
+    if (!tn_job_output(job, path, &output))
         return;
     fwrite(compilation->module, 1, compilation->module_size, output.stream);
-    tn_session_commit(session, &output);
+    tn_job_commit(job, &output);
 }
 
-static void build(tn_session *session, const char *path, const char *output)
+static void build(tn_job *job, const char *path, const char *output)
 {
     char *name = NULL;
-    if (!session->opened.compiled) {
-        tn_session_usage(session, "%.200s is a module already", path);
+    if (!job->opened.compiled) {
+        tn_job_usage(job, "%.200s is a module already", path);
         return;
     }
     if (!output)
         output = name = default_output(strcmp(path, "-") == 0 ? "stdin" : path);
     if (output) {
-        write_module(session, output);
+        write_module(job, output);
     } else {
         tn_error error;
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     }
     free(name);
 }
@@ -51,11 +51,11 @@ static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
     const char *path = settings->operands.items[0];
-    tn_session session;
-    tn_session_begin(&session, settings);
-    if (tn_session_open(&session, path))
-        build(&session, path, settings->output);
-    return tn_session_end(&session);
+    tn_job job;
+    tn_job_begin(&job, settings);
+    if (tn_job_open(&job, path))
+        build(&job, path, settings->output);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {OPTION_OUTPUT, OPTION_WERROR};

@@ -1,19 +1,19 @@
 /* tartan check: says what is wrong with rule files, without running them. */
+#include "cli/job.h"
 #include "cli/option_rows.h"
-#include "cli/session.h"
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
-    tn_session_begin(&session, settings);
+    tn_job job;
+    tn_job_begin(&job, settings);
     for (size_t i = 0; i < settings->operands.count; i++) {
         if (i == 0)
-            tn_session_open(&session, settings->operands.items[i]);
+            tn_job_open(&job, settings->operands.items[i]);
         else
-            tn_session_reopen(&session, settings->operands.items[i]);
+            tn_job_reopen(&job, settings->operands.items[i]);
     }
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {OPTION_WERROR};

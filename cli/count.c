@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/digits.h"
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 
 /* All counts of a library: one a length, and one (at the end) of all. */
@@ -220,23 +220,23 @@ static void write_json(const counts *c, FILE *out)
     mpz_clear(pruned);
 }
 
-static void count(tn_session *session, const tn_ready_library *ready)
+static void count(tn_job *job, const tn_ready_library *ready)
 {
-    const tn_settings *settings = session->settings;
+    const tn_settings *settings = job->settings;
     counts c;
     tn_error error;
     tn_output output;
     if (!counts_new(ready, settings->mirror, &c)) {
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
         return;
     }
-    tn_session_show(session);
+    tn_job_show(job);
     if (count_all(&c, &error) != TN_OK) {
-        tn_session_fail(session, &error);
-    } else if (tn_session_output(session, settings->output, &output)) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, settings->output, &output)) {
         (settings->json ? write_json : write_text)(&c, output.stream);
-        tn_session_commit(session, &output);
+        tn_job_commit(job, &output);
     }
     counts_free(&c);
 }
@@ -244,13 +244,13 @@ static void count(tn_session *session, const tn_ready_library *ready)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_ready_library ready;
-    tn_session_begin(&session, settings);
-    if (tn_session_library(&session, settings->operands.items[0], &ready))
-        count(&session, &ready);
+    tn_job_begin(&job, settings);
+    if (tn_job_library(&job, settings->operands.items[0], &ready))
+        count(&job, &ready);
     tn_library_close(&ready);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

@@ -2,54 +2,54 @@
 #include "runtime/vm/disasm.h"
 #include <stdlib.h>
 
+#include "cli/job.h"
 #include "cli/option_rows.h"
-#include "cli/session.h"
 #include "driver/library.h"
 
 /* Finds the rules of --rule; `rules` has room for them. */
-static bool choose_rules(tn_session *session, uint32_t *rules)
+static bool choose_rules(tn_job *job, uint32_t *rules)
 {
-    const tn_option_list *asked = &session->settings->rules;
+    const tn_option_list *asked = &job->settings->rules;
     tn_error error;
     if (!rules) {
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
         return false;
     }
     for (size_t i = 0; i < asked->count; i++)
-        tn_session_status(session, tn_rule_choose(&session->opened, asked->items[i], &rules[i]));
-    return session->exit_code == TN_EXIT_DONE;
+        tn_job_status(job, tn_rule_choose(&job->opened, asked->items[i], &rules[i]));
+    return job->exit_code == TN_EXIT_DONE;
 }
 
-static void write_listing(tn_session *session, const uint32_t *rules, FILE *out)
+static void write_listing(tn_job *job, const uint32_t *rules, FILE *out)
 {
-    const tn_module *module = session->opened.module;
+    const tn_module *module = job->opened.module;
     bool listed = true;
-    for (size_t i = 0; i < session->settings->rules.count && listed; i++)
+    for (size_t i = 0; i < job->settings->rules.count && listed; i++)
         listed = tn_module_disassemble_rule(module, rules[i], out);
-    if (session->settings->rules.count == 0)
+    if (job->settings->rules.count == 0)
         listed = tn_module_disassemble(module, out);
     if (!listed && !ferror(out)) {
         tn_error error;
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     }
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_output output;
     uint32_t *rules = malloc(sizeof *rules * (settings->rules.count + 1));
-    tn_session_begin(&session, settings);
-    if (tn_session_open(&session, settings->operands.items[0]) && choose_rules(&session, rules) &&
-        tn_session_output(&session, settings->output, &output)) {
-        write_listing(&session, rules, output.stream);
-        tn_session_commit(&session, &output);
+    tn_job_begin(&job, settings);
+    if (tn_job_open(&job, settings->operands.items[0]) && choose_rules(&job, rules) &&
+        tn_job_output(&job, settings->output, &output)) {
+        write_listing(&job, rules, output.stream);
+        tn_job_commit(&job, &output);
     }
     free(rules);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

@@ -14,7 +14,7 @@ enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
 
 /* The plans of a sheet, gathered before any is drawn, since all share one scale. */
 typedef struct sheet {
-    tn_session *session;
+    tn_job *job;
     const tn_schema *schema;
     const tn_library_record *library; /* or NULL */
     tn_drawn_plan *plans;             /* trays and numbers owned */
@@ -89,10 +89,10 @@ static bool read_plans(sheet *s, const char *path)
     tn_plan_reader *reader;
     const tn_plan *plan;
     tn_error error;
-    bool going = tn_session_reader(s->session, s->schema, path, &reader);
+    bool going = tn_job_reader(s->job, s->schema, path, &reader);
     if (!going)
         return false;
-    while (going && s->count <= max_plans(s->session->settings)) {
+    while (going && s->count <= max_plans(s->job->settings)) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
         if (status == TN_OK && !plan)
             break;
@@ -101,11 +101,11 @@ static bool read_plans(sheet *s, const char *path)
         else if (error.line > 0) {
             size_t size = 0;
             const char *text = tn_plan_reader_text(reader, &size);
-            going = tn_session_bad_plan(s->session, path, &error, text, size);
+            going = tn_job_bad_plan(s->job, path, &error, text, size);
             continue;
         }
         if (status != TN_OK) {
-            tn_session_fail(s->session, &error);
+            tn_job_fail(s->job, &error);
             going = false;
         }
     }
@@ -127,7 +127,7 @@ static bool unrank_all(sheet *s, const tn_ready_library *ready, const tn_sampled
     }
     free(trays);
     if (status != TN_OK)
-        tn_session_fail(s->session, &error);
+        tn_job_fail(s->job, &error);
     return status == TN_OK;
 }
 
@@ -140,7 +140,7 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
     char *digits = tn_digits(kept, true);
     tn_library_hash(ready->library, hash);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
-             digits ? digits : "?", s->session->settings->seed.value);
+             digits ? digits : "?", s->job->settings->seed.value);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
     free(digits);
     mpz_clear(kept);
@@ -149,7 +149,7 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
 static bool sample_plans(sheet *s, const tn_ready_library *ready)
 {
     tn_sampled sampled;
-    bool drawn = tn_session_sample(s->session, ready, (size_t)s->session->settings->sample.value, &sampled) &&
+    bool drawn = tn_job_sample(s->job, ready, (size_t)s->job->settings->sample.value, &sampled) &&
                  unrank_all(s, ready, &sampled);
     tn_sampled_clear(&sampled);
     s->ranked = true;
@@ -161,8 +161,8 @@ static bool sample_plans(sheet *s, const tn_ready_library *ready)
 /* The last note: which rules, by which compiler. Only the file's name, so that the same sheet can be made anywhere. */
 static void note_rules(sheet *s)
 {
-    const tn_module *module = s->session->opened.module;
-    const char *path = s->session->settings->operands.items[0], *slash = strrchr(path, '/');
+    const tn_module *module = s->job->opened.module;
+    const char *path = s->job->settings->operands.items[0], *slash = strrchr(path, '/');
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     int used = snprintf(s->notes[s->note_count], NOTE_SIZE, "%.160s", slash ? slash + 1 : path);
     if (producer && used < NOTE_SIZE)
@@ -173,8 +173,8 @@ static void note_rules(sheet *s)
 
 static void draw_sheet(sheet *s)
 {
-    const tn_settings *settings = s->session->settings;
-    const tn_module *module = s->session->opened.module;
+    const tn_settings *settings = s->job->settings;
+    const tn_module *module = s->job->opened.module;
     const char *notes[NOTE_COUNT];
     tn_error error;
     note_rules(s);
@@ -192,16 +192,16 @@ static void draw_sheet(sheet *s)
                                .columns = (uint32_t)settings->columns.value,
                                .dpi = (uint32_t)settings->dpi.value,
                                .max_plans = max_plans(settings)};
-    tn_session_show(s->session);
+    tn_job_show(s->job);
     if (tn_plans_draw(s->schema, s->plans, s->count, &options, settings->output, &error) != TN_OK)
-        tn_session_fail(s->session, &error);
+        tn_job_fail(s->job, &error);
 }
 
-static void draw_sample(tn_session *session)
+static void draw_sample(tn_job *job)
 {
     tn_ready_library ready;
-    if (tn_session_library(session, session->settings->operands.items[0], &ready)) {
-        sheet s = {.session = session, .schema = ready.schema, .library = ready.record};
+    if (tn_job_library(job, job->settings->operands.items[0], &ready)) {
+        sheet s = {.job = job, .schema = ready.schema, .library = ready.record};
         if (sample_plans(&s, &ready))
             draw_sheet(&s);
         sheet_clear(&s);
@@ -209,26 +209,26 @@ static void draw_sample(tn_session *session)
     tn_library_close(&ready);
 }
 
-static void draw_file(tn_session *session, const char *path)
+static void draw_file(tn_job *job, const char *path)
 {
     tn_schema *schema = NULL;
     uint32_t index, library = UINT32_MAX;
     tn_error error;
-    if (!tn_session_open(session, session->settings->operands.items[0]))
+    if (!tn_job_open(job, job->settings->operands.items[0]))
         return;
-    tn_status status = tn_schema_choose(&session->opened, session->settings->library, &index, &library);
-    tn_session_status(session, status);
+    tn_status status = tn_schema_choose(&job->opened, job->settings->library, &index, &library);
+    tn_job_status(job, status);
     if (status != TN_OK)
         return;
-    if (tn_schema_new(session->opened.module, index, 0, &schema, &error) == TN_OK) {
-        sheet s = {.session = session, .schema = schema};
+    if (tn_schema_new(job->opened.module, index, 0, &schema, &error) == TN_OK) {
+        sheet s = {.job = job, .schema = schema};
         if (library != UINT32_MAX)
-            s.library = &session->opened.module->LIBRARY_records[library];
+            s.library = &job->opened.module->LIBRARY_records[library];
         if (read_plans(&s, path))
             draw_sheet(&s);
         sheet_clear(&s);
     } else {
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     }
     tn_schema_free(schema);
 }
@@ -238,19 +238,19 @@ static bool is_sampled(const tn_settings *settings)
     return settings->sample.given || settings->per_length.given;
 }
 
-static bool check_options(tn_session *session)
+static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = session->settings;
+    const tn_settings *settings = job->settings;
     tn_canvas_format format;
     tn_error error;
     if (!settings->output)
-        tn_session_usage(session, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
     else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     else if (is_sampled(settings) && settings->operands.count > 1)
-        tn_session_usage(session, "draw either a file of plans or a --sample, not both");
+        tn_job_usage(job, "draw either a file of plans or a --sample, not both");
     else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->trays.given))
-        tn_session_usage(session, "--seed, --length and --trays say what is sampled: give --sample N too");
+        tn_job_usage(job, "--seed, --length and --trays say what is sampled: give --sample N too");
     else
         return true;
     return false;
@@ -259,16 +259,16 @@ static bool check_options(tn_session *session)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
-    tn_session_begin(&session, settings);
-    if (check_options(&session)) {
-        const char *path = is_sampled(settings) ? NULL : tn_session_plans_path(&session);
+    tn_job job;
+    tn_job_begin(&job, settings);
+    if (check_options(&job)) {
+        const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
         if (path)
-            draw_file(&session, path);
-        else if (session.exit_code == TN_EXIT_DONE)
-            draw_sample(&session);
+            draw_file(&job, path);
+        else if (job.exit_code == TN_EXIT_DONE)
+            draw_sample(&job);
     }
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

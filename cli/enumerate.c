@@ -13,7 +13,7 @@ enum { LOOK_EVERY = 4096 };
 
 /* One enumeration: the ranks [rank, to) that are left. */
 typedef struct enumeration {
-    tn_session *session;
+    tn_job *job;
     const tn_ready_library *ready;
     tn_plan_writer *writer;
     mpz_t rank, to;
@@ -24,12 +24,12 @@ typedef struct enumeration {
 /* The ranks asked for, no further than the library goes. */
 static void find_range(enumeration *e)
 {
-    const tn_settings *settings = e->session->settings;
+    const tn_settings *settings = e->job->settings;
     mpz_t kept, zero;
     mpz_inits(kept, zero, NULL);
     tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
-    tn_session_rank(settings->from, zero, e->rank);
-    tn_session_rank(settings->to, kept, e->to);
+    tn_job_rank(settings->from, zero, e->rank);
+    tn_job_rank(settings->to, kept, e->to);
     if (mpz_cmp(e->to, kept) > 0)
         mpz_set(e->to, kept);
     if (mpz_cmp(e->rank, e->to) > 0)
@@ -60,8 +60,8 @@ static void resume(enumeration *e)
     e->written = tn_plan_writer_resumed(e->writer, last);
     if (e->written > 0) {
         mpz_add_ui(e->rank, last, 1);
-        tn_session_note(e->session, "%" PRIu64 " plans are there already; going on after them", e->written);
-        tn_session_show(e->session);
+        tn_job_note(e->job, "%" PRIu64 " plans are there already; going on after them", e->written);
+        tn_job_show(e->job);
     }
     mpz_clear(last);
 }
@@ -73,13 +73,13 @@ static bool is_done(const enumeration *e)
 
 static void interrupt(enumeration *e)
 {
-    tn_session_note(e->session, "interrupted; a database keeps its whole batches, and --resume goes on after them");
-    e->session->exit_code = TN_EXIT_INTERRUPTED;
+    tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+    e->job->exit_code = TN_EXIT_INTERRUPTED;
 }
 
 static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
 {
-    bool mirror = e->session->settings->mirror;
+    bool mirror = e->job->settings->mirror;
     const tn_tray *trays;
     uint32_t length;
     uint64_t seen = 0;
@@ -121,40 +121,40 @@ static void enumerate(enumeration *e)
         tn_cursor_free(cursor);
     }
     if (status != TN_OK)
-        tn_session_fail(e->session, &error);
+        tn_job_fail(e->job, &error);
     else if (tn_interrupted())
         interrupt(e);
-    tn_session_plan_close(e->session, e->writer);
+    tn_job_plan_close(e->job, e->writer);
 }
 
-static bool check_options(tn_session *session)
+static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = session->settings;
+    const tn_settings *settings = job->settings;
     if (!settings->resume || (settings->output && strcmp(settings->output, "-") != 0))
         return true;
-    tn_session_usage(session, "--resume needs the database that it is to go on with: -o FILE.sqlite");
+    tn_job_usage(job, "--resume needs the database that it is to go on with: -o FILE.sqlite");
     return false;
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_ready_library ready = {0};
-    tn_session_begin(&session, settings);
-    if (check_options(&session) && tn_session_library(&session, settings->operands.items[0], &ready)) {
+    tn_job_begin(&job, settings);
+    if (check_options(&job) && tn_job_library(&job, settings->operands.items[0], &ready)) {
         enumeration e = {
-            .session = &session, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
+            .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
         char *made = describe(settings);
         mpz_inits(e.rank, e.to, NULL);
         find_range(&e);
-        if (made && tn_session_plan_writer(&session, &ready, made, &e.writer))
+        if (made && tn_job_plan_writer(&job, &ready, made, &e.writer))
             enumerate(&e);
         mpz_clears(e.rank, e.to, NULL);
         free(made);
     }
     tn_library_close(&ready);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

@@ -4,28 +4,28 @@
 #include <string.h>
 
 #include "cli/help.h"
+#include "cli/job.h"
 #include "cli/manual.h"
 #include "cli/options.h"
-#include "cli/session.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
 static int written(void)
 {
     const tn_settings settings = {0};
-    tn_session session;
+    tn_job job;
     tn_output output;
-    tn_session_begin(&session, &settings);
-    if (tn_session_output(&session, NULL, &output))
-        tn_session_commit(&session, &output);
-    return tn_session_end(&session);
+    tn_job_begin(&job, &settings);
+    if (tn_job_output(&job, NULL, &output))
+        tn_job_commit(&job, &output);
+    return tn_job_end(&job);
 }
 
 static int refuse(const tn_settings *settings, const tn_error *error)
 {
-    tn_session session;
-    tn_session_begin(&session, settings);
-    tn_session_fail(&session, error);
-    return tn_session_end(&session);
+    tn_job job;
+    tn_job_begin(&job, settings);
+    tn_job_fail(&job, error);
+    return tn_job_end(&job);
 }
 
 static int unknown_command(const char *name)

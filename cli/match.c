@@ -2,7 +2,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
 #include "driver/sift.h"
@@ -11,7 +11,7 @@ enum { FORMAT_NAMES, FORMAT_JSON, FORMAT_BITS };
 
 /* The rules to match, and where the answers go. */
 typedef struct matching {
-    tn_session *session;
+    tn_job *job;
     const char *path; /* of the plans */
     uint32_t *rules;  /* RULE records, in file order or as asked for */
     size_t count;
@@ -26,25 +26,25 @@ typedef struct matching {
 static const char *rule_name(const void *context, size_t i)
 {
     const matching *m = context;
-    const tn_module *module = m->session->opened.module;
+    const tn_module *module = m->job->opened.module;
     return tn_text(module, module->RULE_records[m->rules[i]].name);
 }
 
 /* The rules of --rule, or those of the file itself. */
 static bool choose_rules(matching *m)
 {
-    const tn_option_list *asked = &m->session->settings->rules;
-    const tn_module *module = m->session->opened.module;
+    const tn_option_list *asked = &m->job->settings->rules;
+    const tn_module *module = m->job->opened.module;
     tn_error error;
     m->rules = malloc(sizeof *m->rules * (asked->count + module->RULE_count + 1));
     if (!m->rules) {
         tn_fail_memory(&error);
-        tn_session_fail(m->session, &error);
+        tn_job_fail(m->job, &error);
         return false;
     }
     for (size_t i = 0; i < asked->count; i++) {
-        tn_status status = tn_rule_choose(&m->session->opened, asked->items[i], &m->rules[m->count]);
-        tn_session_status(m->session, status);
+        tn_status status = tn_rule_choose(&m->job->opened, asked->items[i], &m->rules[m->count]);
+        tn_job_status(m->job, status);
         m->count += status == TN_OK;
     }
     if (asked->count)
@@ -54,16 +54,16 @@ static bool choose_rules(matching *m)
             m->rules[m->count++] = i;
     if (m->count > 0)
         return true;
-    tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rules of its own", m->session->opened.path);
+    tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rules of its own", m->job->opened.path);
     tn_error_help(&error, "name one of those it uses with --rule, or filter with `tartan prune`");
-    tn_session_fail(m->session, &error);
+    tn_job_fail(m->job, &error);
     return false;
 }
 
 /* All rules have to be about the same trays, or the plans could not be read. */
 static bool choose_schema(matching *m)
 {
-    const tn_module *module = m->session->opened.module;
+    const tn_module *module = m->job->opened.module;
     uint32_t schema = module->RULE_records[m->rules[0]].schema;
     tn_error error;
     for (size_t i = 1; i < m->count; i++) {
@@ -75,7 +75,7 @@ static bool choose_schema(matching *m)
                 tn_text(module, module->SCHEMA_records[schema].name), rule_name(m, i),
                 tn_text(module, module->SCHEMA_records[other].name));
         tn_error_help(&error, "choose rules about the same trays with --rule");
-        tn_session_fail(m->session, &error);
+        tn_job_fail(m->job, &error);
         return false;
     }
     m->schema_index = schema;
@@ -84,10 +84,10 @@ static bool choose_schema(matching *m)
 
 static bool compile_rules(matching *m)
 {
-    const tn_settings *settings = m->session->settings;
-    const tn_module *module = m->session->opened.module;
+    const tn_settings *settings = m->job->settings;
+    const tn_module *module = m->job->opened.module;
     tn_rules_options options = {(tn_engine)settings->engine, (uint32_t)settings->max_states.value,
-                                tn_session_max_length(settings)};
+                                tn_job_max_length(settings)};
     uint32_t *functions = malloc(sizeof *functions * m->count);
     tn_error error;
     tn_status status =
@@ -98,7 +98,7 @@ static bool compile_rules(matching *m)
         status = tn_rules_new(m->schema, functions, m->count, &options, &m->compiled, &error);
     free(functions);
     if (status != TN_OK)
-        tn_session_fail(m->session, &error);
+        tn_job_fail(m->job, &error);
     return status == TN_OK;
 }
 
@@ -146,7 +146,7 @@ static bool write_object(matching *m, const tn_sifted *plan)
 static bool take(void *context, const tn_sifted *plan)
 {
     matching *m = context;
-    int format = m->session->settings->format;
+    int format = m->job->settings->format;
     if (format == FORMAT_BITS) {
         write_bits(m, plan);
     } else if (format == FORMAT_NAMES) {
@@ -154,7 +154,7 @@ static bool take(void *context, const tn_sifted *plan)
     } else if (!write_object(m, plan)) {
         tn_error error;
         tn_fail_memory(&error);
-        tn_session_fail(m->session, &error);
+        tn_job_fail(m->job, &error);
         m->stopped = true;
         return false;
     }
@@ -165,7 +165,7 @@ static bool take(void *context, const tn_sifted *plan)
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     matching *m = context;
-    m->stopped = !tn_session_bad_plan(m->session, m->path, error, text, size);
+    m->stopped = !tn_job_bad_plan(m->job, m->path, error, text, size);
     return !m->stopped;
 }
 
@@ -173,16 +173,16 @@ static void match_plans(matching *m)
 {
     tn_plan_reader *reader;
     tn_error error;
-    tn_session_fallbacks(m->session, m->compiled, rule_name, m);
-    if (!tn_session_reader(m->session, m->schema, m->path, &reader))
+    tn_job_fallbacks(m->job, m->compiled, rule_name, m);
+    if (!tn_job_reader(m->job, m->schema, m->path, &reader))
         return;
-    if (tn_session_output(m->session, m->session->settings->output, &m->output)) {
+    if (tn_job_output(m->job, m->job->settings->output, &m->output)) {
         tn_sift_calls calls = {m, take, complain};
-        if (tn_sift(reader, m->compiled, tn_session_threads(m->session->settings), &calls, &error) != TN_OK) {
-            tn_session_fail(m->session, &error);
+        if (tn_sift(reader, m->compiled, tn_job_threads(m->job->settings), &calls, &error) != TN_OK) {
+            tn_job_fail(m->job, &error);
             m->stopped = true;
         }
-        tn_session_close(m->session, &m->output, !m->stopped);
+        tn_job_close(m->job, &m->output, !m->stopped);
     }
     tn_plan_reader_free(reader);
 }
@@ -190,18 +190,18 @@ static void match_plans(matching *m)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
-    tn_session_begin(&session, settings);
-    matching m = {.session = &session, .path = tn_session_plans_path(&session)};
-    tn_session_threads(settings);
-    if (m.path && tn_session_open(&session, settings->operands.items[0]) && choose_rules(&m) && choose_schema(&m) &&
+    tn_job job;
+    tn_job_begin(&job, settings);
+    matching m = {.job = &job, .path = tn_job_plans_path(&job)};
+    tn_job_threads(settings);
+    if (m.path && tn_job_open(&job, settings->operands.items[0]) && choose_rules(&m) && choose_schema(&m) &&
         compile_rules(&m))
         match_plans(&m);
     tn_rules_free(m.compiled);
     tn_schema_free(m.schema);
     free(m.rules);
     free(m.line.data);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

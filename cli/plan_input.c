@@ -2,48 +2,47 @@
 
 #include <string.h>
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 
-const char *tn_session_plans_path(tn_session *session)
+const char *tn_job_plans_path(tn_job *job)
 {
-    const tn_option_list *operands = &session->settings->operands;
+    const tn_option_list *operands = &job->settings->operands;
     const char *path = operands->count > 1 ? operands->items[1] : "-";
     if (strcmp(path, "-") == 0 && strcmp(operands->items[0], "-") == 0) {
-        tn_session_usage(session, "the rules and the plans cannot both come from standard input");
+        tn_job_usage(job, "the rules and the plans cannot both come from standard input");
         return NULL;
     }
     return path;
 }
 
-bool tn_session_reader(tn_session *session, const tn_schema *schema, const char *path, tn_plan_reader **reader)
+bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader)
 {
-    tn_reader_options options = {.format = (tn_plan_format)session->settings->input_format,
-                                 .max_length = tn_session_max_length(session->settings)};
+    tn_reader_options options = {.format = (tn_plan_format)job->settings->input_format,
+                                 .max_length = tn_job_max_length(job->settings)};
     tn_error error;
     if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
         return true;
-    tn_session_fail(session, &error);
+    tn_job_fail(job, &error);
     return false;
 }
 
-bool tn_session_bad_plan(tn_session *session, const char *path, const tn_error *error, const char *text, size_t size)
+bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size)
 {
-    tn_report_error(tn_session_diagnostics(session), error, strcmp(path, "-") == 0 ? "standard input" : path, text,
-                    size);
-    tn_session_status(session, error->status);
-    return session->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
+    tn_report_error(tn_job_diagnostics(job), error, strcmp(path, "-") == 0 ? "standard input" : path, text, size);
+    tn_job_status(job, error->status);
+    return job->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
 }
 
-void tn_session_fallbacks(tn_session *session, const tn_rules *rules, const char *(*name)(const void *, size_t),
-                          const void *context)
+void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),
+                      const void *context)
 {
     for (size_t i = 0; i < tn_rules_count(rules); i++) {
         const tn_error *reason = tn_rules_fallback(rules, i);
         if (!reason)
             continue;
-        tn_diagnostic *note = tn_finding_note(&session->opened, reason);
-        tn_note(tn_session_diagnostics(session), note, NULL, "`%s` is matched by the interpreter, which is slower",
+        tn_diagnostic *note = tn_finding_note(&job->opened, reason);
+        tn_note(tn_job_diagnostics(job), note, NULL, "`%s` is matched by the interpreter, which is slower",
                 name(context, i));
     }
-    tn_session_show(session);
+    tn_job_show(job);
 }

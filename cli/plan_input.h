@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_INPUT_H
 #define TARTAN_CLI_PLAN_INPUT_H
 
-#include "cli/session.h"
+#include "cli/job.h"
 #include "runtime/plan/rules.h"
 #include "runtime/plan/stream.h"
 
@@ -15,16 +15,16 @@
 
 /* The plans' path: the operand after the rule file, or standard input. NULL (and wrong usage recorded) where both would
  * be standard input. */
-const char *tn_session_plans_path(tn_session *session);
+const char *tn_job_plans_path(tn_job *job);
 
 /* Opens the plans; false where that failed. */
-bool tn_session_reader(tn_session *session, const tn_schema *schema, const char *path, tn_plan_reader **reader);
+bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader);
 
 /* Records a bad plan; true where the options say to go on. */
-bool tn_session_bad_plan(tn_session *session, const char *path, const tn_error *error, const char *text, size_t size);
+bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size);
 
 /* Notes the rules that fell back to the interpreter. `name` gives the name of rule i. */
-void tn_session_fallbacks(tn_session *session, const tn_rules *rules, const char *(*name)(const void *, size_t),
-                          const void *context);
+void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),
+                      const void *context);
 
 #endif

@@ -2,11 +2,10 @@
 
 #include <inttypes.h>
 
-bool tn_session_plan_writer(tn_session *session, const tn_ready_library *ready, const char *made,
-                            tn_plan_writer **writer)
+bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer)
 {
-    const tn_settings *settings = session->settings;
-    const tn_module *module = session->opened.module;
+    const tn_settings *settings = job->settings;
+    const tn_module *module = job->opened.module;
     char library_hash[33], rules_hash[20] = "";
     tn_library_hash(ready->library, library_hash);
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
@@ -26,14 +25,14 @@ bool tn_session_plan_writer(tn_session *session, const tn_ready_library *ready, 
     if (tn_plan_writer_open(ready->schema, settings->output ? settings->output : "-", &options, writer, &error) ==
         TN_OK)
         return true;
-    tn_session_fail(session, &error);
+    tn_job_fail(job, &error);
     return false;
 }
 
-void tn_session_plan_close(tn_session *session, tn_plan_writer *writer)
+void tn_job_plan_close(tn_job *job, tn_plan_writer *writer)
 {
     tn_error error;
-    if (session->exit_code == TN_EXIT_DONE && !session->reader_gone && tn_plan_writer_close(writer, &error) != TN_OK)
-        tn_session_fail(session, &error);
+    if (job->exit_code == TN_EXIT_DONE && !job->reader_gone && tn_plan_writer_close(writer, &error) != TN_OK)
+        tn_job_fail(job, &error);
     tn_plan_writer_free(writer);
 }

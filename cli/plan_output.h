@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_OUTPUT_H
 #define TARTAN_CLI_PLAN_OUTPUT_H
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "runtime/plan/stream.h"
 
 #define OPTION_PLAN_FORMAT                                                                                             \
@@ -13,11 +13,10 @@
 
 /* Opens the output that --output and --format ask for. `made` says what was asked for, in words of the command line
  * that decide the result. False where that failed. */
-bool tn_session_plan_writer(tn_session *session, const tn_ready_library *ready, const char *made,
-                            tn_plan_writer **writer);
+bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer);
 
-/* Finishes the file, unless the session has failed: then it is given up (a database keeps its whole batches). Frees the
+/* Finishes the file, unless the job has failed: then it is given up (a database keeps its whole batches). Frees the
  * writer. */
-void tn_session_plan_close(tn_session *session, tn_plan_writer *writer);
+void tn_job_plan_close(tn_job *job, tn_plan_writer *writer);
 
 #endif

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
 #include "driver/clauses.h"
@@ -11,7 +11,7 @@
 enum { FORMAT_LINES, FORMAT_JSON };
 
 typedef struct pruning {
-    tn_session *session;
+    tn_job *job;
     const char *path; /* of the plans */
     tn_ready_library ready;
     tn_rules *rules;
@@ -25,7 +25,7 @@ typedef struct pruning {
 static const char *clause_name(const void *context, size_t i)
 {
     const pruning *p = context;
-    const tn_module *module = p->session->opened.module;
+    const tn_module *module = p->job->opened.module;
     return tn_text(module, module->CLAUSE_records[p->ready.record->clause_first + i].name);
 }
 
@@ -36,7 +36,7 @@ static bool length_drops(const pruning *p, const tn_sifted *plan)
 
 static bool drops(const pruning *p, const tn_sifted *plan, size_t i)
 {
-    return tn_clause_drops(p->session->opened.module, p->ready.record, i, plan->bits);
+    return tn_clause_drops(p->job->opened.module, p->ready.record, i, plan->bits);
 }
 
 static bool is_kept(const pruning *p, const tn_sifted *plan)
@@ -73,7 +73,7 @@ static bool write_reasons(pruning *p, const tn_sifted *plan, const char *quote)
 static bool write_dropped(pruning *p, const tn_sifted *plan)
 {
     const tn_schema *schema = p->ready.schema;
-    if (p->session->settings->format == FORMAT_LINES)
+    if (p->job->settings->format == FORMAT_LINES)
         return tn_buffer_printf(&p->line, "# dropped by ") && write_reasons(p, plan, "") &&
                tn_buffer_append(&p->line, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, &p->line) &&
                tn_buffer_append(&p->line, "\n", 1);
@@ -87,7 +87,7 @@ static bool write_dropped(pruning *p, const tn_sifted *plan)
 static bool write_kept(pruning *p, const tn_sifted *plan)
 {
     const tn_schema *schema = p->ready.schema;
-    bool written = p->session->settings->format == FORMAT_JSON
+    bool written = p->job->settings->format == FORMAT_JSON
                        ? tn_plan_write_json(schema, plan->trays, plan->length, &p->line)
                        : tn_plan_write_line(schema, plan->trays, plan->length, &p->line);
     return written && tn_buffer_append(&p->line, "\n", 1);
@@ -104,7 +104,7 @@ static bool take(void *context, const tn_sifted *plan)
     if (!(kept ? write_kept(p, plan) : write_dropped(p, plan))) {
         tn_error error;
         tn_fail_memory(&error);
-        tn_session_fail(p->session, &error);
+        tn_job_fail(p->job, &error);
         p->stopped = true;
         return false;
     }
@@ -115,31 +115,31 @@ static bool take(void *context, const tn_sifted *plan)
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     pruning *p = context;
-    p->stopped = !tn_session_bad_plan(p->session, p->path, error, text, size);
+    p->stopped = !tn_job_bad_plan(p->job, p->path, error, text, size);
     return !p->stopped;
 }
 
 static bool compile_clauses(pruning *p)
 {
-    const tn_settings *settings = p->session->settings;
+    const tn_settings *settings = p->job->settings;
     tn_rules_options options = {(tn_engine)settings->engine, (uint32_t)settings->max_states.value,
-                                tn_session_max_length(settings)};
+                                tn_job_max_length(settings)};
     tn_error error;
     p->trays_min = settings->trays.given ? (uint32_t)settings->trays.low : p->ready.record->trays_min;
     p->trays_max = settings->trays.given ? (uint32_t)settings->trays.high : p->ready.record->trays_max;
     if (tn_clause_rules_new(p->ready.schema, p->ready.record, &options, &p->rules, &error) == TN_OK) {
-        tn_session_fallbacks(p->session, p->rules, clause_name, p);
+        tn_job_fallbacks(p->job, p->rules, clause_name, p);
         return true;
     }
-    tn_session_fail(p->session, &error);
+    tn_job_fail(p->job, &error);
     return false;
 }
 
 /* Kept and dropped plans may both go to standard output, in the order they came. */
 static bool open_outputs(pruning *p)
 {
-    const tn_settings *settings = p->session->settings;
-    if (!tn_session_output(p->session, settings->output, &p->kept))
+    const tn_settings *settings = p->job->settings;
+    if (!tn_job_output(p->job, settings->output, &p->kept))
         return false;
     if (!settings->dropped)
         return true;
@@ -147,7 +147,7 @@ static bool open_outputs(pruning *p)
         p->dropped_stream = stdout;
         return true;
     }
-    if (tn_session_output(p->session, settings->dropped, &p->dropped)) {
+    if (tn_job_output(p->job, settings->dropped, &p->dropped)) {
         p->dropped_stream = p->dropped.stream;
         return true;
     }
@@ -159,17 +159,17 @@ static void prune_plans(pruning *p)
 {
     tn_plan_reader *reader;
     tn_error error;
-    if (!tn_session_reader(p->session, p->ready.schema, p->path, &reader))
+    if (!tn_job_reader(p->job, p->ready.schema, p->path, &reader))
         return;
     if (open_outputs(p)) {
         tn_sift_calls calls = {p, take, complain};
-        if (tn_sift(reader, p->rules, tn_session_threads(p->session->settings), &calls, &error) != TN_OK) {
-            tn_session_fail(p->session, &error);
+        if (tn_sift(reader, p->rules, tn_job_threads(p->job->settings), &calls, &error) != TN_OK) {
+            tn_job_fail(p->job, &error);
             p->stopped = true;
         }
-        tn_session_close(p->session, &p->kept, !p->stopped);
+        tn_job_close(p->job, &p->kept, !p->stopped);
         if (p->dropped.stream)
-            tn_session_close(p->session, &p->dropped, !p->stopped);
+            tn_job_close(p->job, &p->dropped, !p->stopped);
     }
     tn_plan_reader_free(reader);
 }
@@ -177,15 +177,15 @@ static void prune_plans(pruning *p)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
-    tn_session_begin(&session, settings);
-    pruning p = {.session = &session, .path = tn_session_plans_path(&session)};
-    if (p.path && tn_session_library_schema(&session, settings->operands.items[0], &p.ready) && compile_clauses(&p))
+    tn_job job;
+    tn_job_begin(&job, settings);
+    pruning p = {.job = &job, .path = tn_job_plans_path(&job)};
+    if (p.path && tn_job_library_schema(&job, settings->operands.items[0], &p.ready) && compile_clauses(&p))
         prune_plans(&p);
     tn_rules_free(p.rules);
     tn_library_close(&p.ready);
     free(p.line.data);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

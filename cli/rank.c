@@ -2,32 +2,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "driver/clauses.h"
 #include "runtime/plan/text.h"
 
 /* Names one clause that the plan fails, and where it is written. */
-static void name_clause(tn_session *session, tn_diagnostic *why, uint32_t clause)
+static void name_clause(tn_job *job, tn_diagnostic *why, uint32_t clause)
 {
-    const tn_module *module = session->opened.module;
+    const tn_module *module = job->opened.module;
     const tn_clause_record *record = &module->CLAUSE_records[clause];
     const char *doc = tn_text(module, record->doc);
     tn_span span = {record->file, record->begin, record->end};
-    bool known = record->file < session->opened.compilation.sources.count;
-    tn_note(tn_session_diagnostics(session), why, known ? &span : NULL, "it fails `%s`%s%s",
-            tn_text(module, record->name), *doc ? ": " : "", doc);
+    bool known = record->file < job->opened.compilation.sources.count;
+    tn_note(tn_job_diagnostics(job), why, known ? &span : NULL, "it fails `%s`%s%s", tn_text(module, record->name),
+            *doc ? ": " : "", doc);
 }
 
 /* Why the plan has no rank: each clause that it fails, as the interpreter finds them. */
-static tn_status say_why(tn_session *session, const tn_ready_library *ready, const tn_plan *plan, tn_error *error)
+static tn_status say_why(tn_job *job, const tn_ready_library *ready, const tn_plan *plan, tn_error *error)
 {
-    const tn_module *module = session->opened.module;
-    tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = tn_session_max_length(session->settings)};
+    const tn_module *module = job->opened.module;
+    tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = tn_job_max_length(job->settings)};
     tn_rules *rules = NULL;
     tn_matcher *matcher = NULL;
     uint64_t *bits = calloc(ready->record->clause_count / 64 + 1, sizeof *bits);
-    tn_diagnostics *list = tn_session_diagnostics(session);
+    tn_diagnostics *list = tn_job_diagnostics(job);
     tn_diagnostic *why = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "the plan is not in `%s`",
                                         tn_text(module, ready->record->name));
     tn_status status =
@@ -41,36 +41,36 @@ static tn_status say_why(tn_session *session, const tn_ready_library *ready, con
                 tn_library_min(ready->library), tn_library_max(ready->library));
     for (uint32_t i = 0; status == TN_OK && i < ready->record->clause_count; i++)
         if (tn_clause_drops(module, ready->record, i, bits))
-            name_clause(session, why, ready->record->clause_first + i);
+            name_clause(job, why, ready->record->clause_first + i);
     tn_matcher_free(matcher);
     tn_rules_free(rules);
     free(bits);
     return status == TN_OK ? TN_INVALID : status;
 }
 
-static void write_rank(tn_session *session, const mpz_t rank)
+static void write_rank(tn_job *job, const mpz_t rank)
 {
     tn_output output;
-    if (!tn_session_output(session, NULL, &output))
+    if (!tn_job_output(job, NULL, &output))
         return;
     mpz_out_str(output.stream, 10, rank);
     fputc('\n', output.stream);
-    tn_session_commit(session, &output);
+    tn_job_commit(job, &output);
 }
 
-static void rank_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan)
+static void rank_plan(tn_job *job, const tn_ready_library *ready, const tn_plan *plan)
 {
     mpz_t rank;
     tn_error error;
     mpz_init(rank);
     if (tn_library_rank(ready->library, plan->trays, plan->length, rank)) {
-        write_rank(session, rank);
+        write_rank(job, rank);
     } else {
-        tn_status status = say_why(session, ready, plan, &error);
+        tn_status status = say_why(job, ready, plan, &error);
         if (status == TN_INVALID)
-            tn_session_status(session, status);
+            tn_job_status(job, status);
         else
-            tn_session_fail(session, &error);
+            tn_job_fail(job, &error);
     }
     mpz_clear(rank);
 }
@@ -78,28 +78,28 @@ static void rank_plan(tn_session *session, const tn_ready_library *ready, const 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_ready_library ready;
     const char *text = settings->operands.items[1];
-    tn_session_begin(&session, settings);
-    if (tn_session_library(&session, settings->operands.items[0], &ready)) {
+    tn_job_begin(&job, settings);
+    if (tn_job_library(&job, settings->operands.items[0], &ready)) {
         tn_plan plan = {0};
         tn_error error;
         tn_status status =
             text[strspn(text, " ")] == '{'
-                ? tn_plan_parse_json(ready.schema, text, strlen(text), tn_session_max_length(settings), &plan, &error)
-                : tn_plan_parse_line(ready.schema, text, strlen(text), tn_session_max_length(settings), &plan, &error);
+                ? tn_plan_parse_json(ready.schema, text, strlen(text), tn_job_max_length(settings), &plan, &error)
+                : tn_plan_parse_line(ready.schema, text, strlen(text), tn_job_max_length(settings), &plan, &error);
         if (status == TN_OK) {
-            rank_plan(&session, &ready, &plan);
+            rank_plan(&job, &ready, &plan);
         } else {
             tn_error_place(&error, 1, error.column, error.column_end);
-            tn_report_error(tn_session_diagnostics(&session), &error, "PLAN", text, strlen(text));
-            tn_session_status(&session, status);
+            tn_report_error(tn_job_diagnostics(&job), &error, "PLAN", text, strlen(text));
+            tn_job_status(&job, status);
         }
         free(plan.trays);
     }
     tn_library_close(&ready);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {OPTION_LIBRARY, OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS};

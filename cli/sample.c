@@ -6,8 +6,7 @@
 #include "cli/plan_output.h"
 #include "cli/sampled.h"
 
-static void write_plans(tn_session *session, const tn_ready_library *ready, const tn_sampled *sampled,
-                        tn_plan_writer *writer)
+static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sampled *sampled, tn_plan_writer *writer)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
     tn_error error;
@@ -20,7 +19,7 @@ static void write_plans(tn_session *session, const tn_ready_library *ready, cons
             status = tn_fail(&error, TN_INTERNAL, 0, "a sampled rank is not in the library");
     }
     if (status != TN_OK)
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     free(trays);
 }
 
@@ -35,39 +34,39 @@ static void describe(const tn_settings *settings, size_t wanted, char *text, siz
         snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->length.value);
 }
 
-static void sample(tn_session *session, const tn_ready_library *ready, size_t wanted)
+static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
 {
     tn_sampled sampled;
     tn_plan_writer *writer;
     char made[128];
-    describe(session->settings, wanted, made, sizeof made);
-    if (tn_session_sample(session, ready, wanted, &sampled)) {
-        tn_session_show(session);
-        if (tn_session_plan_writer(session, ready, made, &writer)) {
-            write_plans(session, ready, &sampled, writer);
-            tn_session_plan_close(session, writer);
+    describe(job->settings, wanted, made, sizeof made);
+    if (tn_job_sample(job, ready, wanted, &sampled)) {
+        tn_job_show(job);
+        if (tn_job_plan_writer(job, ready, made, &writer)) {
+            write_plans(job, ready, &sampled, writer);
+            tn_job_plan_close(job, writer);
         }
     }
     tn_sampled_clear(&sampled);
 }
 
 /* The operand N; it and --per-length say the same thing in two ways. */
-static bool read_wanted(tn_session *session, size_t *wanted)
+static bool read_wanted(tn_job *job, size_t *wanted)
 {
-    const tn_settings *settings = session->settings;
+    const tn_settings *settings = job->settings;
     uint64_t number = 0;
     if ((settings->operands.count > 1) == settings->per_length.given) {
-        tn_session_usage(session, "say how many plans: either N after the file, or --per-length N");
+        tn_job_usage(job, "say how many plans: either N after the file, or --per-length N");
         return false;
     }
     if (settings->per_length.given && settings->length.given) {
-        tn_session_usage(session, "--length and --per-length exclude each other");
+        tn_job_usage(job, "--length and --per-length exclude each other");
         return false;
     }
     if (settings->operands.count > 1 &&
         (!tn_number_read(settings->operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
-        tn_session_usage(session, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
-                         settings->operands.items[1]);
+        tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
+                     settings->operands.items[1]);
         return false;
     }
     *wanted = (size_t)number;
@@ -77,14 +76,14 @@ static bool read_wanted(tn_session *session, size_t *wanted)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_ready_library ready = {0};
     size_t wanted;
-    tn_session_begin(&session, settings);
-    if (read_wanted(&session, &wanted) && tn_session_library(&session, settings->operands.items[0], &ready))
-        sample(&session, &ready, wanted);
+    tn_job_begin(&job, settings);
+    if (read_wanted(&job, &wanted) && tn_job_library(&job, settings->operands.items[0], &ready))
+        sample(&job, &ready, wanted);
     tn_library_close(&ready);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

@@ -2,11 +2,11 @@
 
 #include <stdlib.h>
 
-static bool out_of_memory(tn_session *session)
+static bool out_of_memory(tn_job *job)
 {
     tn_error error;
     tn_fail_memory(&error);
-    tn_session_fail(session, &error);
+    tn_job_fail(job, &error);
     return false;
 }
 
@@ -37,15 +37,15 @@ static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
     return wanted;
 }
 
-static bool draw(tn_session *session, const tn_library *library, uint32_t length, size_t wanted, tn_sampled *sampled)
+static bool draw(tn_job *job, const tn_library *library, uint32_t length, size_t wanted, tn_sampled *sampled)
 {
     size_t count = at_most(library, length, wanted), found = 0;
     tn_error error;
     if (!grow(sampled, count))
-        return out_of_memory(session);
-    if (tn_library_sample(library, session->settings->seed.value, length, count, sampled->ranks + sampled->count,
-                          &found, &error) != TN_OK) {
-        tn_session_fail(session, &error);
+        return out_of_memory(job);
+    if (tn_library_sample(library, job->settings->seed.value, length, count, sampled->ranks + sampled->count, &found,
+                          &error) != TN_OK) {
+        tn_job_fail(job, &error);
         return false;
     }
     sampled->count += found;
@@ -53,28 +53,27 @@ static bool draw(tn_session *session, const tn_library *library, uint32_t length
         return true;
     const char *plural = found == 1 ? "" : "s";
     if (length == TN_ALL_LENGTHS)
-        tn_session_note(session, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found,
-                        plural, wanted);
+        tn_job_note(job, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found, plural,
+                    wanted);
     else
-        tn_session_note(session,
-                        "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all", found,
-                        plural, length, wanted);
+        tn_job_note(job, "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all",
+                    found, plural, length, wanted);
     return true;
 }
 
-bool tn_session_sample(tn_session *session, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled)
+bool tn_job_sample(tn_job *job, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled)
 {
-    const tn_settings *settings = session->settings;
+    const tn_settings *settings = job->settings;
     const tn_library *library = ready->library;
     *sampled = (tn_sampled){0};
     if (settings->per_length.given) {
         for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++)
-            if (!draw(session, library, length, (size_t)settings->per_length.value, sampled))
+            if (!draw(job, library, length, (size_t)settings->per_length.value, sampled))
                 return false;
         return true;
     }
     uint32_t length = settings->length.given ? (uint32_t)settings->length.value : TN_ALL_LENGTHS;
-    return draw(session, library, length, wanted, sampled);
+    return draw(job, library, length, wanted, sampled);
 }
 
 void tn_sampled_clear(tn_sampled *sampled)

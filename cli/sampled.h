@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_SAMPLED_H
 #define TARTAN_CLI_SAMPLED_H
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 
 /* The most ranks that are drawn at once: they are all in memory. */
 #define TN_SAMPLE_MAX 50000000u
@@ -14,7 +14,7 @@ typedef struct tn_sampled {
 
 /* Draws `wanted` ranks of all lengths or of --length, or as many of each length with --per-length. Notes where there
  * are fewer. False where it failed. Clear in any case. */
-bool tn_session_sample(tn_session *session, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled);
+bool tn_job_sample(tn_job *job, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled);
 void tn_sampled_clear(tn_sampled *sampled);
 
 #endif

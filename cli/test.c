@@ -1,33 +1,33 @@
 /* tartan test: runs the test blocks of rule files. */
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "driver/tests.h"
 
 /* The closing line goes to standard output, like any result. */
-static void write_counts(tn_session *session, const tn_test_counts *counts)
+static void write_counts(tn_job *job, const tn_test_counts *counts)
 {
     tn_output output;
-    if (!tn_session_output(session, NULL, &output))
+    if (!tn_job_output(job, NULL, &output))
         return;
     fprintf(output.stream, "%zu passed, %zu failed\n", counts->passed, counts->failed);
-    tn_session_commit(session, &output);
+    tn_job_commit(job, &output);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_test_counts counts = {0};
-    tn_session_begin(&session, settings);
+    tn_job_begin(&job, settings);
     for (size_t i = 0; i < settings->operands.count; i++) {
         const char *path = settings->operands.items[i];
-        if (i == 0 ? tn_session_open(&session, path) : tn_session_reopen(&session, path))
-            tn_session_status(&session, tn_tests_run(&session.opened, (uint32_t)settings->max_states.value, &counts));
+        if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
+            tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->max_states.value, &counts));
     }
-    tn_session_show(&session);
-    if (session.exit_code <= TN_EXIT_INVALID)
-        write_counts(&session, &counts);
-    return tn_session_end(&session);
+    tn_job_show(&job);
+    if (job.exit_code <= TN_EXIT_INVALID)
+        write_counts(&job, &counts);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {OPTION_MAX_STATES, OPTION_WERROR};

@@ -2,46 +2,46 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/library_session.h"
+#include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "runtime/plan/text.h"
 
-static void write_plan(tn_session *session, const tn_ready_library *ready, const tn_tray *trays, uint32_t length)
+static void write_plan(tn_job *job, const tn_ready_library *ready, const tn_tray *trays, uint32_t length)
 {
     tn_buffer line = {0};
     tn_output output;
     tn_error error;
-    bool written = session->settings->json ? tn_plan_write_json(ready->schema, trays, length, &line)
-                                           : tn_plan_write_line(ready->schema, trays, length, &line);
+    bool written = job->settings->json ? tn_plan_write_json(ready->schema, trays, length, &line)
+                                       : tn_plan_write_line(ready->schema, trays, length, &line);
     if (!written || !tn_buffer_append(&line, "\n", 1)) {
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
-    } else if (tn_session_output(session, NULL, &output)) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, NULL, &output)) {
         fwrite(line.data, 1, line.size, output.stream);
-        tn_session_commit(session, &output);
+        tn_job_commit(job, &output);
     }
     free(line.data);
 }
 
-static void refuse_rank(tn_session *session, const tn_ready_library *ready, const char *text)
+static void refuse_rank(tn_job *job, const tn_ready_library *ready, const char *text)
 {
     mpz_t kept;
     mpz_init(kept);
     tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
     char *digits = mpz_get_str(NULL, 10, kept);
-    tn_diagnostics *list = tn_session_diagnostics(session);
+    tn_diagnostics *list = tn_job_diagnostics(job);
     tn_diagnostic *past = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
-                                         tn_text(session->opened.module, ready->record->name), text);
+                                         tn_text(job->opened.module, ready->record->name), text);
     if (mpz_sgn(kept) == 0)
         tn_help(list, past, "it holds no plans");
     else
         tn_help(list, past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
-    tn_session_status(session, TN_INVALID);
+    tn_job_status(job, TN_INVALID);
     free(digits);
     mpz_clear(kept);
 }
 
-static void unrank(tn_session *session, const tn_ready_library *ready, const char *text)
+static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
     uint32_t length;
@@ -49,14 +49,14 @@ static void unrank(tn_session *session, const tn_ready_library *ready, const cha
     tn_error error;
     if (!trays) {
         tn_fail_memory(&error);
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
         return;
     }
     mpz_init_set_str(rank, text, 10);
     if (tn_library_unrank(ready->library, rank, trays, &length))
-        write_plan(session, ready, trays, length);
+        write_plan(job, ready, trays, length);
     else
-        refuse_rank(session, ready, text);
+        refuse_rank(job, ready, text);
     mpz_clear(rank);
     free(trays);
 }
@@ -64,16 +64,16 @@ static void unrank(tn_session *session, const tn_ready_library *ready, const cha
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_ready_library ready = {0};
     const char *text = settings->operands.items[1];
-    tn_session_begin(&session, settings);
+    tn_job_begin(&job, settings);
     if (!*text || strspn(text, "0123456789") != strlen(text))
-        tn_session_usage(&session, "a rank is a whole number from 0, not `%.60s`", text);
-    else if (tn_session_library(&session, settings->operands.items[0], &ready))
-        unrank(&session, &ready, text);
+        tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
+    else if (tn_job_library(&job, settings->operands.items[0], &ready))
+        unrank(&job, &ready, text);
     tn_library_close(&ready);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {
