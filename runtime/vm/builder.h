@@ -25,7 +25,8 @@ tn_string tn_builder_string_n(tn_builder *builder, const char *text, size_t leng
 #undef SECTION
 
 /* Changes a record that was added before. */
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record);
+#define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
+    void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record);
 #include "runtime/vm/records.def"
 #undef SECTION
 

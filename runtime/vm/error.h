@@ -25,13 +25,13 @@ typedef enum tn_status {
 
 typedef struct tn_error {
     tn_status status;
-    uint32_t code;          /* number of the diagnostic: 601 for E0601, 0 where it has none */
-    uint32_t code_offset;   /* byte of the code section that it is about, or TN_NO_OFFSET */
-    uint64_t line;          /* place in an input text, from 1; 0 where there is none */
-    uint32_t column;        /* first byte of the place in its line, from 1 */
-    uint32_t column_end;    /* one past its last byte */
-    char message[480];      /* one sentence without a final full stop */
-    char help[320];         /* a likely fix, or empty */
+    uint32_t code;        /* number of the diagnostic: 601 for E0601, 0 where it has none */
+    uint32_t code_offset; /* byte of the code section that it is about, or TN_NO_OFFSET */
+    uint64_t line;        /* place in an input text, from 1; 0 where there is none */
+    uint32_t column;      /* first byte of the place in its line, from 1 */
+    uint32_t column_end;  /* one past its last byte */
+    char message[480];    /* one sentence without a final full stop */
+    char help[320];       /* a likely fix, or empty */
 } tn_error;
 
 /* Fills `error` (where not NULL) and returns `status`. `code` as in tn_error. */
