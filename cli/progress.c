@@ -41,7 +41,7 @@ void tn_progress_update(tn_progress *progress, double done)
     progress->last = time;
     progress->shown = true;
     double rate = done / (time - progress->start);
-    fprintf(stderr, "\r\033[K%.0f %s, %.3g/s", done, progress->what, rate);
+    fprintf(stderr, "\r\033[K%.0f %s, %.0f/s", done, progress->what, rate);
     if (progress->total > 0 && rate > 0) {
         char left[32];
         write_time((progress->total - done) / rate, left, sizeof left);
