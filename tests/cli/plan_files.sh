@@ -54,6 +54,19 @@ exits 4 "$TARTAN" match "$files/sheds.plan" "$scratch/wide" --format bits --on-e
 is 'lines around one too long' "$(cat "$scratch/out")" $'00\n00'
 grep -q 'E0605.*longer than the limit of 1048576 bytes' "$scratch/err" || fail "no E0605: $(head -c 200 "$scratch/err")"
 
+# E0807: one relation of so long a plan passes the interpreter's memory; automata need none
+{
+    echo '3m door | 3m door'
+    printf '3m -'
+    printf ' | 3m -%.0s' {2..100000}
+    echo
+} >"$scratch/row"
+exits 4 "$TARTAN" match "$files/sheds.plan" "$scratch/row" --format bits --max-length 100000 --engine vm
+grep -q 'E0807.*100000 trays needs more memory than the limit of 1073741824 bytes' "$scratch/err" ||
+    fail "no E0807: $(head -c 200 "$scratch/err")"
+exits 0 "$TARTAN" match "$files/sheds.plan" "$scratch/row" --format bits --max-length 100000 --engine dfa
+is 'a long row by automata' "$(cat "$scratch/out")" $'10\n00'
+
 # E0606: a library that cannot be gone on with
 "$TARTAN" enumerate "$files/sheds.plan" -l sheds -o "$scratch/sheds.sqlite" --limit 2
 golden other_library "tartan enumerate sheds.plan -l any-sheds -o $scratch/sheds.sqlite --limit 2 --resume"
