@@ -189,10 +189,10 @@ typedef enum tn_clause_form {
 typedef struct tn_ast_clause {
     tn_ast_node node;
     tn_clause_form form;
-    tn_ast_range range;      /* trays, total */
-    tn_operator op;          /* total */
-    const tn_ast_word *word; /* total: what it is compared with */
-    const tn_ast_word *field;
+    tn_ast_range range;                /* trays, total */
+    tn_operator op;                    /* total */
+    const tn_ast_word *word;           /* total: what it is compared with */
+    const tn_ast_word *field, *detail; /* total: the word after the field: `depth` */
     tn_ast_expr *expr;
     const tn_ast_word *name, *doc;
     tn_ast_list allow; /* tn_ast_word */
@@ -292,9 +292,9 @@ tn_ast_body tn_ast_body_broken(tn_ast_body body);
 void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *body);
 void *tn_ast_library_new(tn_parse *parse, tn_span span, tn_ast_library head, tn_ast_list clauses);
 tn_ast_clause *tn_ast_trays(tn_parse *parse, tn_span span, tn_ast_range range);
-tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_ast_range range,
+tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_range range,
                                   const tn_ast_word *doc);
-tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_operator op,
+tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list field, tn_operator op,
                                     const tn_ast_word *word, const tn_ast_word *doc);
 tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *doc);
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,

@@ -134,25 +134,32 @@ tn_ast_clause *tn_ast_trays(tn_parse *parse, tn_span span, tn_ast_range range)
     return clause;
 }
 
-tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_ast_range range,
+/* FIELD, or FIELD depth; or nothing. */
+static void set_field(tn_ast_clause *clause, tn_ast_list field)
+{
+    clause->field = (const tn_ast_word *)field.first;
+    clause->detail = field.first ? (const tn_ast_word *)field.first->next : NULL;
+}
+
+tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_range range,
                                   const tn_ast_word *doc)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_TOTAL_RANGE, span);
     if (!clause || !range.low || !range.high)
         return NULL;
-    clause->field = field;
+    set_field(clause, field);
     clause->range = range;
     clause->doc = doc;
     return clause;
 }
 
-tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, const tn_ast_word *field, tn_operator op,
+tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list field, tn_operator op,
                                     const tn_ast_word *word, const tn_ast_word *doc)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_TOTAL_COMPARE, span);
     if (!clause || !word)
         return NULL;
-    clause->field = field;
+    set_field(clause, field);
     clause->op = op;
     clause->word = word;
     clause->doc = doc;

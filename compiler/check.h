@@ -201,6 +201,8 @@ bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths); /
 void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field);
 
 /* ---- check_rule.c */
+/* Is the word after the field of a sum or total `depth`, and the field a zone? NULL is good. */
+bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail);
 void tn_check_expr(tn_check *check, tn_ast_expr *expr);    /* names, specifiers, conditions, what may stand where */
 void tn_check_meaning(tn_check *check, tn_ast_expr *expr); /* what needs the rules that it names to be in order */
 uint32_t tn_min_trays(const tn_ast_expr *expr);            /* a lower bound of what it fits */

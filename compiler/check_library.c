@@ -113,6 +113,8 @@ static void add_total(tn_check *check, tn_checked_library *library, const tn_ast
                 "name a field of lengths, or a zone, whose depths are added: `total width 40'..56'`");
         return;
     }
+    if (!tn_check_detail(check, field, ast->detail))
+        return;
     clause->condition = tn_check_total(check, ast, clause->field);
     clause->any = tn_check_any(check, library->schema, ast->node.span);
     clause->name = "total"; /* several have the same name: `drop ... by total` means any of them */

@@ -104,6 +104,18 @@ static void help_length_field(tn_check *check, tn_diagnostic *d, const char *wor
         tn_help(check->diagnostics, d, "the fields that have lengths are %s", list);
 }
 
+bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail)
+{
+    if (!detail || (field->kind == TN_FIELD_ZONE && tn_word_is(detail, "depth")))
+        return true;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_NOT_A_LENGTH, detail->node.span, "`%s` is too much here", detail->text);
+    tn_help(check->diagnostics, d,
+            field->kind == TN_FIELD_ZONE ? "of a zone only the `depth` can be added up"
+                                         : "write the field's name alone");
+    return false;
+}
+
 static void check_sum(tn_check *check, tn_ast_expr *sum)
 {
     const tn_checked_schema *schema = check->schema;
@@ -125,13 +137,7 @@ static void check_sum(tn_check *check, tn_ast_expr *sum)
         else
             help_length_field(check, d, name->text);
     }
-    if (lengths && sum->detail && !(field->kind == TN_FIELD_ZONE && tn_word_is(sum->detail, "depth"))) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_LENGTH, sum->detail->node.span,
-                                     "`%s` is too much here", sum->detail->text);
-        tn_help(check->diagnostics, d,
-                field->kind == TN_FIELD_ZONE ? "of a zone only the `depth` can be added up"
-                                             : "write the field's name alone");
-    }
+    lengths = lengths && tn_check_detail(check, field, sum->detail);
     if (!sum->parts.first)
         sum->spec = tn_check_any(check, check->schema, sum->node.span);
     sum->condition_checked = lengths ? tn_check_condition(check, sum->condition, sum->field) : NULL;

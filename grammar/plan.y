@@ -69,9 +69,9 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using constant operand spec_word literal_word clause_name total_field
+%type <word> doc role using constant operand spec_word literal_word clause_name
 %type <list> items values depths allow names clauses clause prunes requires cases clause_names plan trays words
-%type <list> specifier spec_items spec_alternatives spec_words parts sum_field
+%type <list> specifier spec_items spec_alternatives spec_words parts sum_field total_field
 %type <range> range
 %type <op> comparison
 %type <expectation> expectation
@@ -371,8 +371,8 @@ prune_word: PRUNE                               { yyerrok; };
 allow_word: ALLOW                               { yyerrok; };
 
 total_field
-    : %empty                                    { $$ = NULL; }
-    | NAME
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | sum_field
     ;
 
 requires
