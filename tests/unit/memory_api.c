@@ -1,0 +1,141 @@
+/* Out of memory behind the C interface: each allocation fails once, and then all from there on. Every call must say so,
+ * and leave nothing behind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "include/tartan/tartan.h"
+#include "tests/support/failing_memory.h"
+
+static const char text[] = "schema box { width = 1m | 2m  lid = flag }\n"
+                           "rule pair = neighbour(tray(lid), tray(lid))\n"
+                           "library rows using box { trays 1..3 prune pair }\n";
+
+typedef tartan_status operation(const tartan_module *module, tartan_error *error);
+
+static tartan_status compile(const tartan_module *module, tartan_error *error)
+{
+    (void)module;
+    tartan_module *made = NULL;
+    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, NULL, &made, error);
+    if (status == TARTAN_OK)
+        tartan_module_free(made);
+    else
+        assert_null(made);
+    return status;
+}
+
+static tartan_status load(const tartan_module *module, tartan_error *error)
+{
+    tartan_module *again = NULL;
+    size_t size;
+    const void *bytes = tartan_module_bytes(module, &size);
+    tartan_status status = tartan_module_load(bytes, size, &again, error);
+    tartan_module_free(again);
+    return status;
+}
+
+static tartan_status match(const tartan_module *module, tartan_error *error)
+{
+    tartan_rules *rules = NULL;
+    tartan_matcher *matcher = NULL;
+    uint64_t bits[2];
+    char *line = NULL;
+    uint32_t trays[] = {1, 3, 0};
+    tartan_status status = tartan_rules_new(module, NULL, 0, &rules, error);
+    if (status == TARTAN_OK)
+        status = tartan_matcher_new(rules, &matcher, error);
+    if (status == TARTAN_OK)
+        status = tartan_match(matcher, trays, 2, bits, error);
+    if (status == TARTAN_OK)
+        status = tartan_match_all(rules, trays, (size_t[]){2, 3}, 2, 1, bits, error);
+    if (status == TARTAN_OK)
+        status = tartan_plan_write(tartan_rules_schema(rules), trays, 3, &line, error);
+    if (status == TARTAN_OK) {
+        size_t length;
+        status = tartan_plan_read(tartan_rules_schema(rules), line, strlen(line), trays, 3, &length, error);
+    }
+    tartan_text_free(line);
+    tartan_matcher_free(matcher);
+    tartan_rules_free(rules);
+    return status;
+}
+
+static tartan_status walk(const tartan_module *module, tartan_error *error)
+{
+    tartan_library *library = NULL;
+    tartan_plans *plans = NULL, *sample = NULL;
+    char *count = NULL, *rank = NULL;
+    uint32_t trays[3];
+    size_t length;
+    tartan_status status = tartan_library_open(module, NULL, &library, error);
+    if (status == TARTAN_OK)
+        status = tartan_library_count(library, TARTAN_ANY_LENGTH, &count, error);
+    if (status == TARTAN_OK)
+        status = tartan_library_unrank(library, "20", trays, &length, error);
+    if (status == TARTAN_OK)
+        status = tartan_library_rank(library, trays, length, &rank, error);
+    if (status == TARTAN_OK)
+        status = tartan_library_plans(library, "1", "3", &plans, error);
+    if (status == TARTAN_OK)
+        status = tartan_library_sample(library, 1, TARTAN_ANY_LENGTH, 3, &sample, error);
+    const uint32_t *plan;
+    if (status == TARTAN_OK)
+        assert_true(tartan_plans_next(plans, &plan, &length) && tartan_plans_next(sample, &plan, &length));
+    tartan_plans_free(plans);
+    tartan_plans_free(sample);
+    tartan_text_free(count);
+    tartan_text_free(rank);
+    tartan_library_free(library);
+    return status;
+}
+
+static void fails_cleanly(void **state)
+{
+    static operation *const operations[] = {compile, load, match, walk};
+    for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
+        size_t failures = 0;
+        for (int all_after = 0; all_after < 2; all_after++) {
+            for (size_t number = 0;; number++) {
+                tartan_error error = {0};
+                fail_allocation(number, all_after);
+                tartan_status status = operations[i](*state, &error);
+                if (stop_failing() <= number) {
+                    assert_int_equal(status, TARTAN_OK);
+                    break;
+                }
+                if (status == TARTAN_OK)
+                    continue; /* GMP's and OpenMP's own allocations, and what can do without */
+                if (status != TARTAN_MEMORY || !error.message[0])
+                    fail_msg("operation %zu, allocation %zu: status %d, %s", i, number, (int)status, error.message);
+                failures++;
+            }
+        }
+        assert_true(failures > 0);
+    }
+}
+
+static int make(void **state)
+{
+    tartan_module *module = NULL;
+    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, NULL, &module, NULL);
+    *state = module;
+    return status != TARTAN_OK;
+}
+
+static int unmake(void **state)
+{
+    tartan_module_free(*state);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fails_cleanly)};
+    return cmocka_run_group_tests(tests, make, unmake);
+}
