@@ -324,6 +324,7 @@ constant
     : NUMBER
     | LENGTH
     | DASH NUMBER                               { $$ = tn_ast_negative(parse, @$, $2); }
+    | DASH LENGTH                               { $$ = tn_ast_negative(parse, @$, $2); }
     ;
 
 range

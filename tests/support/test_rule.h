@@ -59,8 +59,10 @@ typedef struct test_rule {
 test_rule *test_rule_random(test_random *random, const test_schema *schema, unsigned depth, bool extensions);
 void test_rule_free(test_rule *rule);
 
-/* Writes the rule in the plan language, for messages. */
+/* Writes the rule, a specifier, a schema in the plan language: for messages, and for the compiler to read. */
 void test_rule_print(const test_schema *schema, const test_rule *rule, FILE *out);
+void test_mask_print(const test_schema *schema, uint64_t mask, FILE *out);
+void test_schema_print(const test_schema *schema, FILE *out);
 
 /* ---- emitting */
 
