@@ -88,7 +88,7 @@ tn_status tn_marked_chain(const tn_marked *marked, const tn_dfa *a, const tn_dfa
         status = ok && !chain.pairs.failed ? TN_OK : tn_fail_memory(error);
     }
     if (status == TN_OK) {
-        tn_construction construction = {"neighbour", &chain.join, &chain, chain_step, chain_accepts};
+        tn_construction construction = {"neighbour", &chain.join, 0, &chain, chain_step, chain_accepts};
         status = tn_explore(&construction, &start, &chain.pairs.effort, marked->bounds, out, error);
     }
     free(start.data);

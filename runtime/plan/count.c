@@ -3,62 +3,99 @@
 #include <stdlib.h>
 #include <string.h>
 
-tn_status tn_column_weights(const tn_dfa *dfa, const tn_classes *classes, uint64_t **weights, tn_error *error)
+tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
+                            tn_error *error)
 {
-    *weights = calloc((size_t)dfa->columns + 1, sizeof **weights);
+    *weights = calloc((size_t)columns + 1, sizeof **weights);
     if (!*weights)
         return tn_fail_memory(error);
     for (uint32_t c = 0; c < classes->count; c++)
-        (*weights)[dfa->column[c]] += classes->size[c];
+        (*weights)[column[c]] += classes->size[c];
     return TN_OK;
 }
 
 /* ---- edges */
 
-/* Collects one state's edges; `sum` is zero for all states before and after. Returns how many there are. */
-static uint32_t collect_edges(const tn_dfa *dfa, const uint64_t *weight, uint32_t state, uint32_t dead, uint64_t *sum,
-                              uint32_t *target)
+/* Room while edges are collected. */
+typedef struct tn_collecting {
+    uint64_t *sum;  /* [states]: trays that lead there from the state in hand; zero between states */
+    uint32_t *into; /* [columns]: states with a sum */
+    uint32_t count;
+} tn_collecting;
+
+static tn_status edges_begin(tn_edges *edges, uint32_t states, uint32_t columns, size_t most, const uint8_t *accept,
+                             tn_collecting *collecting, tn_error *error)
 {
-    uint32_t count = 0;
-    const uint32_t *row = dfa->delta + (size_t)state * dfa->columns;
-    for (uint32_t c = 0; c < dfa->columns; c++) {
-        if (row[c] == dead || weight[c] == 0)
-            continue;
-        if (sum[row[c]] == 0)
-            target[count++] = row[c];
-        sum[row[c]] += weight[c];
-    }
-    return count;
+    *edges = (tn_edges){.states = states, .accept = accept};
+    *collecting = (tn_collecting){0};
+    collecting->sum = calloc((size_t)states + 1, sizeof *collecting->sum);
+    collecting->into = malloc(((size_t)columns + 1) * sizeof *collecting->into);
+    edges->first = calloc((size_t)states + 1, sizeof *edges->first);
+    edges->target = malloc((most + 1) * sizeof *edges->target);
+    edges->weight = malloc((most + 1) * sizeof *edges->weight);
+    bool ok = collecting->sum && collecting->into && edges->first && edges->target && edges->weight;
+    return ok ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_edges_make(tn_edges *edges, const tn_dfa *dfa, const uint64_t *weight, tn_error *error)
+static void edges_add(tn_collecting *collecting, uint32_t target, uint64_t weight)
 {
-    uint32_t n = dfa->states, dead = tn_dfa_sink(dfa, 0);
-    *edges = (tn_edges){.states = n, .accept = dfa->accept};
-    uint64_t *sum = calloc((size_t)n + 1, sizeof *sum);
-    uint32_t *target = malloc(((size_t)dfa->columns + 1) * sizeof *target);
-    edges->first = malloc(((size_t)n + 1) * sizeof *edges->first);
-    edges->target = malloc(((size_t)n * dfa->columns + 1) * sizeof *edges->target);
-    edges->weight = malloc(((size_t)n * dfa->columns + 1) * sizeof *edges->weight);
-    bool ok = sum && target && edges->first && edges->target && edges->weight;
-    size_t count = 0;
-    for (uint32_t s = 0; ok && s < n; s++) {
-        edges->first[s] = count;
-        uint32_t found = collect_edges(dfa, weight, s, dead, sum, target);
-        for (uint32_t i = 0; i < found; i++) {
-            edges->target[count] = target[i];
-            edges->weight[count++] = sum[target[i]];
-            sum[target[i]] = 0;
-        }
+    if (weight == 0)
+        return;
+    if (collecting->sum[target] == 0)
+        collecting->into[collecting->count++] = target;
+    collecting->sum[target] += weight;
+}
+
+/* Ends the edges of a state; states come in order. */
+static void edges_next(tn_edges *edges, uint32_t state, tn_collecting *collecting)
+{
+    size_t at = edges->first[state];
+    for (uint32_t i = 0; i < collecting->count; i++) {
+        edges->target[at] = collecting->into[i];
+        edges->weight[at++] = collecting->sum[collecting->into[i]];
+        collecting->sum[collecting->into[i]] = 0;
     }
-    if (ok)
-        edges->first[n] = count;
-    free(sum);
-    free(target);
-    if (ok)
-        return TN_OK;
-    tn_edges_clear(edges);
-    return tn_fail_memory(error);
+    collecting->count = 0;
+    edges->first[state + 1] = at;
+}
+
+static tn_status edges_end(tn_edges *edges, tn_collecting *collecting, tn_status status)
+{
+    free(collecting->sum);
+    free(collecting->into);
+    if (status != TN_OK)
+        tn_edges_clear(edges);
+    return status;
+}
+
+tn_status tn_edges_make(tn_edges *edges, const tn_sparse *sparse, const uint64_t *weight, tn_error *error)
+{
+    tn_collecting collecting;
+    tn_status status = edges_begin(edges, sparse->states, sparse->columns, sparse->first[sparse->states],
+                                   sparse->accept, &collecting, error);
+    for (uint32_t s = 0; status == TN_OK && s < sparse->states; s++) {
+        for (size_t e = sparse->first[s]; e < sparse->first[s + 1]; e++)
+            edges_add(&collecting, sparse->target[e], weight[sparse->label[e]]);
+        edges_next(edges, s, &collecting);
+    }
+    return edges_end(edges, &collecting, status);
+}
+
+tn_status tn_edges_of(tn_edges *edges, const tn_dfa *dfa, const uint64_t *weight, tn_error *error)
+{
+    tn_collecting collecting;
+    tn_status status = edges_begin(edges, dfa->states, dfa->columns, (size_t)dfa->states * dfa->columns, dfa->accept,
+                                   &collecting, error);
+    uint32_t dead = tn_dfa_sink(dfa, 0);
+    for (uint32_t s = 0; status == TN_OK && s < dfa->states; s++) {
+        for (uint32_t c = 0; c < dfa->columns; c++) {
+            uint32_t to = dfa->delta[(size_t)s * dfa->columns + c];
+            if (to != dead)
+                edges_add(&collecting, to, weight[c]);
+        }
+        edges_next(edges, s, &collecting);
+    }
+    return edges_end(edges, &collecting, status);
 }
 
 void tn_edges_clear(tn_edges *edges)
@@ -129,7 +166,7 @@ tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn
 tn_status tn_row_start(const tn_edges *edges, tn_row *row, tn_error *error)
 {
     tn_status status = row_allocate(edges, 1, row, error);
-    if (status == TN_OK)
+    if (status == TN_OK && edges->states > 0)
         row->value[0] = 1;
     return status;
 }
@@ -161,19 +198,21 @@ void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count)
 
 /* ---- counts */
 
-tn_status tn_count_lengths(const tn_dfa *dfa, const tn_classes *classes, uint32_t max, mpz_t *counts, tn_error *error)
+tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
+                           tn_error *error)
 {
     uint64_t *weights = NULL;
     tn_edges edges = {0};
     tn_row row = {0};
-    tn_status status = tn_column_weights(dfa, classes, &weights, error);
+    tn_status status = tn_column_weights(classes, sparse->column, sparse->columns, &weights, error);
     if (status == TN_OK)
-        status = tn_edges_make(&edges, dfa, weights, error);
+        status = tn_edges_make(&edges, sparse, weights, error);
     if (status == TN_OK)
         status = tn_row_first(&edges, &row, error);
     for (uint32_t length = 0; status == TN_OK; length++) {
         mpz_set_ui(counts[length], 0);
-        tn_row_add(&row, 0, 1, counts[length]);
+        if (sparse->states > 0)
+            tn_row_add(&row, 0, 1, counts[length]);
         if (length == max)
             break;
         tn_row next = {0};
@@ -187,7 +226,7 @@ tn_status tn_count_lengths(const tn_dfa *dfa, const tn_classes *classes, uint32_
     return status;
 }
 
-tn_status tn_count_range(const tn_dfa *dfa, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
+tn_status tn_count_range(const tn_sparse *sparse, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
                          tn_error *error)
 {
     mpz_set_ui(count, 0);
@@ -198,7 +237,7 @@ tn_status tn_count_range(const tn_dfa *dfa, const tn_classes *classes, uint32_t 
         return tn_fail_memory(error);
     for (uint32_t length = 0; length <= max; length++)
         mpz_init(counts[length]);
-    tn_status status = tn_count_lengths(dfa, classes, max, counts, error);
+    tn_status status = tn_count_lengths(sparse, classes, max, counts, error);
     for (uint32_t length = min; status == TN_OK && length <= max; length++)
         mpz_add(count, count, counts[length]);
     for (uint32_t length = 0; length <= max; length++)

@@ -9,7 +9,7 @@
 #include <gmp.h>
 
 #include "runtime/plan/classes.h"
-#include "runtime/plan/dfa.h"
+#include "runtime/plan/sparse.h"
 
 /* An automaton's transitions by trays: for each state the states that follow it, each once, with the number of trays
  * that lead there. Transitions to the state that accepts nothing are left out. Free with tn_edges_clear. */
@@ -22,11 +22,15 @@ typedef struct tn_edges {
 } tn_edges;
 
 /* weight: trays for each column (tn_column_weights). */
-tn_status tn_edges_make(tn_edges *edges, const tn_dfa *dfa, const uint64_t *weight, tn_error *error);
+tn_status tn_edges_make(tn_edges *edges, const tn_sparse *sparse, const uint64_t *weight, tn_error *error);
+
+/* The same of a complete automaton, whose `accept` may hold flags. */
+tn_status tn_edges_of(tn_edges *edges, const tn_dfa *dfa, const uint64_t *weight, tn_error *error);
 void tn_edges_clear(tn_edges *edges);
 
-/* How many trays each column has. The caller frees *weights with free(). */
-tn_status tn_column_weights(const tn_dfa *dfa, const tn_classes *classes, uint64_t **weights, tn_error *error);
+/* How many trays each of so many columns has; column: of each class. The caller frees *weights with free(). */
+tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
+                            tn_error *error);
 
 typedef struct tn_row {
     size_t limbs;     /* of a count, at least 1 */
@@ -61,10 +65,11 @@ static inline const mp_limb_t *tn_row_at(const tn_row *row, uint32_t state)
 void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count);
 
 /* How many plans of each of the lengths 0..max the automaton accepts: counts is an initialised array of max + 1. */
-tn_status tn_count_lengths(const tn_dfa *dfa, const tn_classes *classes, uint32_t max, mpz_t *counts, tn_error *error);
+tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
+                           tn_error *error);
 
 /* How many plans of the lengths min..max. */
-tn_status tn_count_range(const tn_dfa *dfa, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
+tn_status tn_count_range(const tn_sparse *sparse, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
                          tn_error *error);
 
 #endif

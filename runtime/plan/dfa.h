@@ -63,6 +63,9 @@ bool tn_dfa_equal(const tn_dfa *a, const tn_dfa *b);
 /* The automaton that accepts everything or nothing. */
 tn_status tn_dfa_constant(uint32_t letters, bool everything, tn_dfa **out, tn_error *error);
 
+/* A copy of what is reached from `start`, equal columns merged and everything numbered canonically. */
+tn_status tn_dfa_tidy(const tn_dfa *dfa, uint32_t start, tn_dfa **out, tn_error *error);
+
 /* The minimal canonical automaton of what `dfa` accepts from state `start`; unreachable states are dropped. */
 tn_status tn_dfa_minimise(const tn_dfa *dfa, uint32_t start, tn_dfa **out, tn_error *error);
 

@@ -11,18 +11,40 @@ typedef struct tn_explorer {
     size_t capacity; /* rows */
 } tn_explorer;
 
+/* Room for one more row. */
+static bool explorer_reserve(tn_explorer *explorer, uint32_t state)
+{
+    uint32_t columns = explorer->construction->join->columns;
+    if (state < explorer->capacity)
+        return true;
+    size_t capacity = explorer->capacity * 2 + 32;
+    uint32_t *delta = realloc(explorer->delta, (capacity * columns + 1) * sizeof *delta);
+    if (!delta)
+        return false;
+    explorer->delta = delta;
+    explorer->capacity = capacity;
+    return true;
+}
+
+/* Makes the states from `state` on lead to themselves. */
+static tn_status explorer_stop(tn_explorer *explorer, uint32_t state, tn_error *error)
+{
+    size_t columns = explorer->construction->join->columns;
+    for (; state < explorer->keys.count; state++) {
+        if (!explorer_reserve(explorer, state))
+            return tn_fail_memory(error);
+        for (size_t c = 0; c < columns; c++)
+            explorer->delta[state * columns + c] = state;
+    }
+    return TN_OK;
+}
+
 static bool explorer_row(tn_explorer *explorer, uint32_t state)
 {
     const tn_construction *construction = explorer->construction;
     uint32_t columns = construction->join->columns;
-    if (state == explorer->capacity) {
-        size_t capacity = explorer->capacity ? explorer->capacity * 2 : 32;
-        uint32_t *delta = realloc(explorer->delta, (capacity * columns + 1) * sizeof *delta);
-        if (!delta)
-            return false;
-        explorer->delta = delta;
-        explorer->capacity = capacity;
-    }
+    if (!explorer_reserve(explorer, state))
+        return false;
     size_t size;
     const uint32_t *key = tn_interned(&explorer->keys, state, &size);
     if (!tn_key_copy(&explorer->current, key, size))
@@ -49,7 +71,14 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
+    uint32_t depth = 0, deeper = 1; /* states from `deeper` on are reached by one letter more */
     for (uint32_t s = 0; s < explorer->keys.count; s++) {
+        if (s == deeper) {
+            depth++;
+            deeper = explorer->keys.count;
+        }
+        if (construction->max_depth > 0 && depth >= construction->max_depth)
+            return explorer_stop(explorer, s, error);
         uint64_t before = effort ? *effort : 0;
         if (!explorer_row(explorer, s))
             return tn_fail_memory(error);

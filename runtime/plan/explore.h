@@ -8,6 +8,8 @@
 typedef struct tn_construction {
     const char *what;    /* for errors: "the automaton of this ... passes" */
     const tn_join *join; /* the columns to explore */
+    uint32_t max_depth;  /* states first reached by so many letters are not followed (their rows lead to themselves); 0:
+                            all are */
     void *context;
     /* The key that a column leads to, in canonical form (`next` is empty to begin with); false where out of memory.
      * `size` words of `key` stay where they are during the call. */

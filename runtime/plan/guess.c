@@ -148,7 +148,7 @@ static tn_status guess_stretch(const tn_marked *marked, const tn_guess_plan *pla
             status = tn_fail_memory(error);
     }
     if (status == TN_OK) {
-        tn_construction construction = {plan->what, &guess.join, &guess, guess_step, guess_accepts};
+        tn_construction construction = {plan->what, &guess.join, 0, &guess, guess_step, guess_accepts};
         status = tn_explore(&construction, &start, &guess.pairs.effort, marked->bounds, out, error);
     }
     free(start.data);

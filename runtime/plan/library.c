@@ -21,6 +21,8 @@ void tn_integers_free(mpz_t *integers, size_t count)
     free(integers);
 }
 
+#define TRIAL_STATES 2000u /* of a generator that trying each clause on is cheap for */
+
 /* ---- clauses */
 
 static const tn_clause_record *clause_record(const tn_library *library, size_t i)
@@ -75,56 +77,121 @@ static tn_status lower_clauses(tn_library *library, tn_error *error)
     return status;
 }
 
-/* The clauses of one side (pruning or requiring), those with the fewest states first, so that intermediate products
- * stay small. */
-static size_t *order_clauses(const tn_library *library, bool prunes, size_t *count)
+tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
+                           tn_sparse **sparse, tn_error *error)
 {
-    size_t *order = calloc((size_t)library->record->clause_count + 1, sizeof *order);
-    *count = 0;
-    for (size_t i = 0; order && i < library->record->clause_count; i++) {
-        if (is_prune(library, i) != prunes)
-            continue;
-        size_t j = (*count)++;
-        for (; j > 0 && library->clauses[order[j - 1]]->states > library->clauses[i]->states; j--)
-            order[j] = order[j - 1];
-        order[j] = i;
-    }
-    return order;
+    tn_bounds bounds = tn_bounds_make(library->max_joint);
+    tn_sparse *product = NULL, *small = NULL;
+    tn_status status = tn_sparse_product(*sparse, clause, operation, "library", &bounds, &product, error);
+    if (status == TN_OK)
+        status = tn_sparse_minimise(product, &small, error);
+    tn_sparse_free(product);
+    if (status != TN_OK)
+        return status;
+    tn_sparse_free(*sparse);
+    *sparse = small;
+    return TN_OK;
 }
 
-/* *dfa := *dfa with (requiring) or without (pruning) what a clause accepts. */
-static tn_status apply_clause(const tn_library *library, size_t i, tn_dfa **dfa, tn_error *error)
+static tn_status apply_clause(const tn_library *library, size_t i, tn_sparse **sparse, tn_error *error)
 {
     const tn_clause_record *record = clause_record(library, i);
-    tn_bounds bounds = tn_bounds_make(library->max_states);
-    tn_dfa *result = NULL;
     tn_dfa_operation operation = is_prune(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
-    tn_status status = tn_dfa_product(*dfa, library->clauses[i], operation, "library", &bounds, &result, error);
-    if (status != TN_OK) {
-        if (error)
-            error->code_offset = library->schema->module->FUNCTION_records[record->holds].code_begin;
-        return status == TN_LIMIT ? name_clause(library, i, error) : status;
+    tn_status status = tn_library_apply(library, library->clauses[i], operation, sparse, error);
+    if (status != TN_LIMIT)
+        return status;
+    if (error)
+        error->code_offset = library->schema->module->FUNCTION_records[record->holds].code_begin;
+    return name_clause(library, i, error);
+}
+
+/* Everything, to begin with. */
+static tn_status everything(const tn_library *library, tn_sparse **out, tn_error *error)
+{
+    tn_dfa *all = NULL;
+    tn_status status = tn_dfa_constant(library->classes->count, true, &all, error);
+    if (status == TN_OK)
+        status = tn_sparse_make(all, 0, out, error);
+    tn_dfa_free(all);
+    return status;
+}
+
+/* Inserts what has this size into an order that is ascending by size. */
+static void insert(size_t *order, uint32_t *sizes, size_t count, size_t what, uint32_t size)
+{
+    size_t i = count;
+    for (; i > 0 && sizes[i - 1] > size; i--) {
+        order[i] = order[i - 1];
+        sizes[i] = sizes[i - 1];
     }
-    tn_dfa_free(*dfa);
-    *dfa = result;
-    return TN_OK;
+    order[i] = what;
+    sizes[i] = size;
+}
+
+/* Applies the requirements, those with the fewest states first. */
+static tn_status require(tn_library *library, tn_error *error)
+{
+    size_t all = library->record->clause_count, count = 0;
+    size_t *order = malloc((all + 1) * sizeof *order);
+    uint32_t *sizes = malloc((all + 1) * sizeof *sizes);
+    tn_status status = order && sizes ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < all; i++)
+        if (!is_prune(library, i))
+            insert(order, sizes, count++, i, library->clauses[i]->states);
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = apply_clause(library, order[i], &library->generator, error);
+    free(order);
+    free(sizes);
+    return status;
+}
+
+/* How large the generator is without what one clause prunes: some clauses multiply states, others hardly add any. A
+ * generator too large for so many trials: the clause's own size. */
+static tn_status try_prune(const tn_library *library, size_t i, uint32_t *size, tn_error *error)
+{
+    const tn_dfa *clause = library->clauses[library->prunes[i]];
+    *size = clause->states;
+    if (library->generator->states > TRIAL_STATES)
+        return TN_OK;
+    tn_sparse *trial = NULL;
+    tn_status status = tn_sparse_minimise(library->generator, &trial, error); /* a copy */
+    if (status == TN_OK)
+        status = tn_library_apply(library, clause, TN_DFA_MINUS, &trial, error);
+    if (status == TN_OK)
+        *size = trial->states;
+    tn_sparse_free(trial);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+/* Orders the prunes so that those that multiply states come last, when the automaton is as large as it gets anyway. */
+static tn_status order_prunes(tn_library *library, tn_error *error)
+{
+    size_t count = library->prune_count;
+    uint32_t *sizes = malloc((count + 1) * sizeof *sizes);
+    library->order = malloc((count + 1) * sizeof *library->order);
+    tn_status status = sizes && library->order ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        uint32_t size;
+        status = try_prune(library, i, &size, error);
+        insert(library->order, sizes, i, i, size);
+    }
+    free(sizes);
+    return status;
 }
 
 static tn_status combine(tn_library *library, tn_error *error)
 {
-    tn_status status = tn_dfa_constant(library->classes->count, true, &library->generator, error);
-    for (int prunes = 0; status == TN_OK && prunes < 2; prunes++) {
-        tn_dfa **side = prunes ? &library->kept : &library->generator;
-        if (prunes)
-            library->kept = tn_dfa_share(library->generator);
-        size_t count;
-        size_t *order = order_clauses(library, prunes, &count);
-        if (!order)
-            return tn_fail_memory(error);
-        for (size_t i = 0; status == TN_OK && i < count; i++)
-            status = apply_clause(library, order[i], side, error);
-        free(order);
-    }
+    tn_status status = everything(library, &library->generator, error);
+    if (status == TN_OK)
+        status = require(library, error);
+    if (status == TN_OK)
+        status = order_prunes(library, error);
+    if (status == TN_OK)
+        status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
+    for (size_t i = 0; status == TN_OK && i < library->prune_count; i++)
+        status = apply_clause(library, library->prunes[library->order[i]], &library->live, error);
+    if (status == TN_OK)
+        status = tn_sparse_complete(library->live, &library->kept, error);
     return status;
 }
 
@@ -169,6 +236,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->schema = schema;
     library->record = &schema->module->LIBRARY_records[index];
     library->max_states = options->max_states ? options->max_states : TN_STATES_DEFAULT;
+    library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
     tn_status status = set_lengths(library, options, error);
     if (status == TN_OK)
@@ -208,13 +276,15 @@ void tn_library_free(tn_library *library)
         tn_dfa_free(library->clauses[i]);
     for (size_t left = 0; library->rows && left <= library->max; left++)
         tn_row_clear(&library->rows[left]);
-    tn_dfa_free(library->generator);
+    tn_sparse_free(library->generator);
+    tn_sparse_free(library->live);
     tn_dfa_free(library->kept);
     tn_classes_free(library->classes);
     tn_integers_free(library->generated, (size_t)library->max + 1);
     tn_integers_free(library->before, (size_t)library->max + 2);
     free(library->clauses);
     free(library->prunes);
+    free(library->order);
     free(library->rows);
     free(library->nearly);
     free(library->alive);

@@ -7,9 +7,10 @@
 
 #include "runtime/plan/classes.h"
 #include "runtime/plan/count.h"
-#include "runtime/plan/dfa.h"
 #include "runtime/plan/library.h"
+#include "runtime/plan/sparse.h"
 
+#define TN_LIBRARY_STATES_DEFAULT 1000000u
 #define TN_LIBRARY_LENGTH_DEFAULT 4096u
 #define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
 
@@ -26,14 +27,17 @@ struct tn_library {
     const tn_schema *schema;
     const tn_library_record *record;
     tn_classes *classes;
-    uint32_t max_states;
+    uint32_t max_states; /* of a clause's automata */
+    uint32_t max_joint;  /* of the automata of several clauses together */
     uint64_t max_table;
     uint32_t min, max; /* of trays; min > max: no plan at all */
     tn_dfa **clauses;  /* [record->clause_count], in file order */
     size_t *prunes;    /* [prune_count]: which of the clauses */
     size_t prune_count;
-    tn_dfa *generator; /* of what the requirements and totals leave */
-    tn_dfa *kept;
+    size_t *order;         /* [prune_count]: indices of `prunes`, as they are applied */
+    tn_sparse *generator;  /* of what the requirements and totals leave */
+    tn_sparse *live;       /* of the kept plans, without a dead state */
+    tn_dfa *kept;          /* the same, complete and canonical */
     mpz_t *generated;      /* [max + 1]: by length */
     uint32_t *tray_column; /* [trays]: column of `kept` */
     tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
@@ -65,6 +69,10 @@ static inline double tn_nearly(const mpz_t count, size_t limbs)
     double fraction = mpz_get_d_2exp(&exponent, count);
     return ldexp(fraction, (int)(exponent - (long)(64 * limbs)));
 }
+
+/* *sparse := *sparse with what a clause requires, or without what it prunes (operation), minimal. */
+tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
+                           tn_sparse **sparse, tn_error *error);
 
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);

@@ -331,9 +331,9 @@ static tn_status too_much_work(const tn_lowering *lowering, uint32_t function, t
     return TN_LIMIT;
 }
 
-tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+static tn_status lower_form(tn_lowering *lowering, uint32_t function, uint32_t form, tn_dfa **out, tn_error *error)
 {
-    uint32_t wanted = function * FORM_COUNT + FORM_PLAIN;
+    uint32_t wanted = function * FORM_COUNT + form;
     tn_lowered *lowered = &lowering->lowered[wanted];
     if (lowered->error) {
         if (error)
@@ -353,4 +353,14 @@ tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_er
         return status;
     *out = tn_dfa_share(lowered->dfa);
     return TN_OK;
+}
+
+tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+{
+    return lower_form(lowering, function, FORM_PLAIN, out, error);
+}
+
+tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+{
+    return lower_form(lowering, function, FORM_PLAIN | FORM_REVERSED, out, error);
 }

@@ -21,4 +21,7 @@ void tn_lowering_free(tn_lowering *lowering);
  * instruction in whose construction that was. */
 tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
 
+/* The same of the function on the reversed plan: the plans whose reverse tn_lower's automaton accepts. */
+tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
 #endif

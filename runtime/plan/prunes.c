@@ -3,59 +3,62 @@
 
 #include "runtime/plan/library_data.h"
 
-/* Plans of the library's lengths that `dfa` accepts and the clause matches. */
-static tn_status count_with(const tn_library *library, const tn_dfa *dfa, const tn_dfa *clause, mpz_t count,
+/* Plans of the library's lengths that `base` accepts and the clause matches. Counting needs no minimal automaton. */
+static tn_status count_with(const tn_library *library, const tn_sparse *base, const tn_dfa *clause, mpz_t count,
                             tn_error *error)
 {
-    tn_bounds bounds = tn_bounds_make(library->max_states);
-    tn_dfa *both = NULL;
-    tn_status status = tn_dfa_product(dfa, clause, TN_DFA_AND, "library's count", &bounds, &both, error);
+    tn_bounds bounds = tn_bounds_make(library->max_joint);
+    tn_sparse *both = NULL;
+    tn_status status = tn_sparse_product(base, clause, TN_DFA_AND, "library", &bounds, &both, error);
     if (status == TN_OK)
         status = tn_count_range(both, library->classes, library->min, library->max, count, error);
-    tn_dfa_free(both);
+    tn_sparse_free(both);
     return status;
 }
 
-/* base less the prunes [first, end). */
-static tn_status without(const tn_library *library, tn_dfa *base, size_t first, size_t end, tn_dfa **out,
-                         tn_error *error)
+/* The prune that is applied as number `i`: those that grow the automaton least come first here too. */
+static const tn_dfa *ordered_clause(const tn_library *library, size_t i)
 {
-    tn_bounds bounds = tn_bounds_make(library->max_states);
-    tn_dfa *rest = tn_dfa_share(base);
-    for (size_t i = first; i < end; i++) {
-        tn_dfa *next = NULL;
-        const tn_dfa *clause = library->clauses[library->prunes[i]];
-        tn_status status = tn_dfa_product(rest, clause, TN_DFA_MINUS, "library's count", &bounds, &next, error);
-        tn_dfa_free(rest);
-        if (status != TN_OK)
-            return status;
-        rest = next;
-    }
-    *out = rest;
-    return TN_OK;
+    return library->clauses[library->prunes[library->order[i]]];
 }
 
-/* base: the generated plans that no prune outside [first, end) matches. Halving the range shares the work of leaving
- * all but one out: count * log(count) products instead of count * count. The depth is log2 of the number of clauses. */
-static tn_status count_only(const tn_library *library, tn_dfa *base, size_t first, size_t end, mpz_t *only,
+/* base less the prunes applied as numbers [first, end). */
+static tn_status without(const tn_library *library, const tn_sparse *base, size_t first, size_t end, tn_sparse **out,
+                         tn_error *error)
+{
+    *out = NULL;
+    tn_status status = tn_sparse_minimise(base, out, error); /* a copy */
+    for (size_t i = first; status == TN_OK && i < end; i++)
+        status = tn_library_apply(library, ordered_clause(library, i), TN_DFA_MINUS, out, error);
+    if (status != TN_OK) {
+        tn_sparse_free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+/* base: the generated plans that no prune but those applied as numbers [first, end) matches. Halving the range shares
+ * the work of leaving all but one out: count * log(count) products instead of count * count. The depth is log2 of the
+ * number of clauses. */
+static tn_status count_only(const tn_library *library, const tn_sparse *base, size_t first, size_t end, mpz_t *only,
                             tn_error *error)
 {
     if (end - first == 1)
-        return count_with(library, base, library->clauses[library->prunes[first]], only[first], error);
+        return count_with(library, base, ordered_clause(library, first), only[library->order[first]], error);
     size_t middle = first + (end - first) / 2;
-    tn_dfa *half = NULL;
+    tn_sparse *half = NULL;
     tn_status status = without(library, base, middle, end, &half, error);
     if (status != TN_OK)
         return status;
     status = count_only(library, half, first, middle, only, error);
-    tn_dfa_free(half);
+    tn_sparse_free(half);
     if (status != TN_OK)
         return status;
     status = without(library, base, first, middle, &half, error);
     if (status != TN_OK)
         return status;
     status = count_only(library, half, middle, end, only, error);
-    tn_dfa_free(half);
+    tn_sparse_free(half);
     return status;
 }
 

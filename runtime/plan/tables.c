@@ -64,9 +64,9 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     library->nearly = calloc(lengths * states, sizeof *library->nearly);
     if (!library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
-    tn_status status = tn_column_weights(library->kept, library->classes, &weights, error);
+    tn_status status = tn_column_weights(library->classes, library->kept->column, library->kept->columns, &weights, error);
     if (status == TN_OK)
-        status = tn_edges_make(&edges, library->kept, weights, error);
+        status = tn_edges_of(&edges, library->kept, weights, error);
     if (status == TN_OK)
         status = fill_rows(library, &edges, error);
     for (uint32_t left = 0; status == TN_OK && left <= library->max; left++)
