@@ -60,7 +60,7 @@ static bool chain_step(void *context, const uint32_t *key, size_t size, uint32_t
     return tn_key_push(next, phase + (column == chain->marker)) && tn_pairs_write(&chain->pairs, next);
 }
 
-static uint8_t chain_accepts(void *context, const uint32_t *key, size_t size)
+static bool chain_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_chain *chain = context;
     for (size_t i = 1; i < size; i += 2)
@@ -88,7 +88,7 @@ tn_status tn_marked_chain(const tn_marked *marked, const tn_dfa *a, const tn_dfa
         status = ok && !chain.pairs.failed ? TN_OK : tn_fail_memory(error);
     }
     if (status == TN_OK) {
-        tn_construction construction = {"neighbour", &chain.join, 0, &chain, chain_step, chain_accepts};
+        tn_construction construction = {"neighbour", &chain.join, &chain, chain_step, chain_accepts};
         status = tn_explore(&construction, &start, &chain.pairs.effort, marked->bounds, out, error);
     }
     free(start.data);

@@ -3,6 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+__extension__ typedef unsigned __int128 wide_limb; /* a product of limbs, which have 64 bits here */
+_Static_assert(sizeof(mp_limb_t) == 8, "counts are kept in limbs of 64 bits");
+
 tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
                             tn_error *error)
 {
@@ -146,6 +149,21 @@ tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error)
     return status;
 }
 
+/* sum += counts * weight, and the limb carried out. GMP's own is faster from a few limbs on; most libraries have fewer.
+ */
+static mp_limb_t add_times(mp_limb_t *sum, const mp_limb_t *count, size_t limbs, mp_limb_t weight)
+{
+    if (limbs > 3)
+        return mpn_addmul_1(sum, count, (mp_size_t)limbs, weight);
+    mp_limb_t carry = 0;
+    for (size_t i = 0; i < limbs; i++) {
+        wide_limb all = (wide_limb)count[i] * weight + sum[i] + carry;
+        sum[i] = (mp_limb_t)all;
+        carry = (mp_limb_t)(all >> 64);
+    }
+    return carry;
+}
+
 /* A sum of counts of one row, each times a number of trays that add up to less than 2^32, needs one limb more at most.
  */
 tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error)
@@ -157,33 +175,7 @@ tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn
     for (uint32_t s = 0; s < edges->states; s++) {
         mp_limb_t *sum = next->value + (size_t)s * next->limbs;
         for (size_t e = edges->first[s]; e < edges->first[s + 1]; e++)
-            sum[limbs] += mpn_addmul_1(sum, tn_row_at(row, edges->target[e]), (mp_size_t)limbs, edges->weight[e]);
-    }
-    row_shrink(edges, next);
-    return TN_OK;
-}
-
-tn_status tn_row_start(const tn_edges *edges, tn_row *row, tn_error *error)
-{
-    tn_status status = row_allocate(edges, 1, row, error);
-    if (status == TN_OK && edges->states > 0)
-        row->value[0] = 1;
-    return status;
-}
-
-/* All counts of a vector together are at most (number of trays) ^ length, so one limb more suffices here too. */
-tn_status tn_row_forward(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error)
-{
-    size_t limbs = row->limbs;
-    tn_status status = row_allocate(edges, limbs + 1, next, error);
-    if (status != TN_OK)
-        return status;
-    for (uint32_t s = 0; s < edges->states; s++) {
-        const mp_limb_t *from = tn_row_at(row, s);
-        for (size_t e = edges->first[s]; e < edges->first[s + 1]; e++) {
-            mp_limb_t *sum = next->value + (size_t)edges->target[e] * next->limbs;
-            sum[limbs] += mpn_addmul_1(sum, from, (mp_size_t)limbs, edges->weight[e]);
-        }
+            sum[limbs] += add_times(sum, tn_row_at(row, edges->target[e]), limbs, edges->weight[e]);
     }
     row_shrink(edges, next);
     return TN_OK;

@@ -24,7 +24,7 @@ typedef struct tn_edges {
 /* weight: trays for each column (tn_column_weights). */
 tn_status tn_edges_make(tn_edges *edges, const tn_sparse *sparse, const uint64_t *weight, tn_error *error);
 
-/* The same of a complete automaton, whose `accept` may hold flags. */
+/* The same of a complete automaton. */
 tn_status tn_edges_of(tn_edges *edges, const tn_dfa *dfa, const uint64_t *weight, tn_error *error);
 void tn_edges_clear(tn_edges *edges);
 
@@ -48,11 +48,6 @@ tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error);
 
 /* The row of the next length: plans of one tray more, counted from the state before that tray. */
 tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error);
-
-/* Forwards: vec[s] is the number of plans that lead from the start to s; the next vector has one tray more at the end.
- * Uses the same layout.. */
-tn_status tn_row_start(const tn_edges *edges, tn_row *row, tn_error *error);
-tn_status tn_row_forward(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error);
 
 void tn_row_clear(tn_row *row);
 

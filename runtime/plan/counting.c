@@ -266,7 +266,7 @@ static bool counting_step(void *context, const uint32_t *key, size_t size, uint3
     return finish_key(counting, phase, thread, running, next);
 }
 
-static uint8_t counting_accepts(void *context, const uint32_t *key, size_t size)
+static bool counting_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_counting *counting = context;
     if (size == 0 || key[PHASE] != 2)
@@ -356,12 +356,8 @@ tn_status tn_marked_count(const tn_marked *marked, const tn_dfa *a, tn_tally tal
     if (status == TN_OK && !finish_key(&counting, 0, counting.a.dead == 0 ? TN_NO_STATE : 0, NO_SET, &start))
         status = tn_fail_memory(error);
     if (status == TN_OK) {
-        tn_construction construction = {tally == TN_TALLY_SINGLES ? "quantity" : "occurrences",
-                                        &counting.join,
-                                        0,
-                                        &counting,
-                                        counting_step,
-                                        counting_accepts};
+        tn_construction construction = {tally == TN_TALLY_SINGLES ? "quantity" : "occurrences", &counting.join,
+                                        &counting, counting_step, counting_accepts};
         status = tn_explore(&construction, &start, &counting.effort, marked->bounds, out, error);
     }
     free(start.data);

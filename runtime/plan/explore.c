@@ -11,40 +11,18 @@ typedef struct tn_explorer {
     size_t capacity; /* rows */
 } tn_explorer;
 
-/* Room for one more row. */
-static bool explorer_reserve(tn_explorer *explorer, uint32_t state)
-{
-    uint32_t columns = explorer->construction->join->columns;
-    if (state < explorer->capacity)
-        return true;
-    size_t capacity = explorer->capacity * 2 + 32;
-    uint32_t *delta = realloc(explorer->delta, (capacity * columns + 1) * sizeof *delta);
-    if (!delta)
-        return false;
-    explorer->delta = delta;
-    explorer->capacity = capacity;
-    return true;
-}
-
-/* Makes the states from `state` on lead to themselves. */
-static tn_status explorer_stop(tn_explorer *explorer, uint32_t state, tn_error *error)
-{
-    size_t columns = explorer->construction->join->columns;
-    for (; state < explorer->keys.count; state++) {
-        if (!explorer_reserve(explorer, state))
-            return tn_fail_memory(error);
-        for (size_t c = 0; c < columns; c++)
-            explorer->delta[state * columns + c] = state;
-    }
-    return TN_OK;
-}
-
 static bool explorer_row(tn_explorer *explorer, uint32_t state)
 {
     const tn_construction *construction = explorer->construction;
     uint32_t columns = construction->join->columns;
-    if (!explorer_reserve(explorer, state))
-        return false;
+    if (state == explorer->capacity) {
+        size_t capacity = explorer->capacity * 2 + 32;
+        uint32_t *delta = realloc(explorer->delta, (capacity * columns + 1) * sizeof *delta);
+        if (!delta)
+            return false;
+        explorer->delta = delta;
+        explorer->capacity = capacity;
+    }
     size_t size;
     const uint32_t *key = tn_interned(&explorer->keys, state, &size);
     if (!tn_key_copy(&explorer->current, key, size))
@@ -71,14 +49,7 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    uint32_t depth = 0, deeper = 1; /* states from `deeper` on are reached by one letter more */
     for (uint32_t s = 0; s < explorer->keys.count; s++) {
-        if (s == deeper) {
-            depth++;
-            deeper = explorer->keys.count;
-        }
-        if (construction->max_depth > 0 && depth >= construction->max_depth)
-            return explorer_stop(explorer, s, error);
         uint64_t before = effort ? *effort : 0;
         if (!explorer_row(explorer, s))
             return tn_fail_memory(error);
@@ -104,12 +75,13 @@ static tn_status explorer_finish(const tn_explorer *explorer, tn_dfa **out, tn_e
         const uint32_t *key = tn_interned(&explorer->keys, s, &size);
         dfa->accept[s] = construction->accepts(construction->context, key, size);
     }
-    *out = dfa;
-    return TN_OK;
+    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
+    tn_dfa_free(dfa);
+    return status;
 }
 
-tn_status tn_explore_raw(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
-                         tn_bounds *bounds, tn_dfa **out, tn_error *error)
+tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
+                     tn_bounds *bounds, tn_dfa **out, tn_error *error)
 {
     tn_explorer explorer = {.construction = construction};
     tn_status status = explorer_run(&explorer, start, effort, bounds, error);
@@ -119,16 +91,5 @@ tn_status tn_explore_raw(const tn_construction *construction, const tn_key *star
     free(explorer.current.data);
     free(explorer.next.data);
     free(explorer.delta);
-    return status;
-}
-
-tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
-                     tn_bounds *bounds, tn_dfa **out, tn_error *error)
-{
-    tn_dfa *raw = NULL;
-    tn_status status = tn_explore_raw(construction, start, effort, bounds, &raw, error);
-    if (status == TN_OK)
-        status = tn_dfa_minimise(raw, 0, out, error);
-    tn_dfa_free(raw);
     return status;
 }

@@ -8,23 +8,16 @@
 typedef struct tn_construction {
     const char *what;    /* for errors: "the automaton of this ... passes" */
     const tn_join *join; /* the columns to explore */
-    uint32_t max_depth;  /* states first reached by so many letters are not followed (their rows lead to themselves); 0:
-                            all are */
     void *context;
     /* The key that a column leads to, in canonical form (`next` is empty to begin with); false where out of memory.
      * `size` words of `key` stay where they are during the call. */
     bool (*step)(void *context, const uint32_t *key, size_t size, uint32_t column, tn_key *next);
-    /* 1 where the key's state accepts, or (tn_explore_raw) any flags; called once for each state, in order. */
-    uint8_t (*accepts)(void *context, const uint32_t *key, size_t size);
+    bool (*accepts)(void *context, const uint32_t *key, size_t size);
 } tn_construction;
 
 /* The minimal automaton of a construction. A key's size and a construction's own count of steps (`*effort`, which step
  * adds to, or NULL) both count as work. */
 tn_status tn_explore(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
                      tn_bounds *bounds, tn_dfa **out, tn_error *error);
-
-/* The same, as it was explored: neither minimal nor canonical, `accept` holding the flags. */
-tn_status tn_explore_raw(const tn_construction *construction, const tn_key *start, const uint64_t *effort,
-                         tn_bounds *bounds, tn_dfa **out, tn_error *error);
 
 #endif

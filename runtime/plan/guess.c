@@ -115,7 +115,7 @@ static bool guess_step(void *context, const uint32_t *key, size_t size, uint32_t
     return write_key(guess, phase, a, gap, next);
 }
 
-static uint8_t guess_accepts(void *context, const uint32_t *key, size_t size)
+static bool guess_accepts(void *context, const uint32_t *key, size_t size)
 {
     const tn_guess *guess = context;
     if (size == 0 || (guess->marker != TN_NO_STATE && key[PHASE] != 2))
@@ -148,7 +148,7 @@ static tn_status guess_stretch(const tn_marked *marked, const tn_guess_plan *pla
             status = tn_fail_memory(error);
     }
     if (status == TN_OK) {
-        tn_construction construction = {plan->what, &guess.join, 0, &guess, guess_step, guess_accepts};
+        tn_construction construction = {plan->what, &guess.join, &guess, guess_step, guess_accepts};
         status = tn_explore(&construction, &start, &guess.pairs.effort, marked->bounds, out, error);
     }
     free(start.data);

@@ -46,6 +46,22 @@ uint32_t tn_number(tn_numbering *numbering, uint64_t key)
     return numbering->count - 1;
 }
 
+uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
+{
+    if (numbering->count >= numbering->capacity / 2) {
+        if (numbering->count >= MAX_KEYS)
+            return UINT32_MAX;
+        uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
+        uint64_t *keys = realloc(numbering->keys, capacity / 2 * sizeof *keys);
+        if (!keys)
+            return UINT32_MAX;
+        numbering->keys = keys;
+        numbering->capacity = capacity;
+    }
+    numbering->keys[numbering->count] = key;
+    return numbering->count++;
+}
+
 void tn_numbering_clear(tn_numbering *numbering)
 {
     free(numbering->keys);

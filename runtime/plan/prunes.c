@@ -1,9 +1,34 @@
-/* How many plans each pruning clause prunes, and how many only it prunes. */
+/* How many plans each pruning clause prunes, and how many only it prunes.
+ *
+ * The second needs, for each clause, the plans that none of the others prunes: as many automata as large as the
+ * library's own. They share what they can. Prunes are applied in the library's order, those that multiply states last;
+ * those up to where the automaton is still small are `early`. The automata of the generator less the first i early
+ * prunes are kept, so that leaving prune i out only takes applying the early ones after it. The late ones are joined
+ * with the clause in question into one small automaton, which meets the large one once, in a product that is counted
+ * and never minimised. The clauses are independent of one another and go over the threads.
+ */
 #include <stdlib.h>
 
 #include "runtime/plan/library_data.h"
 
-/* Plans of the library's lengths that `base` accepts and the clause matches. Counting needs no minimal automaton. */
+#define EARLY_STATES 10000u
+
+typedef struct tn_pruning {
+    const tn_library *library;
+    size_t early;      /* prunes applied as numbers below this are early */
+    tn_sparse **after; /* [early + 1]: the generator less the first prunes */
+    mpz_t *only;       /* [prune_count], by prune */
+    tn_status *status; /* [prune_count], by number; what came of each */
+    tn_error *errors;
+} tn_pruning;
+
+/* The prune that is applied as number i. */
+static const tn_dfa *ordered_clause(const tn_library *library, size_t i)
+{
+    return library->clauses[library->prunes[library->order[i]]];
+}
+
+/* Plans of the library's lengths that `base` accepts and the clause matches. */
 static tn_status count_with(const tn_library *library, const tn_sparse *base, const tn_dfa *clause, mpz_t count,
                             tn_error *error)
 {
@@ -16,49 +41,95 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
     return status;
 }
 
-/* The prune that is applied as number `i`: those that grow the automaton least come first here too. */
-static const tn_dfa *ordered_clause(const tn_library *library, size_t i)
+/* Applies prunes while the automaton stays small. */
+static tn_status apply_early(tn_pruning *pruning, tn_error *error)
 {
-    return library->clauses[library->prunes[library->order[i]]];
-}
-
-/* base less the prunes applied as numbers [first, end). */
-static tn_status without(const tn_library *library, const tn_sparse *base, size_t first, size_t end, tn_sparse **out,
-                         tn_error *error)
-{
-    *out = NULL;
-    tn_status status = tn_sparse_minimise(base, out, error); /* a copy */
-    for (size_t i = first; status == TN_OK && i < end; i++)
-        status = tn_library_apply(library, ordered_clause(library, i), TN_DFA_MINUS, out, error);
-    if (status != TN_OK) {
-        tn_sparse_free(*out);
-        *out = NULL;
+    const tn_library *library = pruning->library;
+    pruning->after = calloc(library->prune_count + 1, sizeof *pruning->after);
+    if (!pruning->after)
+        return tn_fail_memory(error);
+    tn_status status = tn_sparse_minimise(library->generator, &pruning->after[0], error); /* a copy */
+    for (size_t i = 0; status == TN_OK && i < library->prune_count; i++) {
+        if (pruning->after[i]->states > EARLY_STATES)
+            break;
+        status = tn_sparse_minimise(pruning->after[i], &pruning->after[i + 1], error); /* a copy */
+        if (status == TN_OK)
+            status = tn_library_apply(library, ordered_clause(library, i), TN_DFA_MINUS, &pruning->after[i + 1], error);
+        pruning->early = i + 1;
     }
     return status;
 }
 
-/* base: the generated plans that no prune but those applied as numbers [first, end) matches. Halving the range shares
- * the work of leaving all but one out: count * log(count) products instead of count * count. The depth is log2 of the
- * number of clauses. */
-static tn_status count_only(const tn_library *library, const tn_sparse *base, size_t first, size_t end, mpz_t *only,
-                            tn_error *error)
+/* What prune `number` matches and no other late prune does. */
+static tn_status join_late(const tn_pruning *pruning, size_t number, tn_dfa **out, tn_error *error)
 {
-    if (end - first == 1)
-        return count_with(library, base, ordered_clause(library, first), only[library->order[first]], error);
-    size_t middle = first + (end - first) / 2;
-    tn_sparse *half = NULL;
-    tn_status status = without(library, base, middle, end, &half, error);
-    if (status != TN_OK)
-        return status;
-    status = count_only(library, half, first, middle, only, error);
-    tn_sparse_free(half);
-    if (status != TN_OK)
-        return status;
-    status = without(library, base, first, middle, &half, error);
-    if (status != TN_OK)
-        return status;
-    status = count_only(library, half, middle, end, only, error);
-    tn_sparse_free(half);
+    const tn_library *library = pruning->library;
+    tn_bounds bounds = tn_bounds_make(library->max_joint);
+    tn_dfa *joined = NULL;
+    tn_status status = tn_dfa_minimise(ordered_clause(library, number), 0, &joined, error); /* a copy */
+    for (size_t i = pruning->early; status == TN_OK && i < library->prune_count; i++) {
+        if (i == number)
+            continue;
+        tn_dfa *rest = NULL;
+        status = tn_dfa_product(joined, ordered_clause(library, i), TN_DFA_MINUS, "library", &bounds, &rest, error);
+        tn_dfa_free(joined);
+        joined = rest;
+    }
+    *out = joined;
+    return status;
+}
+
+static tn_status count_only(const tn_pruning *pruning, size_t number, mpz_t only, tn_error *error)
+{
+    const tn_library *library = pruning->library;
+    size_t from = number < pruning->early ? number : pruning->early;
+    tn_sparse *base = NULL;
+    tn_dfa *joined = NULL;
+    tn_status status = tn_sparse_minimise(pruning->after[from], &base, error); /* a copy */
+    for (size_t i = from + 1; status == TN_OK && i < pruning->early; i++)
+        status = tn_library_apply(library, ordered_clause(library, i), TN_DFA_MINUS, &base, error);
+    if (status == TN_OK)
+        status = join_late(pruning, number, &joined, error);
+    if (status == TN_OK)
+        status = count_with(library, base, joined, only, error);
+    tn_sparse_free(base);
+    tn_dfa_free(joined);
+    return status;
+}
+
+/* All of them; the first failure, by number, whatever the threads do. */
+static tn_status count_all(tn_pruning *pruning, tn_error *error)
+{
+    size_t count = pruning->library->prune_count;
+    const size_t *order = pruning->library->order;
+    pruning->status = calloc(count + 1, sizeof *pruning->status);
+    pruning->errors = calloc(count + 1, sizeof *pruning->errors);
+    if (!pruning->status || !pruning->errors)
+        return tn_fail_memory(error);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (size_t i = 0; i < count; i++)
+        pruning->status[i] = count_only(pruning, i, pruning->only[order[i]], &pruning->errors[i]);
+    for (size_t i = 0; i < count; i++) {
+        if (pruning->status[i] == TN_OK)
+            continue;
+        if (error)
+            *error = pruning->errors[i];
+        return pruning->status[i];
+    }
+    return TN_OK;
+}
+
+static tn_status find_only(const tn_library *library, mpz_t *only, tn_error *error)
+{
+    tn_pruning pruning = {.library = library, .only = only};
+    tn_status status = apply_early(&pruning, error);
+    if (status == TN_OK)
+        status = count_all(&pruning, error);
+    for (size_t i = 0; pruning.after && i <= library->prune_count; i++)
+        tn_sparse_free(pruning.after[i]);
+    free(pruning.after);
+    free(pruning.status);
+    free(pruning.errors);
     return status;
 }
 
@@ -69,8 +140,8 @@ static tn_status find_prunes(const tn_library *library, tn_error *error)
     tn_status status = prunes && only ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = count_with(library, library->generator, library->clauses[library->prunes[i]], prunes[i], error);
-    if (status == TN_OK && count > 0)
-        status = count_only(library, library->generator, 0, count, only, error);
+    if (status == TN_OK)
+        status = find_only(library, only, error);
     if (status != TN_OK) {
         tn_integers_free(prunes, count);
         tn_integers_free(only, count);

@@ -233,6 +233,8 @@ tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *er
 
 /* ---- products */
 
+#define TABLE_ENTRIES_MAX (UINT64_C(1) << 23) /* 32 MB, of which only the pages used take memory */
+
 /* One column of the product that a column of the first operand splits into. */
 typedef struct tn_split {
     uint32_t label; /* of the product */
@@ -249,6 +251,7 @@ typedef struct tn_sparse_work {
     size_t *split_first; /* [columns of a + 1] */
     tn_split *splits;
     tn_numbering pairs;
+    uint32_t *table; /* [states of a][states of b]: number + 1; NULL where that is too much: then `pairs` hashes */
     size_t *first;
     uint32_t *label, *target;
     size_t states_capacity, edges, edges_capacity;
@@ -304,6 +307,17 @@ static bool work_reserve(tn_sparse_work *work, uint32_t state, size_t more)
     return true;
 }
 
+static uint32_t work_number(tn_sparse_work *work, uint32_t p, uint32_t q)
+{
+    uint64_t pair = (uint64_t)p << 32 | q;
+    if (!work->table)
+        return tn_number(&work->pairs, pair);
+    uint32_t *slot = &work->table[(size_t)p * work->b->states + q];
+    if (*slot == 0)
+        *slot = tn_number_new(&work->pairs, pair) + 1; /* 0 again where out of memory */
+    return *slot - 1;
+}
+
 static bool work_row(tn_sparse_work *work, uint32_t state)
 {
     uint32_t p = (uint32_t)(work->pairs.keys[state] >> 32), q = (uint32_t)work->pairs.keys[state];
@@ -317,7 +331,7 @@ static bool work_row(tn_sparse_work *work, uint32_t state)
             uint32_t to = row[work->splits[i].other];
             if (to == work->settled)
                 continue;
-            uint32_t number = tn_number(&work->pairs, (uint64_t)a->target[e] << 32 | to);
+            uint32_t number = work_number(work, a->target[e], to);
             if (number == UINT32_MAX)
                 return false;
             work->label[work->edges] = work->splits[i].label;
@@ -332,7 +346,10 @@ static tn_status work_run(tn_sparse_work *work, const char *what, tn_bounds *bou
 {
     if (work->a->states == 0 || work->settled == 0)
         return work_reserve(work, 0, 0) ? (work->first[0] = 0, TN_OK) : tn_fail_memory(error);
-    if (tn_number(&work->pairs, 0) == UINT32_MAX)
+    uint64_t all = (uint64_t)work->a->states * work->b->states;
+    if (all <= TABLE_ENTRIES_MAX)
+        work->table = calloc(all, sizeof *work->table);
+    if (work_number(work, 0, 0) == UINT32_MAX)
         return tn_fail_memory(error);
     for (uint32_t s = 0; s < work->pairs.count; s++) {
         size_t before = work->edges;
@@ -387,6 +404,7 @@ tn_status tn_sparse_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operatio
     if (status == TN_OK)
         status = work_finish(&work, out, error);
     tn_numbering_clear(&work.pairs);
+    free(work.table);
     free(work.column);
     free(work.split_first);
     free(work.splits);
