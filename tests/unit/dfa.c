@@ -8,7 +8,9 @@
 
 #include <cmocka.h>
 
+#include "runtime/plan/half.h"
 #include "runtime/plan/numbering.h"
+#include "runtime/plan/sparse.h"
 #include "tests/support/test_rule.h"
 
 /* A random automaton, most often with unreachable states, equal states and equal columns. */
@@ -191,6 +193,66 @@ static void de_morgan(void **state)
     }
 }
 
+/* Products without dead states are the same automata in the end. */
+static void sparse_products_are_the_same(void **state)
+{
+    (void)state;
+    test_random random = {.seed = 15};
+    for (int round = 0; round < 500; round++) {
+        uint32_t letters = 1 + test_random_below(&random, 6);
+        tn_dfa *raw_a = random_dfa(&random, letters, 1 + test_random_below(&random, 14));
+        tn_dfa *raw_b = random_dfa(&random, letters, 1 + test_random_below(&random, 14)), *b = minimise(raw_b);
+        tn_dfa_operation operation = round % 2 ? TN_DFA_AND : TN_DFA_MINUS;
+        tn_sparse *a = NULL, *both = NULL, *small = NULL;
+        tn_bounds bounds = tn_bounds_make(1000);
+        tn_dfa *made = NULL, *expected = product(raw_a, b, operation);
+        tn_error error;
+        test_ok(tn_sparse_make(raw_a, 0, &a, &error), &error);
+        test_ok(tn_sparse_product(a, b, operation, "test", &bounds, &both, &error), &error);
+        test_ok(tn_sparse_minimise(both, &small, &error), &error);
+        test_ok(tn_sparse_complete(small, &made, &error), &error);
+        assert_true(tn_dfa_equal(made, expected));
+        assert_in_range(expected->states, small->states, small->states + 1);
+        tn_sparse_free(a);
+        tn_sparse_free(both);
+        tn_sparse_free(small);
+        tn_dfa *all[] = {raw_a, raw_b, b, made, expected};
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+            tn_dfa_free(all[i]);
+    }
+}
+
+/* The half of a palindrome decides what the palindrome does. */
+static void halves_decide_palindromes(void **state)
+{
+    (void)state;
+    test_random random = {.seed = 16};
+    for (int round = 0; round < 300; round++) {
+        uint32_t letters = 1 + test_random_below(&random, 4);
+        tn_dfa *raw = random_dfa(&random, letters, 1 + test_random_below(&random, 7)), *dfa = minimise(raw), *half[2];
+        for (int odd = 0; odd < 2; odd++) {
+            tn_bounds bounds = tn_bounds_make(20000);
+            tn_error error;
+            test_ok(tn_half(dfa, odd, &bounds, &half[odd], &error), &error);
+        }
+        for (int w = 0; w < 40; w++) {
+            uint32_t word[20], length = test_random_below(&random, 10);
+            for (uint32_t i = 0; i < length; i++)
+                word[i] = test_random_below(&random, letters);
+            for (uint32_t i = 0; i < length; i++)
+                word[length + i] = word[length - 1 - i];
+            assert_int_equal(accepts(half[0], 0, word, length), accepts(dfa, 0, word, 2 * length));
+            for (uint32_t i = 0; i + 1 < length; i++)
+                word[length + i] = word[length - 2 - i];
+            bool whole = length > 0 && accepts(dfa, 0, word, 2 * length - 1);
+            assert_int_equal(accepts(half[1], 0, word, length), whole);
+        }
+        tn_dfa *all[] = {raw, dfa, half[0], half[1]};
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+            tn_dfa_free(all[i]);
+    }
+}
+
 static void products_stop_at_their_bounds(void **state)
 {
     (void)state;
@@ -238,6 +300,8 @@ int main(void)
         cmocka_unit_test(minimising_is_exact_and_canonical),
         cmocka_unit_test(products_decide_as_their_operands),
         cmocka_unit_test(de_morgan),
+        cmocka_unit_test(sparse_products_are_the_same),
+        cmocka_unit_test(halves_decide_palindromes),
         cmocka_unit_test(products_stop_at_their_bounds),
         cmocka_unit_test(keys_are_numbered_in_order),
     };
