@@ -53,7 +53,7 @@
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)")
 #define OPTION_MAX_STATES                                                                                              \
     NUMBER("max-states", 0, "N", max_states, 1, 1u << 30,                                                              \
-           "the most states an automaton may have while it is made (default 20000)")
+           "the most states an automaton may have while it is made (default 20000, 1000000 for a library)")
 #define OPTION_THREADS                                                                                                 \
     NUMBER("threads", 0, "N", threads, 1, 1024,                                                                        \
            "how many threads work (default: all processors); changes nothing but the time")

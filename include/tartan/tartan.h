@@ -138,8 +138,8 @@ TARTAN_API tartan_status tartan_match_all(const tartan_rules *rules, const uint3
 
 typedef struct tartan_library tartan_library;
 
-/* Opens a library of the module; name NULL takes its only one (of the named file itself). A library whose automaton
- * passes the limit of 20,000 states is TARTAN_LIMIT. */
+/* Opens a library of the module; name NULL takes its only one (of the named file itself). A library of which a clause
+ * passes the limit of 20,000 states, or all together 1,000,000, is TARTAN_LIMIT. */
 TARTAN_API tartan_status tartan_library_open(const tartan_module *module, const char *name, tartan_library **library,
                                              tartan_error *error);
 TARTAN_API void tartan_library_free(tartan_library *library);
