@@ -215,7 +215,7 @@ static tn_status product_row(tn_product *product, uint32_t state, tn_error *erro
     uint32_t columns = product->join.columns;
     if (state == product->capacity) {
         size_t capacity = product->capacity ? product->capacity * 2 : 32;
-        uint32_t *delta = realloc(product->delta, capacity * columns * sizeof *delta);
+        uint32_t *delta = realloc(product->delta, (capacity * columns + 1) * sizeof *delta);
         if (!delta)
             return tn_fail_memory(error);
         product->delta = delta;

@@ -99,7 +99,7 @@ static tn_status make_passed(tn_library *library, tn_error *error)
     while (((uint64_t)trays / library->stride + 2) * columns > PASSED_ENTRIES_MAX)
         library->stride *= 2;
     library->tray_column = calloc((size_t)trays + 1, sizeof *library->tray_column);
-    library->passed = calloc(((size_t)trays / library->stride + 2) * columns, sizeof *library->passed);
+    library->passed = calloc(((size_t)trays / library->stride + 2) * columns + 1, sizeof *library->passed);
     uint32_t *count = calloc((size_t)columns + 1, sizeof *count);
     bool ok = library->tray_column && library->passed && count;
     for (tn_tray t = 0; ok && t <= trays; t++) {
