@@ -10,7 +10,12 @@ set(TARTAN_LIBRARY_NEEDS PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgCo
     Threads::Threads m)
 set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")
 file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-set(TARTAN_PC_LIBS "${OpenMP_C_FLAGS} -pthread -lm")
+if(CMAKE_C_COMPILER_ID STREQUAL GNU)
+  set(TARTAN_PC_LIBS "-lgomp -pthread -lm")
+else()
+  list(JOIN OpenMP_C_LIBRARIES " " TARTAN_PC_LIBS)
+  string(APPEND TARTAN_PC_LIBS " -pthread -lm")
+endif()
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.
 set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

@@ -40,13 +40,15 @@ echo '#include <tartan/tartan.h>' >"$scratch/alone.c"
 cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
 c++ -x c++ -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
 
-# A sanitized library needs a sanitized program.
+# A sanitized library needs a sanitized program, and one compiler's OpenMP is not the other's.
+CC=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
+export CC
 read -ra flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:[^=]*=//p' "$build/CMakeCache.txt")"
 read -ra by_pkg_config <<<"$(pkg-config --cflags --libs tartan)"
 read -ra for_static <<<"$(pkg-config --cflags tartan) $(pkg-config --static --libs tartan | sed 's/-ltartan\b//')"
 cp examples/embed/embed.c examples/embed/narrow.plan "$scratch"
-cc "${flags[@]}" "$scratch/embed.c" "${by_pkg_config[@]}" -o "$scratch/shared"
-cc "${flags[@]}" "$scratch/embed.c" "$libdir/libtartan.a" "${for_static[@]}" -o "$scratch/static"
+"$CC" "${flags[@]}" "$scratch/embed.c" "${by_pkg_config[@]}" -o "$scratch/shared"
+"$CC" "${flags[@]}" "$scratch/embed.c" "$libdir/libtartan.a" "${for_static[@]}" -o "$scratch/static"
 
 cat >"$scratch/CMakeLists.txt" <<'LISTS'
 cmake_minimum_required(VERSION 3.16)
@@ -92,7 +94,7 @@ int main(int argc, char **argv)
 }
 PROGRAM
 read -ra runtime <<<"$(pkg-config --cflags --libs tartan-runtime)"
-cc "${flags[@]}" "$scratch/load.c" "${runtime[@]}" -o "$scratch/load"
+"$CC" "${flags[@]}" "$scratch/load.c" "${runtime[@]}" -o "$scratch/load"
 [ "$("$scratch/load" "$scratch/narrow.tnb")" = "$(grep plans, "$scratch/out.shared")" ] || fail 'the runtime counts otherwise'
 
 # The installed binary finds the stdlib by itself; what was installed goes again.
