@@ -122,8 +122,9 @@ static bool complain(void *context, const tn_error *error, const char *text, siz
 static bool compile_clauses(pruning *p)
 {
     const tn_settings *settings = p->job->settings;
-    tn_rules_options options = {(tn_engine)settings->engine, (uint32_t)settings->max_states.value,
-                                tn_job_max_length(settings)};
+    tn_rules_options options = {.engine = (tn_engine)settings->engine,
+                                .max_states = (uint32_t)settings->max_states.value,
+                                .max_length = tn_job_max_length(settings)};
     tn_error error;
     p->trays_min = settings->trays.given ? (uint32_t)settings->trays.low : p->ready.record->trays_min;
     p->trays_max = settings->trays.given ? (uint32_t)settings->trays.high : p->ready.record->trays_max;

@@ -28,10 +28,10 @@ typedef struct sift {
 
 static tn_status sift_new(sift *s, tn_error *error)
 {
-    s->words = tn_rules_count(s->rules) / 64 + 1;
+    s->words = (tn_rules_count(s->rules) + 63) / 64;
     s->starts = calloc(BATCH_PLANS + 1, sizeof *s->starts);
     s->lines = malloc(sizeof *s->lines * BATCH_PLANS);
-    s->bits = calloc(BATCH_PLANS * s->words, sizeof *s->bits);
+    s->bits = calloc(BATCH_PLANS * s->words + 1, sizeof *s->bits);
     s->statuses = calloc(BATCH_PLANS, sizeof *s->statuses);
     s->matchers = calloc((size_t)s->threads, sizeof *s->matchers);
     if (!s->starts || !s->lines || !s->bits || !s->statuses || !s->matchers)
@@ -74,15 +74,19 @@ static bool append(sift *s, const tn_plan *plan)
     return true;
 }
 
-static tn_status match(const sift *s, size_t i, tn_matcher *matcher, tn_error *error)
+/* Matches plans [first, last); statuses says of each what came of it. */
+static void match_share(sift *s, size_t first, size_t last, tn_matcher *matcher, tn_error *error)
 {
-    return tn_match(matcher, s->trays + s->starts[i], s->starts[i + 1] - s->starts[i], s->bits + i * s->words, error);
-}
-
-static void match_share(sift *s, size_t first, size_t last, tn_matcher *matcher)
-{
-    for (size_t i = first; i < last; i++)
-        s->statuses[i] = match(s, i, matcher, NULL);
+    while (first < last) {
+        tn_plan_array plans = {s->trays, s->starts[first], s->starts + first + 1, last - first};
+        size_t done;
+        tn_status status = tn_match_all(matcher, &plans, s->bits + first * s->words, &done, error);
+        for (size_t i = 0; i < done; i++)
+            s->statuses[first + i] = TN_OK;
+        first += done;
+        if (status != TN_OK)
+            s->statuses[first++] = status;
+    }
 }
 
 /* Matches the batch, each thread its share of it, and hands it on. */
@@ -95,7 +99,7 @@ static void flush(sift *s)
     for (int t = 0; t < threads; t++) {
         size_t first = share * (size_t)t, last = first + share;
         if (first < s->count)
-            match_share(s, first, last < s->count ? last : s->count, s->matchers[t]);
+            match_share(s, first, last < s->count ? last : s->count, s->matchers[t], NULL);
     }
     for (size_t i = 0; i < s->count && !s->stopped; i++) {
         tn_error error;
@@ -105,7 +109,7 @@ static void flush(sift *s)
             s->stopped = !s->calls->plan(s->calls->context, &plan);
             continue;
         }
-        match(s, i, s->matchers[0], &error); /* again, for its reason */
+        match_share(s, i, i + 1, s->matchers[0], &error); /* again, for its reason */
         tn_error_place(&error, s->lines[i], 0, 0);
         s->stopped = !s->calls->bad(s->calls->context, &error, NULL, 0);
     }

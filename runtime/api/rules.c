@@ -165,14 +165,17 @@ static void match_some(const tartan_rules *rules, const uint32_t *trays, const s
                        uint64_t *bits, tartan_error *error)
 {
     tartan_matcher *matcher;
-    tartan_status status = tartan_matcher_new(rules, &matcher, error);
-    if (status != TARTAN_OK)
+    tn_plan_array plans = {
+        .trays = trays, .begin = begin ? ends[begin - 1] : 0, .ends = ends + begin, .count = end - begin};
+    for (size_t i = begin, at = plans.begin; i < end; at = ends[i++])
+        if (tn_api_trays(rules->schema, trays + at, ends[i] - at, error) != TARTAN_OK)
+            return;
+    if (tartan_matcher_new(rules, &matcher, error) != TARTAN_OK)
         return;
-    size_t words = tartan_rules_words(rules);
-    for (size_t i = begin; i < end && status == TARTAN_OK; i++) {
-        size_t start = i ? ends[i - 1] : 0;
-        status = tartan_match(matcher, trays + start, ends[i] - start, bits + i * words, error);
-    }
+    size_t done;
+    tn_error found;
+    if (tn_match_all(matcher->matcher, &plans, bits + begin * tartan_rules_words(rules), &done, &found) != TN_OK)
+        tn_api_fail(&found, error);
     tartan_matcher_free(matcher);
 }
 
