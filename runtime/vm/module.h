@@ -59,6 +59,19 @@ typedef enum tn_clause_kind {
     TN_CLAUSE_KIND_COUNT
 } tn_clause_kind;
 
+/* How a .bnf file is read and its genomes mapped (docs/genome-language.md). */
+typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_COUNT } tn_dialect;
+
+/* What becomes of edge types that a genr8 sentence leaves without a rule. */
+typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN_REPAIR_COUNT } tn_repair;
+
+#define TN_GROUP_DEPTH 64u /* how deep { } and [ ] may nest in a production */
+
+/* Flags of grammars. */
+#define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
+
+#define TN_NO_RECORD UINT32_MAX
+
 /* Flags of rules and libraries. */
 #define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
 

@@ -13,9 +13,13 @@ typedef enum tn_operands {
     TN_OPERANDS_FIELD_COND,
     TN_OPERANDS_INT,
     TN_OPERANDS_INT2,
+    TN_OPERANDS_TEXT,
+    TN_OPERANDS_SYMBOL,
+    TN_OPERANDS_LETTER,
+    TN_OPERANDS_BODY,
 } tn_operands;
 
-typedef enum tn_code_engine { TN_CODE_RULE, TN_CODE_CONDITION } tn_code_engine;
+typedef enum tn_code_engine { TN_CODE_RULE, TN_CODE_CONDITION, TN_CODE_MAP } tn_code_engine;
 
 typedef enum tn_opcode {
 #define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) TN_OP_##NAME,
