@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/vm/opcodes.h"
+#include "runtime/vm/code.h"
 
 #define TEXT_SLACK 16u /* the mapper copies short terminals sixteen bytes at a time */
 
@@ -13,11 +13,6 @@ typedef struct decoder {
     tn_grammar *grammar;
     uint32_t *terminal_of; /* by string offset: index of its terminal + 1; 0 where it has none */
 } decoder;
-
-static uint32_t operand(const uint8_t *code)
-{
-    return (uint32_t)code[0] | (uint32_t)code[1] << 8 | (uint32_t)code[2] << 16 | (uint32_t)code[3] << 24;
-}
 
 static uint32_t word(tn_word_op op, uint32_t argument)
 {
@@ -55,13 +50,11 @@ static void decode_production(decoder *d, uint32_t at, uint32_t end, tn_producti
                 g->words[g->word_count++] = word(TN_WORD_AGAIN, 0);
             *start = word(TN_WORD_OP(*start), (uint32_t)g->word_count - open[depth].word - 1);
         }
-        tn_opcode opcode = (tn_opcode)d->module->code[at];
-        uint32_t argument = tn_opcode_describe((uint8_t)opcode)->operands == TN_OPERANDS_NONE
-                                ? 0
-                                : operand(d->module->code + at + 1);
-        at += tn_opcode_describe((uint8_t)opcode)->length;
+        tn_instruction instruction = tn_code_read(d->module->code, at);
+        uint32_t argument = (uint32_t)instruction.first;
+        at += instruction.length;
         uint32_t *out = &g->words[g->word_count];
-        switch (opcode) {
+        switch (instruction.opcode) {
         case TN_OP_EMIT:
             *out = word(TN_WORD_TERMINAL, terminal_for(d, argument));
             break;
@@ -77,7 +70,7 @@ static void decode_production(decoder *d, uint32_t at, uint32_t end, tn_producti
             break;
         case TN_OP_REPEAT:
         case TN_OP_MAYBE:
-            *out = word(opcode == TN_OP_REPEAT ? TN_WORD_REPEAT : TN_WORD_MAYBE, 0);
+            *out = word(instruction.opcode == TN_OP_REPEAT ? TN_WORD_REPEAT : TN_WORD_MAYBE, 0);
             open[depth].end = at + argument;
             open[depth++].word = (uint32_t)g->word_count;
             break;
@@ -146,7 +139,7 @@ static void measure(const tn_module *module, const tn_grammar_record *record, si
         for (uint32_t p = 0; p < rule->production_count; p++) {
             const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + p];
             for (uint32_t at = production->code_begin; at < production->code_end;
-                 at += tn_opcode_describe(module->code[at])->length)
+                 at += tn_code_read(module->code, at).length)
                 *words += module->code[at] == TN_OP_REPEAT ? 2 : 1;
         }
     }

@@ -188,6 +188,10 @@ uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, i
     case TN_OPERANDS_SPEC:
     case TN_OPERANDS_FUNC:
     case TN_OPERANDS_COND:
+    case TN_OPERANDS_TEXT:
+    case TN_OPERANDS_SYMBOL:
+    case TN_OPERANDS_LETTER:
+    case TN_OPERANDS_BODY:
         tn_put_u32(place, (uint32_t)first);
         break;
     case TN_OPERANDS_FIELD_COND:

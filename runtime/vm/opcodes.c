@@ -9,10 +9,15 @@ enum {
     LENGTH_FIELD_COND = 8,
     LENGTH_INT = 8,
     LENGTH_INT2 = 16,
+    LENGTH_TEXT = 4,
+    LENGTH_SYMBOL = 4,
+    LENGTH_LETTER = 4,
+    LENGTH_BODY = 4,
 };
 
 #define ENGINE_RULE TN_CODE_RULE
 #define ENGINE_CONDITION TN_CODE_CONDITION
+#define ENGINE_MAP TN_CODE_MAP
 
 static const tn_opcode_info infos[TN_OPCODE_COUNT] = {
 #define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC)                                                                   \
