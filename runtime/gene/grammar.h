@@ -25,8 +25,6 @@ typedef enum tn_word_op {
 #define TN_WORD_OP(word) ((tn_word_op)((word) & ((1u << TN_WORD_BITS) - 1u)))
 #define TN_WORD_ARGUMENT(word) ((word) >> TN_WORD_BITS)
 
-#define TN_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */
-
 typedef enum tn_terminal_kind { TN_TERMINAL_PLAIN, TN_TERMINAL_LESS, TN_TERMINAL_GREATER } tn_terminal_kind;
 
 typedef struct tn_terminal {

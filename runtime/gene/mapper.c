@@ -15,7 +15,7 @@ typedef struct frame {
     const uint32_t *ip; /* next word; of a loop: its first */
     uint32_t depth;
     uint32_t rule;      /* that ends when this frame is popped (recording), of a loop: rounds so far */
-    uint32_t ids[TN_LETTERS];
+    uint32_t ids[TN_EDGE_LETTERS];
     uint32_t mark; /* tn_rule_mark of the rule that ends when this frame is popped */
 } frame;
 
@@ -294,7 +294,7 @@ static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32
     const tn_grammar *g = m->grammar;
     const uint32_t opening[2] = {TN_WORD_RULE | start << TN_WORD_BITS, TN_WORD_DONE};
     const uint32_t *ip = opening;
-    uint32_t ids[TN_LETTERS] = {NO_ID, NO_ID, NO_ID};
+    uint32_t ids[TN_EDGE_LETTERS] = {NO_ID, NO_ID, NO_ID};
     uint64_t steps = m->steps_left;
     size_t top = 0;
     depth--; /* that of the production which holds the start symbol */

@@ -347,7 +347,31 @@ static void write_operands(tn_lister *lister, const tn_instruction *instruction)
     case TN_OPERANDS_INT2:
         fprintf(out, " %lld, %lld", (long long)instruction->first, (long long)instruction->second);
         break;
+    case TN_OPERANDS_TEXT:
+        fputc('"', out);
+        write_name(lister, tn_get_u32(operands));
+        fputc('"', out);
+        break;
+    case TN_OPERANDS_SYMBOL:
+        write_name(lister, lister->module->NONTERMINAL_records[tn_get_u32(operands)].name);
+        break;
+    case TN_OPERANDS_LETTER:
+        fprintf(out, "%c", (char)('X' + tn_get_u32(operands)));
+        break;
+    case TN_OPERANDS_BODY:
+        fprintf(out, "%u bytes", tn_get_u32(operands));
+        break;
     }
+}
+
+static void list_instruction(tn_lister *lister, uint32_t *offset)
+{
+    const tn_opcode_info *info = tn_opcode_describe(lister->module->code[*offset]);
+    bool bare = info->operands == TN_OPERANDS_NONE;
+    fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s ", *offset, info->name);
+    write_operands(lister, info, lister->module->code + *offset + 1);
+    fputc('\n', lister->out);
+    *offset += info->length;
 }
 
 static void list_function(tn_lister *lister, uint32_t index)
@@ -371,7 +395,41 @@ static void list_function(tn_lister *lister, uint32_t index)
         write_operands(lister, &instruction);
         fputc('\n', lister->out);
         offset += instruction.length;
+        show_source(lister, tn_module_place(module, offset));
+        list_instruction(lister, &offset);
     }
+}
+
+/* ---- grammars */
+
+static void list_nonterminal(tn_lister *lister, uint32_t index)
+{
+    const tn_module *module = lister->module;
+    const tn_nonterminal_record *rule = &module->NONTERMINAL_records[index];
+    fputc('\n', lister->out);
+    write_name(lister, rule->name);
+    fprintf(lister->out, ", productions %u..%u\n", rule->production_first, rule->production_first + rule->production_count - 1);
+    lister->shown_line = 0;
+    for (uint32_t i = 0; i < rule->production_count && !ferror(lister->out); i++) {
+        const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
+        tn_map_record place = {production->code_begin, production->file, production->begin, production->end};
+        show_source(lister, &place);
+        for (uint32_t offset = production->code_begin; offset < production->code_end;)
+            list_instruction(lister, &offset);
+    }
+}
+
+static void list_grammar(tn_lister *lister, size_t index)
+{
+    static const char *const dialects[] = {"ge", "genr8"}, *const repairs[] = {"genome", "identity", "off"};
+    const tn_grammar_record *grammar = &lister->module->GRAMMAR_records[index];
+    fprintf(lister->out, "\ngrammar %zu  ", index);
+    write_name(lister, grammar->name);
+    fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect], grammar->max_depth,
+            grammar->wraps, repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
+    write_place(lister, grammar->file, grammar->begin, grammar->end);
+    for (uint32_t i = 0; i < grammar->rule_count && !ferror(lister->out); i++)
+        list_nonterminal(lister, grammar->rule_first + i);
 }
 
 static void list_module(tn_lister *lister)
@@ -386,6 +444,8 @@ static void list_module(tn_lister *lister)
         list_library(lister, i);
     for (uint32_t i = 0; i < module->FUNCTION_count && !ferror(lister->out); i++)
         list_function(lister, i);
+    for (size_t i = 0; i < module->GRAMMAR_count && !ferror(lister->out); i++)
+        list_grammar(lister, i);
 }
 
 /* Marks the functions that a function's code names. They are numbered below it. */

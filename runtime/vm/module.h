@@ -65,6 +65,7 @@ typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_COUNT } tn
 /* What becomes of edge types that a genr8 sentence leaves without a rule. */
 typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN_REPAIR_COUNT } tn_repair;
 
+#define TN_EDGE_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */
 #define TN_GROUP_DEPTH 64u /* how deep { } and [ ] may nest in a production */
 
 /* Flags of grammars. */

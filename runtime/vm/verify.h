@@ -12,6 +12,9 @@
  * passes stack_max, which never passes the limit rules, libraries and clauses name functions of the right kind and
  * schema places    lie in their source's text; the map ascends and names instructions
  *
+ *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that ends
+ *             with its one DONE, whose bodies nest, and whose operands are the grammar's own
+ *
  * Time and memory are linear in the module's size but for sorting the names.
  */
 #ifndef TARTAN_VM_VERIFY_H
@@ -25,5 +28,9 @@ tn_status tn_module_verify(const tn_module *module, const tn_module_limits *limi
 /* Its parts. Code relies on the tables having been verified before. */
 tn_status tn_verify_tables(const tn_module *module, const tn_module_limits *limits, tn_error *error);
 tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error);
+
+/* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved past
+ * them. A part of verifying the code. */
+tn_status tn_verify_grammars(const tn_module *module, uint32_t *offset, size_t *map, tn_error *error);
 
 #endif

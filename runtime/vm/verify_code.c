@@ -102,6 +102,11 @@ static tn_status check_operands(const tn_checker *checker, tn_opcode opcode, con
         return status == TN_OK ? check_condition(checker, tn_get_u32(operands + 4)) : status;
     case TN_OPERANDS_INT2:
         return check_numbers(checker, opcode, tn_get_i64(operands), tn_get_i64(operands + 8));
+    case TN_OPERANDS_TEXT:
+    case TN_OPERANDS_SYMBOL:
+    case TN_OPERANDS_LETTER:
+    case TN_OPERANDS_BODY:
+        break; /* of productions, which tn_verify_grammars checks */
     }
     return refuse(checker, "an unknown kind of operands");
 }
@@ -197,8 +202,11 @@ tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits
         if (status != TN_OK)
             return status;
     }
+    tn_status status = tn_verify_grammars(module, &checker.offset, &checker.map, error);
+    if (status != TN_OK)
+        return status;
     if (checker.offset != module->code_size)
-        return refuse(&checker, "code that belongs to no function");
+        return refuse(&checker, "code that belongs to no function or production");
     if (checker.map != module->MAP_count)
         return refuse(&checker, "the source map names places past the code");
     return TN_OK;

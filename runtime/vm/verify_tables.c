@@ -145,6 +145,9 @@ static tn_status check_places(const tn_checker *checker)
     CHECK_PLACES(LIBRARY)
     CHECK_PLACES(CLAUSE)
     CHECK_PLACES(MAP)
+    CHECK_PLACES(GRAMMAR)
+    CHECK_PLACES(NONTERMINAL)
+    CHECK_PLACES(PRODUCTION)
 #undef CHECK_PLACES
     return TN_OK;
 }
