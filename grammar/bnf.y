@@ -13,6 +13,8 @@
 #include "compiler/bnf_ast.h"
 }
 %code {
+#include "bnf_lexer.h"
+
 int tn_bnf_lex(TN_BNF_STYPE *value, tn_span *span, void *scanner);
 
 static void tn_bnf_error(tn_span *span, struct tn_bnf_reader *reader, void *scanner, const char *message)
@@ -92,4 +94,18 @@ static int yyreport_syntax_error(const yypcontext_t *context, struct tn_bnf_read
     (void)scanner;
     tn_bnf_unexpected(reader, *yypcontext_location(context), yysymbol_name(yypcontext_token(context)));
     return 0;
+}
+
+void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size)
+{
+    void *scanner;
+    if (tn_bnf_lex_init_extra(reader, &scanner) != 0) {
+        reader->failed = true;
+        return;
+    }
+    if (tn_bnf__scan_buffer(text, size + 2, scanner))
+        tn_bnf_parse(reader, scanner);
+    else
+        reader->failed = true;
+    tn_bnf_lex_destroy(scanner);
 }

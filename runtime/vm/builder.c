@@ -212,9 +212,9 @@ uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, i
 /* ---- the file */
 
 static const size_t stored_sizes[TN_SECTION_COUNT] = {
-    1,
-    1,
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) TN_STORED_##NAME,
+    [TN_SECTION_STRINGS] = 1,
+    [TN_SECTION_CODE] = 1,
+#define SECTION(NAME, NUMBER, TYPE, FIELDS) [NUMBER] = TN_STORED_##NAME,
 #include "runtime/vm/records.def"
 #undef SECTION
 };
