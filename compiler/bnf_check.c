@@ -200,7 +200,7 @@ static void check_reached(tn_bnf_grammar *g)
         const tn_bnf_rule *rule = g->rules[r];
         bool repairs = g->reader->ast.dialect == TN_DIALECT_GENR8 && g->reader->ast.repair != TN_REPAIR_OFF &&
                        same(rule->name, (tn_bnf_text){"<Successor>", 11});
-        if (!reached[r] && !repairs)
+        if (!reached[r] && !repairs && tn_bnf_find(g, rule->name) == r)
             tn_report(g->reader->diagnostics, W_GRAMMAR_UNREACHABLE, rule->name_span,
                       "%.*s cannot be reached from the start symbol %.*s", (int)rule->name.length, rule->name.text,
                       (int)g->rules[0]->name.length, g->rules[0]->name.text);

@@ -225,7 +225,7 @@ static tn_bnf_item *range_item(tn_bnf_reader *reader, tn_span span, uint32_t val
 }
 
 /* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false where this is none. */
-static bool expand_range(tn_bnf_reader *reader, const tn_bnf_alternative *from, tn_bnf_alternatives *kept)
+static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_alternative *from, tn_bnf_alternatives *kept)
 {
     static const char word[] = "GE_RANGE:";
     size_t length = sizeof word - 1, count;
@@ -235,6 +235,7 @@ static bool expand_range(tn_bnf_reader *reader, const tn_bnf_alternative *from, 
     tn_span span = {item->span.file, item->span.begin, item->span.begin + (uint32_t)item->text.length};
     uint32_t top = read_digits(item->text.text + length, item->text.length - length, 9, 10, &count);
     bool word_goes_on = length + count < item->text.length && !is_space(item->text.text[length + count]);
+    rule->broken |= count == 0 || word_goes_on || top > TN_BNF_PRODUCTIONS_MAX;
     if (count == 0 || word_goes_on) {
         tn_diagnostic *diagnostic =
             tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE wants a whole number of up to nine digits");
@@ -315,7 +316,7 @@ static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
             trim_begin(&a->items);
             trim_end(&a->items);
         }
-        if (!genr8 && expand_range(reader, a, &kept))
+        if (!genr8 && expand_range(reader, rule, a, &kept))
             continue;
         if (!a->items.first) {
             if (a->beside_comment || rule->alternatives.count == 1)

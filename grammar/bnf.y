@@ -58,6 +58,7 @@ prelude: %empty
 
 rules: %empty
     | rules rule
+    | rules error
     ;
 
 rule: HEAD alternatives             { tn_bnf_rule_new(reader, @1, $1, @2, $2); }
