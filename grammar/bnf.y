@@ -58,11 +58,17 @@ prelude: %empty
 
 rules: %empty
     | rules rule
-    | rules error
     ;
 
 rule: HEAD alternatives             { tn_bnf_rule_new(reader, @1, $1, @2, $2); }
-    | HEAD error                    { tn_bnf_rule_broken(reader, @1, $1); }
+    | HEAD broken                   { tn_bnf_rule_broken(reader, @1, $1); }
+    ;
+
+broken: error
+    | broken skipped
+    ;
+
+skipped: NAME | TEXT | QUOTED | NEWLINE | QUOTE | EDGE | EDGE_SAME | BAR | COMMENT | REPEAT | REPEAT_END | MAYBE | MAYBE_END
     ;
 
 alternatives: alternative           { $$ = tn_bnf_first(reader, $1); }

@@ -59,7 +59,7 @@ static void test_diagnostics(void **state)
     says("%dialect genr8\n%repair off\n<a> ::= x }\n", "E1011 ");
     says("%dialect genr8\n%repair off\n<a> ::= { x ]\n", "E1011 ");
     says("%dialect genr8\n%repair off\n<a> ::= { x | y }\n<b> ::= z", "E1011 W151 ");
-    says("%dialect genr8\n%repair off\n<a> ::= {x }\n", "E1011 ");
+    says("%dialect genr8\n%repair off\n<a> ::= {x }\n", "E1010 E1011 ");
     says("%dialect genr8\n%repair off\n<a> ::= x{ y\n", "E1010 ");
     says("%dialect genr8\n%repair off\n<a> ::= <b>+\n<b> ::= x\n", "E1010 W151 ");
     says("%dialect genr8\n%repair off\n<a> ::= 'x y'\n", "E1010 ");
