@@ -69,6 +69,11 @@ typedef struct tn_settings {
 
     tn_option_number columns, scale, dpi, max_plans;
     const char *paper, *title;
+
+    /* genomes */
+    const char *genome, *genomes, *tree, *invert;
+    tn_option_number random, codons, wraps, max_depth, max_steps, max_items;
+    bool trace;
 } tn_settings;
 
 typedef struct tn_command {

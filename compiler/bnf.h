@@ -5,11 +5,15 @@
 #define TARTAN_COMPILER_BNF_H
 
 #include "compiler/arena.h"
-#include "compiler/diagnostic.h"
+#include "compiler/compile.h"
 #include "runtime/vm/builder.h"
 
 /* TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
 tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena, tn_builder *builder,
                          tn_error *error);
+
+/* A whole compilation of a .bnf text, as tn_compile_text does it for files of that extension. */
+tn_status tn_bnf_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options,
+                              tn_compilation *compilation);
 
 #endif

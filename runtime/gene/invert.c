@@ -100,7 +100,8 @@ static tn_status not_derivable(const tn_chart *c, tn_error *error)
         size_t used = strlen(expected);
         if (used + 40 > sizeof expected)
             break;
-        memcpy(expected + used, ", ", i ? 3 : 1);
+        if (i)
+            memcpy(expected + used, ", ", 3);
         name_word(c->grammar, c->expected[i], expected + strlen(expected), sizeof expected - strlen(expected));
     }
     if (past)

@@ -221,9 +221,10 @@ static inline outcome draw_edge(tn_mapper *m, uint32_t *id, bool recorded, uint3
         return NO_CODON;
     uint64_t modulus = (uint64_t)m->max_id + !m->frozen;
     *id = (uint32_t)(codon % modulus);
-    m->max_id += *id == m->max_id;
-    if (recorded && !record(m, (tn_event){.kind = TN_EVENT_EDGE, .letter = letter, .depth = depth, .read = m->used - 1,
-                                          .codon = codon, .modulus = modulus, .value = *id, .text_begin = m->text.size}))
+    bool is_new = *id == m->max_id;
+    m->max_id += is_new;
+    if (recorded && !record(m, (tn_event){.kind = TN_EVENT_EDGE, .letter = letter, .depth = depth, .symbol = is_new,
+                                          .read = m->used - 1, .codon = codon, .modulus = modulus, .value = *id, .text_begin = m->text.size}))
         return NO_MEMORY;
     return RAN;
 }

@@ -57,7 +57,7 @@ typedef struct tn_event {
     uint8_t kind;      /* tn_event_kind */
     char letter;       /* EDGE: 'X', 'Y' or 'Z' for a variable, else 0 */
     uint32_t depth;    /* of the non-terminal; of the production that the step belongs to elsewhere */
-    uint32_t symbol;   /* EXPAND, END: rule; TERMINAL: terminal; AGAIN, STOP: rounds so far */
+    uint32_t symbol;   /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
     uint32_t production; /* EXPAND */
     uint64_t read;     /* how many codons were read before this step's own; TN_NO_READ where it reads none */
     uint64_t codon;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/vm/utf8.h"
+
 void tn_tree_clear(tn_tree *tree)
 {
     free(tree->nodes);
@@ -115,23 +117,6 @@ void tn_production_write(const tn_grammar *g, uint32_t production, FILE *out)
     }
 }
 
-void tn_gene_write_json(FILE *out, const char *text, size_t size)
-{
-    fputc('"', out);
-    for (size_t i = 0; i < size; i++) {
-        unsigned char c = (unsigned char)text[i];
-        if (c == '"' || c == '\\')
-            fprintf(out, "\\%c", c);
-        else if (c == '\n')
-            fputs("\\n", out);
-        else if (c < 0x20 || c == 0x7F)
-            fprintf(out, "\\u%04x", c);
-        else
-            fputc(c, out);
-    }
-    fputc('"', out);
-}
-
 /* ---- the table */
 
 static void write_choice(const tn_grammar *g, const tn_event *event, FILE *out)
@@ -146,8 +131,8 @@ static void write_choice(const tn_grammar *g, const tn_event *event, FILE *out)
             fprintf(out, "Edge%c is Edge%" PRIu64, event->letter, event->value);
         else
             fprintf(out, "Edge is Edge%" PRIu64, event->value);
-        if (event->value + 1 == event->modulus)
-            fputs(event->letter ? ", the last type" : ", the last type", out);
+        if (event->symbol)
+            fputs(", a new type", out);
         break;
     case TN_EVENT_AGAIN:
         fprintf(out, "{ } once more, %" PRIu64 " > %u", event->value, event->symbol);
@@ -273,19 +258,15 @@ static void enter_json(void *context, uint32_t node, uint32_t depth)
     (void)depth;
     fputc('{', w->out);
     switch ((tn_event_kind)event->kind) {
-    case TN_EVENT_EXPAND: {
-        const char *name = tn_rule_name(w->grammar, event->symbol);
+    case TN_EVENT_EXPAND:
         fputs("\"symbol\":", w->out);
-        tn_gene_write_json(w->out, name, strlen(name));
+        tn_write_json(w->out, tn_rule_name(w->grammar, event->symbol));
         fprintf(w->out, ",\"depth\":%u", event->depth);
         break;
-    }
-    case TN_EVENT_TERMINAL: {
-        const tn_terminal *terminal = &w->grammar->terminals[event->symbol];
+    case TN_EVENT_TERMINAL:
         fputs("\"terminal\":", w->out);
-        tn_gene_write_json(w->out, w->grammar->texts + terminal->offset, terminal->length);
+        tn_write_json(w->out, w->grammar->texts + w->grammar->terminals[event->symbol].offset);
         break;
-    }
     case TN_EVENT_EDGE:
         fprintf(w->out, "\"edge\":%" PRIu64, event->value);
         if (event->letter)

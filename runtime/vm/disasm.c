@@ -427,7 +427,7 @@ static void list_grammar(tn_lister *lister, size_t index)
     write_name(lister, grammar->name);
     fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect], grammar->max_depth,
             grammar->wraps, repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
-    write_place(lister, grammar->file, grammar->begin, grammar->end);
+    write_place(lister, grammar->file, grammar->begin);
     for (uint32_t i = 0; i < grammar->rule_count && !ferror(lister->out); i++)
         list_nonterminal(lister, grammar->rule_first + i);
 }
