@@ -197,10 +197,7 @@ static void write_node(const tn_grammar *g, const tn_event *event, FILE *out)
     fputc('\n', out);
 }
 
-/* Calls for each node on the way down and, where `leave` is given, for each on the way up; without recursion, since a
- * derivation may be as deep as it is long. */
-static void walk(const tn_tree *tree, void (*enter)(void *context, uint32_t node, uint32_t depth),
-                 void (*leave)(void *context, uint32_t node, uint32_t depth), void *context)
+void tn_tree_walk(const tn_tree *tree, tn_tree_visit *enter, tn_tree_visit *leave, void *context)
 {
     uint32_t node = tree->count ? 0 : TN_TREE_NONE, depth = 0;
     while (node != TN_TREE_NONE) {
@@ -245,7 +242,7 @@ static void enter_text(void *context, uint32_t node, uint32_t depth)
 bool tn_tree_write_text(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, FILE *out)
 {
     writer w = {grammar, events, tree, out};
-    walk(tree, enter_text, NULL, &w);
+    tn_tree_walk(tree, enter_text, NULL, &w);
     return !ferror(out);
 }
 
@@ -300,7 +297,7 @@ bool tn_tree_write_json(const tn_grammar *grammar, const tn_event *events, const
 {
     writer w = {grammar, events, tree, out};
     fputc('[', out);
-    walk(tree, enter_json, leave_json, &w);
+    tn_tree_walk(tree, enter_json, leave_json, &w);
     fputc(']', out);
     return !ferror(out);
 }

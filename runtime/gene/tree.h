@@ -28,6 +28,11 @@ typedef struct tn_tree {
 tn_status tn_tree_make(const tn_event *events, size_t count, tn_tree *tree, tn_error *error);
 void tn_tree_clear(tn_tree *tree);
 
+/* Calls for each node on the way down and, where `leave` is given, for each on the way up; without recursion, since a
+ * derivation may be as deep as it is long. */
+typedef void tn_tree_visit(void *context, uint32_t node, uint32_t depth);
+void tn_tree_walk(const tn_tree *tree, tn_tree_visit *enter, tn_tree_visit *leave, void *context);
+
 /* One line a codon: its number, the codon, what read it, and what it chose. false where writing failed. */
 bool tn_trace_write(const tn_grammar *grammar, const tn_event *events, size_t count, FILE *out);
 

@@ -21,7 +21,9 @@ typedef struct drawing {
     const tn_event *events;
     const tn_tree *tree;
     cairo_t *context;
-    double *x, *half; /* by node: centre, and half of its label's width */
+    double *x, *half, *left; /* by node: centre, half of its label's width, where its room begins */
+    double right;            /* where the room of what is placed so far ends */
+    uint32_t last;           /* the node entered last */
     uint32_t *depth;  /* by node; UINT32_MAX where it is not drawn */
     double width;
     uint32_t deepest;
@@ -51,45 +53,69 @@ static bool drawn(const drawing *d, uint32_t node)
     return kind == TN_EVENT_EXPAND || kind == TN_EVENT_TERMINAL || kind == TN_EVENT_EDGE || kind == TN_EVENT_REPAIR;
 }
 
-/* Leaves lie side by side; a parent is centred over its children. Nodes are in the order of the sentence, parents first. */
+static double text_width(cairo_t *context, double size, const char *text)
+{
+    tn_type_face(context, size, true);
+    double width = tn_type_width(context, text);
+    return width < LABEL_MAX ? width : LABEL_MAX;
+}
+
+static void codon_text(const tn_event *event, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (event->read != TN_NO_READ)
+        snprintf(text, size, "%" PRIu64 " mod %" PRIu64 " = %" PRIu64, event->codon, event->modulus, event->value);
+}
+
+/* Leaves lie side by side; a parent is centred over its children, which are moved to the right where its own label wants more
+ * room than they take. */
+static void enter(void *context, uint32_t node, uint32_t depth)
+{
+    drawing *d = context;
+    d->last = node;
+    d->depth[node] = depth;
+    d->left[node] = d->right;
+    if (!drawn(d, node))
+        return;
+    char text[96];
+    label(d, node, text, sizeof text);
+    double width = text_width(d->context, LETTERING, text);
+    codon_text(&d->events[d->tree->nodes[node].event], text, sizeof text);
+    double below = text_width(d->context, CODON_LETTERING, text);
+    d->half[node] = (width > below ? width : below) / 2;
+    d->deepest = depth > d->deepest ? depth : d->deepest;
+}
+
+static void leave(void *context, uint32_t node, uint32_t depth)
+{
+    drawing *d = context;
+    const tn_tree *tree = d->tree;
+    double low = 0, high = 0;
+    bool any = false;
+    (void)depth;
+    if (!drawn(d, node))
+        return;
+    for (uint32_t c = tree->nodes[node].first_child; c != TN_TREE_NONE; c = tree->nodes[c].next) {
+        if (!drawn(d, c))
+            continue;
+        low = any ? low : d->x[c];
+        high = d->x[c];
+        any = true;
+    }
+    double shift = any ? d->left[node] + d->half[node] - (low + high) / 2 : 0;
+    d->x[node] = any ? (low + high) / 2 : d->left[node] + d->half[node];
+    for (uint32_t i = node; shift > 0 && i <= d->last; i++)
+        d->x[i] += shift;
+    double edge = d->x[node] + d->half[node] + GAP;
+    d->right = shift > 0 ? d->right + shift : d->right;
+    d->right = edge > d->right ? edge : d->right;
+}
+
 static void place(drawing *d)
 {
-    const tn_tree *tree = d->tree;
-    double right = MARGIN;
-    for (uint32_t i = 0; i < tree->count; i++) {
-        const tn_tree_node *n = &tree->nodes[i];
-        d->depth[i] = n->parent == TN_TREE_NONE ? 0 : d->depth[n->parent] + 1;
-        if (!drawn(d, i))
-            continue;
-        char text[64];
-        label(d, i, text, sizeof text);
-        double width = tn_type_width(d->context, text);
-        d->half[i] = (width < LABEL_MAX ? width : LABEL_MAX) / 2;
-        d->deepest = d->depth[i] > d->deepest ? d->depth[i] : d->deepest;
-        bool leaf = true;
-        for (uint32_t c = n->first_child; c != TN_TREE_NONE && leaf; c = tree->nodes[c].next)
-            leaf = !drawn(d, c);
-        if (leaf) {
-            d->x[i] = right + d->half[i];
-            right = d->x[i] + d->half[i] + GAP;
-        }
-    }
-    for (uint32_t i = (uint32_t)tree->count; i-- > 0;) {
-        double low = 0, high = 0;
-        bool any = false;
-        for (uint32_t c = tree->nodes[i].first_child; c != TN_TREE_NONE; c = tree->nodes[c].next) {
-            if (!drawn(d, c))
-                continue;
-            low = any ? low : d->x[c];
-            high = d->x[c];
-            any = true;
-        }
-        if (any)
-            d->x[i] = (low + high) / 2;
-    }
-    for (uint32_t i = 0; i < tree->count; i++)
-        if (drawn(d, i) && d->x[i] + d->half[i] + MARGIN > d->width)
-            d->width = d->x[i] + d->half[i] + MARGIN;
+    d->right = MARGIN;
+    tn_tree_walk(d->tree, enter, leave, d);
+    d->width = d->right - GAP + MARGIN;
 }
 
 static double baseline(const drawing *d, uint32_t node)
@@ -101,7 +127,7 @@ static void draw_node(const drawing *d, uint32_t node)
 {
     const tn_tree_node *n = &d->tree->nodes[node];
     const tn_event *event = &d->events[n->event];
-    char text[64];
+    char text[96];
     label(d, node, text, sizeof text);
     if (n->parent != TN_TREE_NONE) {
         cairo_set_source_rgb(d->context, 0.6, 0.6, 0.6);
@@ -116,7 +142,7 @@ static void draw_node(const drawing *d, uint32_t node)
     tn_type_fit(d->context, d->x[node], baseline(d, node), TN_ALIGN_CENTRE, LABEL_MAX, text);
     if (event->read == TN_NO_READ)
         return;
-    snprintf(text, sizeof text, "%" PRIu64 " mod %" PRIu64 " = %" PRIu64, event->codon, event->modulus, event->value);
+    codon_text(event, text, sizeof text);
     cairo_set_source_rgb(d->context, 0.45, 0.45, 0.45);
     tn_type_face(d->context, CODON_LETTERING, false);
     tn_type_line(d->context, d->x[node], baseline(d, node) + 7.5, TN_ALIGN_CENTRE, text);
@@ -127,7 +153,6 @@ static tn_status lay_out(drawing *d, tn_error *error)
 {
     cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     d->context = cairo_create(scratch);
-    tn_type_face(d->context, LETTERING, true);
     bool well = cairo_status(d->context) == CAIRO_STATUS_SUCCESS;
     if (well)
         place(d);
@@ -169,10 +194,12 @@ tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const 
     drawing d = {.grammar = grammar, .events = events, .tree = tree};
     d.x = calloc(tree->count + 1, sizeof *d.x);
     d.half = calloc(tree->count + 1, sizeof *d.half);
+    d.left = calloc(tree->count + 1, sizeof *d.left);
     d.depth = calloc(tree->count + 1, sizeof *d.depth);
-    tn_status status = d.x && d.half && d.depth ? draw(&d, path, error) : tn_fail_memory(error);
+    tn_status status = d.x && d.half && d.left && d.depth ? draw(&d, path, error) : tn_fail_memory(error);
     free(d.x);
     free(d.half);
+    free(d.left);
     free(d.depth);
     return status;
 }
