@@ -1,4 +1,5 @@
 /* A .bnf text as a module of its own. */
+#include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -19,33 +20,26 @@ static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn
     return tn_builder_finish(builder, &c->module, &c->module_size, error);
 }
 
-static tn_status compile(const char *path, const char *text, size_t size, tn_compilation *c, tn_error *error)
+bool tn_is_bnf(const char *path)
 {
-    uint32_t file;
-    c->arena = tn_arena_new();
-    tn_builder *builder = tn_builder_new();
-    tn_status status = c->arena && builder ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_sources_add(&c->sources, path, text, size, &file, error);
-    if (status == TN_OK && !tn_is_utf8(text, size)) {
-        tn_report(&c->diagnostics, E_INVALID_UTF8, (tn_span){file, 0, 0}, "the file is not UTF-8 text");
-        status = TN_INVALID;
-    } else if (status == TN_OK) {
-        status = build(c, file, builder, error);
-    }
-    tn_builder_free(builder);
-    return status;
+    size_t length = strlen(path);
+    return length > 4 && strcmp(path + length - 4, ".bnf") == 0;
 }
 
-tn_status tn_bnf_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options,
-                              tn_compilation *compilation)
+tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilation *compilation, tn_error *error)
 {
-    tn_error error = {0};
-    *compilation = (tn_compilation){0};
-    tn_diagnostics_init(&compilation->diagnostics, &compilation->sources);
-    tn_status status = compile(path, text, size, compilation, &error);
-    if (status != TN_OK && compilation->diagnostics.error_count == 0)
-        tn_report_error(&compilation->diagnostics, &error, path, NULL, 0);
-    bool refused = options->warnings_are_errors && compilation->diagnostics.warning_count;
-    return status == TN_OK && refused ? TN_INVALID : status;
+    const tn_source *source = &compilation->sources.files[0];
+    if (!tn_is_utf8(source->text, source->size)) {
+        tn_report(&compilation->diagnostics, E_INVALID_UTF8, (tn_span){0, 0, 0}, "the file is not UTF-8 text");
+        return TN_INVALID;
+    }
+    tn_builder *builder = tn_builder_new();
+    tn_status status = builder ? build(compilation, 0, builder, error) : tn_fail_memory(error);
+    tn_builder_free(builder);
+    if (status == TN_OK && options->warnings_are_errors && compilation->diagnostics.warning_count > 0) {
+        free(compilation->module);
+        compilation->module = NULL;
+        return TN_INVALID;
+    }
+    return status;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/bnf.h"
 #include "compiler/emit.h"
 #include "runtime/vm/file.h"
 
@@ -36,6 +37,8 @@ static tn_status compile(const tn_compile_options *options, tn_compilation *comp
     tn_imports imports;
     tn_checked checked;
     tn_diagnostics *diagnostics = &compilation->diagnostics;
+    if (tn_is_bnf(compilation->sources.files[0].path))
+        return tn_bnf_compile_module(options, compilation, error);
     tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
                                      ".plan", parse_plan, 0, &imports);
     if (status == TN_OK)

@@ -52,11 +52,11 @@ static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
     case TN_OPERANDS_SPEC:
     case TN_OPERANDS_FUNC:
     case TN_OPERANDS_COND:
-        instruction.first = tn_get_u32(bytes + 1);
     case TN_OPERANDS_TEXT:
     case TN_OPERANDS_SYMBOL:
     case TN_OPERANDS_LETTER:
     case TN_OPERANDS_BODY:
+        instruction.first = tn_get_u32(bytes + 1);
         instruction.length = 5;
         break;
     case TN_OPERANDS_FIELD_COND:

@@ -348,30 +348,21 @@ static void write_operands(tn_lister *lister, const tn_instruction *instruction)
         fprintf(out, " %lld, %lld", (long long)instruction->first, (long long)instruction->second);
         break;
     case TN_OPERANDS_TEXT:
-        fputc('"', out);
-        write_name(lister, tn_get_u32(operands));
+        fputs(" \"", out);
+        write_name(lister, index);
         fputc('"', out);
         break;
     case TN_OPERANDS_SYMBOL:
-        write_name(lister, lister->module->NONTERMINAL_records[tn_get_u32(operands)].name);
+        fputc(' ', out);
+        write_name(lister, lister->module->NONTERMINAL_records[index].name);
         break;
     case TN_OPERANDS_LETTER:
-        fprintf(out, "%c", (char)('X' + tn_get_u32(operands)));
+        fprintf(out, " %c", (char)('X' + index));
         break;
     case TN_OPERANDS_BODY:
-        fprintf(out, "%u bytes", tn_get_u32(operands));
+        fprintf(out, " %u bytes", index);
         break;
     }
-}
-
-static void list_instruction(tn_lister *lister, uint32_t *offset)
-{
-    const tn_opcode_info *info = tn_opcode_describe(lister->module->code[*offset]);
-    bool bare = info->operands == TN_OPERANDS_NONE;
-    fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s ", *offset, info->name);
-    write_operands(lister, info, lister->module->code + *offset + 1);
-    fputc('\n', lister->out);
-    *offset += info->length;
 }
 
 static void list_function(tn_lister *lister, uint32_t index)
@@ -395,8 +386,6 @@ static void list_function(tn_lister *lister, uint32_t index)
         write_operands(lister, &instruction);
         fputc('\n', lister->out);
         offset += instruction.length;
-        show_source(lister, tn_module_place(module, offset));
-        list_instruction(lister, &offset);
     }
 }
 
@@ -414,8 +403,15 @@ static void list_nonterminal(tn_lister *lister, uint32_t index)
         const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
         tn_map_record place = {production->code_begin, production->file, production->begin, production->end};
         show_source(lister, &place);
-        for (uint32_t offset = production->code_begin; offset < production->code_end;)
-            list_instruction(lister, &offset);
+        for (uint32_t offset = production->code_begin; offset < production->code_end;) {
+            tn_instruction instruction = tn_code_read(module->code, offset);
+            bool bare = tn_code_operands((uint8_t)instruction.opcode) == TN_OPERANDS_NONE;
+            fprintf(lister->out, bare ? "  %6u  %s" : "  %6u  %-11s", offset,
+                    tn_opcode_describe((uint8_t)instruction.opcode)->name);
+            write_operands(lister, &instruction);
+            fputc('\n', lister->out);
+            offset += instruction.length;
+        }
     }
 }
 
