@@ -1,13 +1,13 @@
 #include "runtime/gene/evolve.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "runtime/gene/score_cache.h"
+#include "runtime/vm/crew.h"
 
 const char *const tn_initialisation_names[TN_INITIALISE_COUNT] = {"random", "ramped", "grow", "pi-grow"};
 const char *const tn_replacement_names[TN_REPLACE_COUNT] = {"generational", "steady-state"};
@@ -18,6 +18,7 @@ struct tn_evolution {
     tn_evolution_settings settings;
     tn_evaluator evaluator;
     unsigned threads;
+    tn_crew *crew;
     tn_breeder **breeders; /* by thread */
     tn_individual *all;    /* twice the population */
     tn_individual **members, **born, **pool;
@@ -63,7 +64,8 @@ static bool allocate(tn_evolution *e)
     e->scratch = calloc(6 * n, sizeof *e->scratch);
     e->todo = calloc(n, sizeof *e->todo);
     e->breeders = calloc(e->threads, sizeof *e->breeders);
-    if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->breeders)
+    e->crew = tn_crew_new(e->threads);
+    if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->breeders || !e->crew)
         return false;
     for (unsigned t = 0; t < e->threads; t++)
         if (!(e->breeders[t] = tn_breeder_new(e->grammar, &e->analysis, &e->settings.mapping)))
@@ -86,7 +88,7 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
     e->grammar = grammar;
     e->settings = *settings;
     e->evaluator = *evaluator;
-    e->threads = settings->threads ? settings->threads : (unsigned)omp_get_max_threads();
+    e->threads = settings->threads ? settings->threads : tn_crew_default();
     if (e->settings.elites > settings->population)
         e->settings.elites = settings->population;
     tn_status status = tn_analyse(grammar, &e->analysis, error);
@@ -110,6 +112,7 @@ void tn_evolution_free(tn_evolution *e)
     }
     for (unsigned t = 0; e->breeders && t < e->threads; t++)
         tn_breeder_free(e->breeders[t]);
+    tn_crew_free(e->crew);
     tn_analysis_clear(&e->analysis);
     tn_score_cache_clear(&e->cache);
     free(e->all);
@@ -240,9 +243,19 @@ static tn_status list_unknown(tn_evolution *e, tn_individual **individuals, size
     return TN_OK;
 }
 
+typedef struct scoring {
+    tn_evolution *evolution;
+    tn_individual **individuals;
+} scoring;
+
+static tn_status score_item(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    const scoring *s = context;
+    return evaluate(s->evolution, thread, s->individuals[s->evolution->todo[item]], error);
+}
+
 static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
 {
-    tn_status result = TN_OK;
     bool recalled = e->recall != NULL;
     for (size_t i = 0; i < todo && recalled; i++) {
         tn_individual *individual = individuals[e->todo[i]];
@@ -250,23 +263,9 @@ static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t 
         if (recalled)
             tidy_score(e, &individual->score);
     }
-    if (!recalled) {
-#pragma omp parallel for schedule(dynamic, 4) num_threads(e->threads)
-        for (size_t i = 0; i < todo; i++) {
-            tn_error own;
-            tn_status status = evaluate(e, (unsigned)omp_get_thread_num(), individuals[e->todo[i]], &own);
-            if (status != TN_OK) {
-#pragma omp critical(tn_evolve_failed)
-                if (result == TN_OK) {
-                    result = status;
-                    if (error)
-                        *error = own;
-                }
-            }
-        }
-    }
     e->evaluations += todo;
-    return result;
+    scoring s = {e, individuals};
+    return recalled ? TN_OK : tn_crew_run(e->crew, todo, 4, score_item, &s, error);
 }
 
 /* Gives scores to individuals that are mapped. */
@@ -417,25 +416,21 @@ static tn_status make(tn_evolution *e, unsigned thread, bool first, size_t pair,
     return status;
 }
 
+static tn_status first_item(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    return make(context, thread, true, item, error);
+}
+
+static tn_status next_item(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    return make(context, thread, false, item, error);
+}
+
 /* Makes and maps all to be born, in pairs, by all threads. */
 static tn_status make_all(tn_evolution *e, bool first, tn_error *error)
 {
-    tn_status result = TN_OK;
-#pragma omp parallel for schedule(dynamic, 8) num_threads(e->threads)
-    for (size_t pair = 0; pair < (e->born_count + 1) / 2; pair++) {
-        tn_error own;
-        tn_status status = make(e, (unsigned)omp_get_thread_num(), first, pair, &own);
-        if (status != TN_OK) {
-#pragma omp critical(tn_evolve_failed)
-            if (result == TN_OK) {
-                result = status;
-                if (error)
-                    *error = own;
-            }
-        }
-    }
     e->births += e->born_count;
-    return result;
+    return tn_crew_run(e->crew, (e->born_count + 1) / 2, 8, first ? first_item : next_item, e, error);
 }
 
 /* ---- generations */

@@ -1,6 +1,5 @@
 #include "runtime/gene/expression.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +7,7 @@ void tn_expression_clear(tn_expression *expression)
 {
     free(expression->steps);
     free(expression->stack);
+    free(expression->operands);
     *expression = (tn_expression){0};
 }
 
@@ -212,106 +212,111 @@ tn_status tn_expression_parse(const char *text, size_t size, const char *const *
     return r.status;
 }
 
-/* ---- evaluating: row by row, each operation over a whole row, which compilers turn into vector code; the results do not depend
- * on how */
+/* ---- evaluating: row by row, each operation over a whole row. Rows have one length, so that compilers turn the loops into vector
+ * code, also for wider vectors than the oldest processors have, where there are: every element is one IEEE operation by itself, so
+ * that the results are the same with any. */
 
 #define ROW TN_EXPRESSION_ROW
+#define EACH for (size_t i = 0; i < ROW; i++)
 
-static void step_two(tn_expression_op op, double *restrict a, const double *restrict b, size_t n)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define ANY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default"), optimize("O3")))
+#else
+#define ANY_WIDTH
+#endif
+
+ANY_WIDTH static void compute(tn_expression_op op, const double *a, const double *b, double *restrict out)
 {
     switch (op) {
     case TN_EXPRESSION_ADD:
-        for (size_t i = 0; i < n; i++)
-            a[i] += b[i];
+        EACH out[i] = a[i] + b[i];
         break;
     case TN_EXPRESSION_SUBTRACT:
-        for (size_t i = 0; i < n; i++)
-            a[i] -= b[i];
+        EACH out[i] = a[i] - b[i];
         break;
     case TN_EXPRESSION_MULTIPLY:
-        for (size_t i = 0; i < n; i++)
-            a[i] *= b[i];
+        EACH out[i] = a[i] * b[i];
         break;
     case TN_EXPRESSION_DIVIDE:
-        for (size_t i = 0; i < n; i++) {
+        EACH
+        {
             double quotient = a[i] / b[i];
-            a[i] = b[i] == 0 ? 1 : quotient;
+            out[i] = b[i] == 0 ? 1 : quotient;
         }
         break;
     case TN_EXPRESSION_MIN:
-        for (size_t i = 0; i < n; i++)
-            a[i] = a[i] < b[i] ? a[i] : b[i];
+        EACH out[i] = a[i] < b[i] ? a[i] : b[i];
         break;
-    default:
-        for (size_t i = 0; i < n; i++)
-            a[i] = a[i] > b[i] ? a[i] : b[i];
+    case TN_EXPRESSION_MAX:
+        EACH out[i] = a[i] > b[i] ? a[i] : b[i];
         break;
-    }
-}
-
-static void step_one(tn_expression_op op, double *a, size_t n)
-{
-    switch (op) {
     case TN_EXPRESSION_NEGATE:
-        for (size_t i = 0; i < n; i++)
-            a[i] = -a[i];
+        EACH out[i] = -a[i];
         break;
     case TN_EXPRESSION_SQRT:
-        for (size_t i = 0; i < n; i++)
-            a[i] = sqrt(fabs(a[i]));
+        EACH out[i] = __builtin_sqrt(__builtin_fabs(a[i]));
         break;
     case TN_EXPRESSION_ABS:
-        for (size_t i = 0; i < n; i++)
-            a[i] = fabs(a[i]);
+        EACH out[i] = __builtin_fabs(a[i]);
         break;
     default:
-        for (size_t i = 0; i < n; i++)
-            a[i] *= a[i];
+        EACH out[i] = a[i] * a[i];
         break;
     }
 }
 
-static void evaluate_row(const tn_expression *e, const double *const *columns, size_t from, size_t n, double *values)
+static bool takes_one(tn_expression_op op)
+{
+    return op == TN_EXPRESSION_NEGATE || op == TN_EXPRESSION_SQRT || op == TN_EXPRESSION_ABS || op == TN_EXPRESSION_SQUARE;
+}
+
+/* One row of results, from rows of variables. `out` may be no operand: results of one level of the stack are written to the scratch
+ * row of that level, which two operands of the same level never share; so each level has two rows, used in turn. */
+static const double *evaluate_row(const tn_expression *e, const double *const *columns, size_t from)
 {
     size_t top = 0;
     for (size_t s = 0; s < e->count; s++) {
         const tn_expression_step *step = &e->steps[s];
-        double *row = e->stack + top * ROW;
-        switch (step->op) {
-        case TN_EXPRESSION_NUMBER:
-            for (size_t i = 0; i < n; i++)
-                row[i] = step->number;
-            top++;
-            break;
-        case TN_EXPRESSION_VARIABLE:
-            memcpy(row, columns[step->variable] + from, n * sizeof *row);
-            top++;
-            break;
-        case TN_EXPRESSION_NEGATE:
-        case TN_EXPRESSION_SQRT:
-        case TN_EXPRESSION_ABS:
-        case TN_EXPRESSION_SQUARE:
-            step_one(step->op, row - ROW, n);
-            break;
-        default:
-            top--;
-            step_two(step->op, row - 2 * ROW, row - ROW, n);
-            break;
+        if (step->op == TN_EXPRESSION_VARIABLE) {
+            e->operands[top++] = columns[step->variable] + from;
+            continue;
         }
+        if (step->op == TN_EXPRESSION_NUMBER) {
+            double *row = e->stack + 2 * top * ROW;
+            EACH row[i] = step->number;
+            e->operands[top++] = row;
+            continue;
+        }
+        top -= takes_one(step->op) ? 1 : 2;
+        double *row = e->stack + 2 * top * ROW;
+        row = e->operands[top] == row ? row + ROW : row;
+        compute(step->op, e->operands[top], takes_one(step->op) ? NULL : e->operands[top + 1], row);
+        e->operands[top++] = row;
     }
-    memcpy(values + from, e->stack, n * sizeof *values);
+    return e->operands[0];
+}
+
+static bool reserve(tn_expression *e)
+{
+    if (e->depth <= e->stack_capacity)
+        return true;
+    double *stack = realloc(e->stack, 2 * e->depth * ROW * sizeof *stack);
+    if (!stack)
+        return false;
+    e->stack = stack;
+    const double **operands = realloc(e->operands, e->depth * sizeof *operands);
+    if (!operands)
+        return false;
+    e->operands = operands;
+    e->stack_capacity = e->depth;
+    return true;
 }
 
 tn_status tn_expression_evaluate(tn_expression *e, const double *const *columns, size_t count, double *values, tn_error *error)
 {
-    if (e->depth > e->stack_capacity) {
-        double *stack = realloc(e->stack, e->depth * ROW * sizeof *stack);
-        if (!stack)
-            return tn_fail_memory(error);
-        e->stack = stack;
-        e->stack_capacity = e->depth;
-    }
+    if (!reserve(e))
+        return tn_fail_memory(error);
     for (size_t from = 0; from < count; from += ROW)
-        evaluate_row(e, columns, from, count - from < ROW ? count - from : ROW, values);
+        memcpy(values + from, evaluate_row(e, columns, from), (count - from < ROW ? count - from : ROW) * sizeof *values);
     return TN_OK;
 }

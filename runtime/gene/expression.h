@@ -37,6 +37,7 @@ typedef struct tn_expression {
     size_t count, capacity;
     size_t depth; /* of the stack, at most */
     double *stack; /* scratch of evaluating: depth rows of TN_EXPRESSION_ROW */
+    const double **operands; /* likewise: the rows that are on the stack, a variable's column or one of the above */
     size_t stack_capacity;
 } tn_expression;
 
@@ -49,7 +50,8 @@ void tn_expression_clear(tn_expression *expression);
 tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count, tn_expression *expression,
                               tn_error *error);
 
-/* The values at `count` points, columns[variable][point], into `values`. TN_MEMORY, or TN_OK. */
+/* The values at `count` points, columns[variable][point], into `values`. Columns are readable (not changed, and not part of the
+ * result) up to the next multiple of TN_EXPRESSION_ROW points. TN_MEMORY, or TN_OK. */
 tn_status tn_expression_evaluate(tn_expression *expression, const double *const *columns, size_t count, double *values,
                                  tn_error *error);
 

@@ -86,7 +86,7 @@ static tn_status fit_new(size_t variables, size_t points, unsigned threads, tn_p
     p->values = calloc(threads, sizeof *p->values);
     bool well = p->names && p->columns && p->expressions && p->values;
     for (size_t i = 0; well && i <= variables; i++)
-        well = (p->columns[i] = calloc(points + 1, sizeof **p->columns)) != NULL;
+        well = (p->columns[i] = calloc(points + TN_EXPRESSION_ROW, sizeof **p->columns)) != NULL;
     for (unsigned t = 0; well && t < threads; t++)
         well = (p->values[t] = calloc(points + 1, sizeof **p->values)) != NULL;
     if (well)
@@ -112,15 +112,24 @@ tn_status tn_problem_fit(const char *const *names, const double *const *columns,
     return status;
 }
 
-/* The sum is made of four, each of every fourth point: the same shape whatever the machine. */
+/* The sum is made of eight, each of every eighth point: the same shape whatever the machine. */
 static double mean_squared_error(const double *values, const double *wanted, size_t points)
 {
-    double sums[4] = {0, 0, 0, 0};
-    for (size_t i = 0; i < points; i++) {
+    double sums[8] = {0};
+    size_t whole = points - points % 8;
+    for (size_t i = 0; i < whole; i += 8)
+        for (size_t k = 0; k < 8; k++) {
+            double difference = values[i + k] - wanted[i + k];
+            sums[k] += difference * difference;
+        }
+    for (size_t i = whole; i < points; i++) {
         double difference = values[i] - wanted[i];
-        sums[i % 4] += difference * difference;
+        sums[i - whole] += difference * difference;
     }
-    return (sums[0] + sums[1] + (sums[2] + sums[3])) / (double)points;
+    for (size_t step = 4; step; step /= 2)
+        for (size_t k = 0; k < step; k++)
+            sums[k] += sums[k + step];
+    return sums[0] / (double)points;
 }
 
 static tn_status fit(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],

@@ -11,7 +11,7 @@
 static double value_of(const char *text)
 {
     static const char *const names[] = {"x", "y"};
-    const double x[] = {3}, y[] = {0}, *const columns[] = {x, y};
+    const double x[TN_EXPRESSION_ROW] = {3}, y[TN_EXPRESSION_ROW] = {0}, *const columns[] = {x, y};
     tn_expression e = {0};
     tn_error error;
     double value;
