@@ -5,6 +5,7 @@
 
 #include "compiler/bnf.h"
 #include "compiler/emit.h"
+#include "compiler/evolution.h"
 #include "runtime/vm/file.h"
 
 /* What `use` needs to know of a .plan file. */
@@ -39,6 +40,8 @@ static tn_status compile(const tn_compile_options *options, tn_compilation *comp
     tn_diagnostics *diagnostics = &compilation->diagnostics;
     if (tn_is_bnf(compilation->sources.files[0].path))
         return tn_bnf_compile_module(options, compilation, error);
+    if (tn_is_evolution(compilation->sources.files[0].path, compilation->sources.files[0].text))
+        return tn_evolution_compile(options, compilation, error);
     tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
                                      ".plan", parse_plan, 0, &imports);
     if (status == TN_OK)

@@ -22,6 +22,7 @@ typedef struct tn_compilation {
     tn_diagnostics diagnostics;
     tn_arena *arena;
     tn_program *program; /* checked; NULL where there were errors */
+    const struct tn_evolution_study *evolution; /* of a .study with an evolution block; NULL elsewhere */
     uint8_t *module;     /* bytes of the module, owned; NULL where there were errors */
     size_t module_size;
 } tn_compilation;

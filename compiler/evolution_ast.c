@@ -1,0 +1,78 @@
+#include <string.h>
+
+#include "compiler/evolution.h"
+
+void tn_evolution_block(tn_evolution_reader *reader, tn_span span)
+{
+    if (reader->blocks++) {
+        tn_diagnostic *diagnostic =
+            tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "a study has one evolution block");
+        tn_note(reader->diagnostics, diagnostic, &reader->block, "the first is here");
+        return;
+    }
+    reader->block = span;
+}
+
+void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name, tn_evolution_value *values)
+{
+    tn_evolution_setting *setting = TN_NEW(reader->arena, tn_evolution_setting);
+    char *copy = tn_arena_copy(reader->arena, name.text, name.length);
+    if (!setting || !copy)
+        return;
+    setting->name = copy;
+    setting->span = span;
+    setting->values = values;
+    if (reader->last)
+        reader->last->next = setting;
+    else
+        reader->first = setting;
+    reader->last = setting;
+}
+
+tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolution_value_kind kind, tn_span span,
+                                           tn_evolution_text text)
+{
+    tn_evolution_value *value = TN_NEW(reader->arena, tn_evolution_value);
+    size_t quote = kind == TN_EVOLUTION_STRING;
+    char *copy = tn_arena_copy(reader->arena, text.text + quote, text.length - 2 * quote);
+    if (!value || !copy)
+        return NULL;
+    value->kind = kind;
+    value->span = span;
+    value->text = copy;
+    value->last = value;
+    return value;
+}
+
+tn_evolution_value *tn_evolution_value_add(tn_evolution_value *list, tn_evolution_value *value)
+{
+    if (!list || !value)
+        return list ? list : value;
+    list->last->next = value;
+    list->last = value;
+    return list;
+}
+
+void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const char *token)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "%s does not belong here", token);
+    tn_help(reader->diagnostics, diagnostic, "write one setting a line, as `population 500`");
+}
+
+bool tn_is_evolution(const char *path, const char *text)
+{
+    size_t length = strlen(path);
+    if (length < 6 || strcmp(path + length - 6, ".study") != 0)
+        return false;
+    for (const char *at = text; (at = strstr(at, "evolution")); at++) {
+        const char *next = at + 9, *line = at;
+        while (*next == ' ' || *next == '\t' || *next == '\r' || *next == '\n')
+            next++;
+        while (line > text && (line[-1] == ' ' || line[-1] == '\t'))
+            line--;
+        if (*next == '{' && (line == text || line[-1] == '\n'))
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,91 @@
+/* Syntax of `evolution { ... }`: one setting a line, a word and its values. */
+%require "3.8"
+%define api.pure full
+%define api.prefix {tn_evolution_yy_}
+%define parse.error custom
+%define api.location.type {tn_span}
+%locations
+%expect 0
+%parse-param { struct tn_evolution_reader *reader } { void *scanner }
+%lex-param { void *scanner }
+
+%code requires {
+#include "compiler/evolution.h"
+}
+%code {
+#include "evolution_lexer.h"
+
+int tn_evolution_yy_lex(TN_EVOLUTION_YY_STYPE *value, tn_span *span, void *scanner);
+
+static void tn_evolution_yy_error(tn_span *span, struct tn_evolution_reader *reader, void *scanner, const char *message)
+{
+    (void)scanner;
+    tn_evolution_unexpected(reader, *span, message);
+}
+
+#define YYLLOC_DEFAULT(CURRENT, RHS, COUNT)                                                                            \
+    ((CURRENT) = (COUNT) ? tn_span_join(YYRHSLOC(RHS, 1), YYRHSLOC(RHS, COUNT))                                        \
+                         : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
+}
+%initial-action { @$ = (tn_span){reader->file, 0, 0}; }
+
+%union {
+    tn_evolution_text text;
+    tn_evolution_value *value;
+}
+
+%token <text> WORD "a word" NUMBER "a number" RANGE "a range" STRING "a text in quotes" STRAY "a stray character"
+%token EVOLUTION "evolution" OPEN "{" CLOSE "}" LINE_END "a line end" END 0 "the end of the file"
+%type <value> value values
+
+%%
+
+file: %empty
+    | file block
+    ;
+
+block: EVOLUTION OPEN settings CLOSE            { tn_evolution_block(reader, @$); }
+    | EVOLUTION OPEN settings setting CLOSE     { tn_evolution_block(reader, @$); }
+    ;
+
+settings: %empty
+    | settings LINE_END
+    | settings setting LINE_END
+    | settings error LINE_END                   { yyerrok; }
+    ;
+
+setting: WORD values                            { tn_evolution_setting_new(reader, @1, $1, $2); }
+    ;
+
+values: %empty                                  { $$ = NULL; }
+    | values value                              { $$ = tn_evolution_value_add($1, $2); }
+    ;
+
+value: WORD                                     { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_WORD, @1, $1); }
+    | NUMBER                                    { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_NUMBER, @1, $1); }
+    | RANGE                                     { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_RANGE, @1, $1); }
+    | STRING                                    { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_STRING, @1, $1); }
+    ;
+
+%%
+
+static int yyreport_syntax_error(const yypcontext_t *context, struct tn_evolution_reader *reader, void *scanner)
+{
+    (void)scanner;
+    tn_evolution_unexpected(reader, *yypcontext_location(context), yysymbol_name(yypcontext_token(context)));
+    return 0;
+}
+
+void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size)
+{
+    void *scanner;
+    if (tn_evolution_yy_lex_init_extra(reader, &scanner) != 0) {
+        reader->failed = true;
+        return;
+    }
+    if (tn_evolution_yy__scan_buffer(text, size + 2, scanner))
+        tn_evolution_yy_parse(reader, scanner);
+    else
+        reader->failed = true;
+    tn_evolution_yy_lex_destroy(scanner);
+}
