@@ -74,6 +74,10 @@ typedef struct tn_settings {
     const char *genome, *genomes, *tree, *invert;
     tn_option_number random, codons, wraps, max_depth, max_steps, max_items;
     bool trace;
+
+    /* evolution */
+    tn_option_number generations;
+    bool durable;
 } tn_settings;
 
 typedef struct tn_command {

@@ -26,6 +26,7 @@ typedef struct tn_evolution_study {
     const char *match;       /* the text */
     const char *fit;         /* path of the data */
     const char *keep, *drop; /* learn: paths of plans */
+    const char *schema;      /* of those plans, as `use` names it */
     uint64_t seed, population, generations;
     const char *initialise;
     uint64_t codons, codon_limit, max_codons;
@@ -97,6 +98,10 @@ void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const ch
 
 /* Makes the module (of the grammar) of a compilation whose first source is a study, and its checked settings. */
 tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation *compilation, tn_error *error);
+
+/* Only the settings, from a study's text: its grammar is not looked for. The study lives in the arena. */
+bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
+                                tn_evolution_study *study);
 
 /* Is it a .study file that has an evolution block? */
 bool tn_is_evolution(const char *path, const char *text);

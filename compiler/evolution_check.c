@@ -32,6 +32,7 @@ static const setting_row rows[] = {
     {"fit", TEXT, AT(fit), 0, 0, 0, 0, NULL},
     {"keep", TEXT, AT(keep), 0, 0, 0, 0, NULL},
     {"drop", TEXT, AT(drop), 0, 0, 0, 0, NULL},
+    {"schema", TEXT, AT(schema), 0, 0, 0, 0, NULL},
     {"seed", WHOLE, AT(seed), 0, 0, 0, LARGE, NULL},
     {"population", WHOLE, AT(population), 0, 0, 2, 1000000, NULL},
     {"generations", WHOLE, AT(generations), 0, 0, 0, 1000000, NULL},
@@ -270,6 +271,7 @@ bool tn_evolution_check(const tn_evolution_reader *reader, tn_evolution_study *s
         .elites = 1,
         .replacement = "generational",
         .length_weight = 0.001,
+        .schema = "lahave",
         .span = reader->block,
     };
     for (const tn_evolution_setting *setting = reader->first; setting; setting = setting->next)

@@ -76,3 +76,11 @@ tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation
     c->evolution = study;
     return TN_OK;
 }
+
+bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
+                                tn_evolution_study *study)
+{
+    tn_evolution_reader reader = {.arena = arena, .diagnostics = diagnostics, .file = file};
+    tn_evolution_read(&reader, sources->files[file].text, sources->files[file].size);
+    return tn_evolution_check(&reader, study) && !reader.failed;
+}

@@ -1,0 +1,65 @@
+#include "cli/evolution_session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* study.study -> study.run, in the folder that the command is given in. */
+static char *default_dir(const char *study)
+{
+    const char *slash = strrchr(study, '/'), *name = slash ? slash + 1 : study, *dot = strrchr(name, '.');
+    size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    char *dir = malloc(length + 5);
+    if (dir)
+        sprintf(dir, "%.*s.run", (int)length, name);
+    return dir;
+}
+
+static const tn_source *source_of(const tn_session *session, uint32_t file)
+{
+    return &session->opened.compilation.sources.files[file];
+}
+
+/* A study's data files are inputs of their own: what is wrong in them has its place there. */
+static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
+{
+    const tn_settings *settings = e->session->settings;
+    const char *path = settings->operands.items[0];
+    tn_job_options options = {.threads = (unsigned)settings->threads.value,
+                              .says_seed = settings->seed.given,
+                              .seed = settings->seed.value};
+    tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
+    const tn_source *grammar = source_of(e->session, study->grammar_file), *text = source_of(e->session, 0);
+    tn_run_texts texts = {path, text->text, grammar->path, grammar->text};
+    e->generations = settings->generations.given ? (uint32_t)settings->generations.value : (uint32_t)study->generations;
+    return tn_evolution_job_make(study, path, e->session->opened.module, &options, &e->job, error) == TN_OK &&
+           tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+}
+
+bool tn_evolution_session_open(tn_session *session, tn_evolution_session *e)
+{
+    const char *path = session->settings->operands.items[0];
+    tn_error error = {0};
+    *e = (tn_evolution_session){.session = session};
+    if (!tn_session_open(session, path))
+        return false;
+    const tn_evolution_study *study = session->opened.compilation.evolution;
+    if (!study) {
+        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
+        tn_error_help(&error, "a study to be evolved is a .study file with a block `evolution { ... }`");
+        tn_session_fail(session, &error);
+        return false;
+    }
+    char *own = session->settings->output ? NULL : default_dir(path);
+    const char *dir = session->settings->output ? session->settings->output : own;
+    bool begun = dir ? begin(e, study, dir, &error) : tn_fail_memory(&error) == TN_OK;
+    free(own);
+    if (!begun)
+        tn_session_fail(session, &error);
+    return begun;
+}
+
+void tn_evolution_session_close(tn_evolution_session *e)
+{
+    tn_run_clear(&e->run);
+    tn_evolution_job_clear(&e->job);
+}

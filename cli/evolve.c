@@ -1,0 +1,88 @@
+/* tartan evolve: breeds sentences of a grammar towards what a study wants. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "cli/evolution_session.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+
+static void evolve(tn_evolution_session *e)
+{
+    tn_progress progress;
+    tn_error error;
+    tn_progress_begin(&progress, "generations", (double)e->generations + 1);
+    tn_status status = TN_OK;
+    while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
+        status = tn_run_step(&e->run, NULL, 0, &error);
+        tn_progress_update(&progress, e->run.generations);
+    }
+    tn_progress_end(&progress);
+    if (status == TN_OK && e->run.generations)
+        status = tn_run_results(&e->run, &error);
+    if (status != TN_OK)
+        tn_session_fail(e->session, &error);
+}
+
+static void summarise(const tn_evolution_session *e, FILE *out)
+{
+    size_t count;
+    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
+    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
+    if (e->run.generations == 0)
+        return;
+    fprintf(out, "%u generations, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation, s.evaluations, s.births);
+    fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct, %u without sentence, %u failed, %u past a limit\n", s.best[0],
+            s.mean, s.distinct, s.no_sentence, s.failed, s.limited);
+    if (count && members[0]->score.state == TN_SCORED)
+        fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
+    fprintf(out, "results are in %s\n", e->run.dir);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_evolution_session evolution;
+    tn_output output;
+    tn_session_begin(&session, settings);
+    if (tn_evolution_session_open(&session, &evolution)) {
+        tn_session_show(&session);
+        tn_interrupt_watch();
+        evolve(&evolution);
+        if (tn_session_output(&session, NULL, &output)) {
+            summarise(&evolution, output.stream);
+            tn_session_commit(&session, &output);
+        }
+    }
+    tn_evolution_session_close(&evolution);
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {
+    OPTION_RUN_DIR,
+    OPTION_RUN_RESUME,
+    NUMBER("generations", 'g', "N", generations, 0, 1000000, "how many generations to breed, instead of the study's number"),
+    OPTION_RUN_SEED,
+    OPTION_THREADS,
+    OPTION_RUN_DURABLE,
+};
+
+const tn_command tn_command_evolve = {
+    .name = "evolve",
+    .summary = "breed sentences of a grammar towards what a study wants",
+    .usage = "STUDY.study [-o DIR] [--resume] [--generations N]",
+    .description =
+        "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and breeds the next generation "
+        "from the best, as often as the study says. The same study and seed give the same run on every machine and with any number of "
+        "threads.\n\n"
+        "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with their derivations drawn), "
+        "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run goes on with --resume and "
+        "ends with the same bytes as one that was not. With --resume and a larger --generations a finished run is extended.",
+    .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one STUDY.study",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

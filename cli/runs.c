@@ -1,0 +1,147 @@
+/* tartan runs: looks at runs that were made. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "cli/session.h"
+#include "driver/evolve.h"
+
+static bool read_run(tn_session *session, const char *dir, tn_generation_stats **stats, size_t *count, char **identity)
+{
+    tn_run_store *store = NULL;
+    tn_error error;
+    char *path = tn_run_database(dir);
+    tn_status status = path ? tn_run_store_open(path, false, true, &store, &error) : tn_fail_memory(&error);
+    *stats = NULL;
+    *identity = NULL;
+    *count = 0;
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(store, "identity", identity, &error);
+    if (status == TN_OK)
+        status = tn_run_store_stats(store, stats, count, &error);
+    if (status != TN_OK)
+        tn_session_fail(session, &error);
+    tn_run_store_free(store);
+    free(path);
+    return status == TN_OK;
+}
+
+static void show(tn_session *session, const char *dir, FILE *out)
+{
+    tn_generation_stats *stats;
+    size_t count;
+    char *identity;
+    if (read_run(session, dir, &stats, &count, &identity)) {
+        fprintf(out, "%s: %s\n", dir, identity ? identity : "not begun");
+        fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid", "evaluations", "births");
+        for (size_t i = 0; i < count; i++)
+            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", stats[i].generation, stats[i].best[0],
+                    stats[i].mean, stats[i].distinct, stats[i].no_sentence + stats[i].failed + stats[i].limited, stats[i].evaluations,
+                    stats[i].births);
+    }
+    free(stats);
+    free(identity);
+}
+
+/* One run a line: where each came, and after how many evaluations it first had its best. */
+static void compare(tn_session *session, FILE *out)
+{
+    const tn_option_list *dirs = &session->settings->operands;
+    fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations", "best first at");
+    for (size_t d = 1; d < dirs->count; d++) {
+        tn_generation_stats *stats;
+        size_t count, first = 0;
+        char *identity;
+        bool read = read_run(session, dirs->items[d], &stats, &count, &identity);
+        if (read && count == 0)
+            fprintf(out, "%-30s %10s\n", dirs->items[d], "none");
+        if (read && count) {
+            const tn_generation_stats *last = &stats[count - 1];
+            while (first + 1 < count && stats[first].best[0] > last->best[0])
+                first++;
+            fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation, last->best[0], last->mean,
+                    last->evaluations, stats[first].generation);
+        }
+        free(stats);
+        free(identity);
+    }
+}
+
+static void replay(tn_session *session, const char *dir, const char *id_text, FILE *out)
+{
+    tn_evolution_job job = {0};
+    tn_run run = {0};
+    tn_opened opened = {0};
+    const tn_individual *individual;
+    tn_error error = {0};
+    uint64_t id;
+    if (!tn_number_read(id_text, &id)) {
+        tn_session_usage(session, "an individual is a number, not `%.60s`", id_text);
+        return;
+    }
+    if (tn_run_replay(dir, id, &opened, &job, &run, &individual, &error) != TN_OK) {
+        tn_session_fail(session, &error);
+    } else {
+        fprintf(out, "# individual %" PRIu64, id);
+        if (individual->parents[0] != TN_NO_PARENT)
+            fprintf(out, ", of %" PRIu64 " and %" PRIu64, individual->parents[0], individual->parents[1]);
+        if (individual->score.state == TN_SCORED)
+            fprintf(out, ", score %.17g", individual->score.objectives[0]);
+        else
+            fputs(", not scored", out);
+        fputs("\n# genome:", out);
+        for (size_t i = 0; i < individual->genome.count; i++)
+            fprintf(out, " %" PRIu64, individual->genome.codons[i]);
+        fprintf(out, "\n%s\n", individual->sentence);
+    }
+    tn_run_clear(&run);
+    tn_evolution_job_clear(&job);
+    tn_close(&opened);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_session session;
+    tn_output output;
+    const tn_option_list *words = &settings->operands;
+    const char *what = words->items[0];
+    tn_session_begin(&session, settings);
+    bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0, replays = strcmp(what, "replay") == 0;
+    if (!shows && !compares && !replays)
+        tn_session_usage(&session, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
+    else if (replays && words->count != 3)
+        tn_session_usage(&session, "`tartan runs replay` takes a run's folder and the number of an individual");
+    else if (shows && words->count != 2)
+        tn_session_usage(&session, "`tartan runs show` takes one run's folder");
+    else if (tn_session_output(&session, settings->output, &output)) {
+        if (shows)
+            show(&session, words->items[1], output.stream);
+        else if (compares)
+            compare(&session, output.stream);
+        else
+            replay(&session, words->items[1], words->items[2], output.stream);
+        tn_session_commit(&session, &output);
+    }
+    return tn_session_end(&session);
+}
+
+static const tn_option options[] = {OPTION_OUTPUT};
+
+const tn_command tn_command_runs = {
+    .name = "runs",
+    .summary = "show, compare and replay runs of evolution",
+    .usage = "show DIR\ncompare DIR...\nreplay DIR INDIVIDUAL",
+    .description =
+        "show lists a run's generations. compare puts several runs side by side: how far each came, and when. replay makes a run again, "
+        "without scoring, up to the individual with that number, and writes its genome and its sentence: bit for bit what they were.",
+    .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "show, compare or replay, and a run's folder",
+    .operands_min = 2,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

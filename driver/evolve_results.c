@@ -1,0 +1,275 @@
+/* What a person has of a run: the best sentences, statistics, a plot. All of it is derived from the run's database and can be made
+ * again. */
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "driver/evolve.h"
+#include "runtime/draw/canvas.h"
+#include "runtime/draw/type.h"
+#include "runtime/gene/tree.h"
+#include "runtime/vm/file.h"
+
+#define BEST_MAX 10u /* files of best/ for one objective; of several, all of the first front are written */
+
+/* ---- best/ */
+
+/* Files of an earlier call go: the best are others now. Only names that we write are removed. */
+static void empty_best(const char *dir)
+{
+    DIR *folder = opendir(dir);
+    if (!folder)
+        return;
+    for (const struct dirent *entry; (entry = readdir(folder));) {
+        char *path = NULL;
+        const char *name = entry->d_name, *dot = strchr(name, '.');
+        bool ours = dot && dot > name && strspn(name, "0123456789") == (size_t)(dot - name);
+        if (ours && asprintf(&path, "%s/%s", dir, name) >= 0)
+            unlink(path);
+        free(path);
+    }
+    closedir(folder);
+}
+
+static tn_status write_sentence(const char *path, const tn_individual *individual, tn_error *error)
+{
+    tn_output output;
+    tn_status status = tn_output_open(path, &output, error);
+    if (status != TN_OK)
+        return status;
+    fwrite(individual->sentence, 1, individual->sentence_size, output.stream);
+    if (!individual->sentence_size || individual->sentence[individual->sentence_size - 1] != '\n')
+        fputc('\n', output.stream);
+    return tn_output_commit(&output, error);
+}
+
+/* The derivation as a picture; one that is too large to draw is left out. */
+static tn_status draw_derivation(tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
+{
+    tn_map_options options = run->job->settings.mapping;
+    tn_mapper *mapper = tn_mapper_new(run->job->grammar);
+    tn_mapping mapping;
+    tn_tree tree = {0};
+    options.record = true;
+    tn_status status = mapper ? tn_map(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
+                              : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
+    if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
+        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, path, error);
+    tn_tree_clear(&tree);
+    tn_mapper_free(mapper);
+    return status;
+}
+
+static tn_status write_individual(tn_run *run, const char *dir, size_t number, const tn_individual *individual, tn_error *error)
+{
+    char *sentence = NULL, *picture = NULL;
+    tn_status status = TN_OK;
+    if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 || asprintf(&picture, "%s/%zu.svg", dir, number) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = write_sentence(sentence, individual, error);
+    if (status == TN_OK)
+        status = draw_derivation(run, picture, individual, error);
+    free(sentence);
+    free(picture);
+    return status;
+}
+
+static bool seen_before(const tn_individual *const *members, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (members[k]->hash[0] == members[i]->hash[0] && members[k]->hash[1] == members[i]->hash[1])
+            return true;
+    return false;
+}
+
+static tn_status write_best(tn_run *run, tn_error *error)
+{
+    char *dir = NULL;
+    if (asprintf(&dir, "%s/best", run->dir) < 0)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (mkdir(dir, 0777) != 0 && errno != EEXIST)
+        status = tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: %s", dir, strerror(errno));
+    empty_best(dir);
+    size_t count, front = tn_evolution_front(run->evolution), written = 0;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    bool several = run->job->evaluator.objectives > 1;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        if (several ? i >= front : written >= BEST_MAX)
+            break;
+        if (members[i]->score.state == TN_SCORED && !seen_before(members, i))
+            status = write_individual(run, dir, ++written, members[i], error);
+    }
+    free(dir);
+    return status;
+}
+
+/* ---- stats.csv */
+
+static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size_t count, tn_error *error)
+{
+    char *path = NULL;
+    tn_output output;
+    if (asprintf(&path, "%s/stats.csv", run->dir) < 0)
+        return tn_fail_memory(error);
+    tn_status status = tn_output_open(path, &output, error);
+    if (status == TN_OK) {
+        fputs("generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth\n",
+              output.stream);
+        for (size_t i = 0; i < count; i++)
+            fprintf(output.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g\n", stats[i].generation,
+                    stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence, stats[i].failed, stats[i].limited,
+                    stats[i].distinct, stats[i].evaluations, stats[i].births, stats[i].mean_codons, stats[i].mean_depth);
+        status = tn_output_commit(&output, error);
+    }
+    free(path);
+    return status;
+}
+
+/* ---- fitness.svg */
+
+#define WIDTH 640.0
+#define HEIGHT 360.0
+#define LEFT 64.0
+#define RIGHT 150.0
+#define TOP 40.0
+#define BOTTOM 44.0
+
+typedef struct chart {
+    cairo_t *context;
+    const tn_generation_stats *stats;
+    size_t count;
+    double low, high;
+} chart;
+
+static double x_of(const chart *c, size_t i)
+{
+    double steps = c->count > 1 ? (double)(c->count - 1) : 1;
+    return LEFT + (WIDTH - LEFT - RIGHT) * (double)i / steps;
+}
+
+static double y_of(const chart *c, double value)
+{
+    return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (value - c->low) / (c->high - c->low);
+}
+
+static double value_of(const chart *c, size_t i, bool mean)
+{
+    return mean ? c->stats[i].mean : c->stats[i].best[0];
+}
+
+static void find_range(chart *c)
+{
+    bool any = false;
+    for (size_t i = 0; i < c->count; i++)
+        for (int mean = 0; mean < 2; mean++) {
+            double value = value_of(c, i, mean);
+            if (!isfinite(value) || c->stats[i].scored == 0)
+                continue;
+            c->low = !any || value < c->low ? value : c->low;
+            c->high = !any || value > c->high ? value : c->high;
+            any = true;
+        }
+    if (!(c->high > c->low))
+        c->high = c->low + 1;
+}
+
+static void draw_axes(const chart *c, const char *title)
+{
+    cairo_t *t = c->context;
+    char text[64];
+    tn_type_face(t, 12, true);
+    tn_type_fit(t, LEFT, TOP - 18, TN_ALIGN_LEFT, WIDTH - LEFT - 20, title);
+    tn_type_face(t, 9, false);
+    for (int i = 0; i <= 4; i++) {
+        double value = c->low + (c->high - c->low) * i / 4, y = y_of(c, value);
+        cairo_set_source_rgb(t, 0.85, 0.85, 0.85);
+        cairo_set_line_width(t, 0.5);
+        cairo_move_to(t, LEFT, y);
+        cairo_line_to(t, WIDTH - RIGHT, y);
+        cairo_stroke(t);
+        cairo_set_source_rgb(t, 0.2, 0.2, 0.2);
+        snprintf(text, sizeof text, "%.4g", value);
+        tn_type_line(t, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
+    }
+    tn_type_line(t, LEFT, HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, "0");
+    snprintf(text, sizeof text, "%zu", c->count ? c->count - 1 : 0);
+    tn_type_line(t, WIDTH - RIGHT, HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, text);
+    tn_type_line(t, (LEFT + WIDTH - RIGHT) / 2, HEIGHT - BOTTOM + 28, TN_ALIGN_CENTRE, "generation");
+}
+
+static void draw_curve(const chart *c, bool mean, const char *name)
+{
+    cairo_t *t = c->context;
+    bool open = false;
+    double last = 0;
+    cairo_set_source_rgb(t, mean ? 0.45 : 0.75, mean ? 0.45 : 0.1, mean ? 0.45 : 0.1);
+    cairo_set_line_width(t, mean ? 1 : 1.6);
+    for (size_t i = 0; i < c->count; i++) {
+        double value = value_of(c, i, mean);
+        if (!isfinite(value) || c->stats[i].scored == 0) {
+            open = false;
+            continue;
+        }
+        last = y_of(c, value);
+        if (open)
+            cairo_line_to(t, x_of(c, i), last);
+        else
+            cairo_move_to(t, x_of(c, i), last);
+        open = true;
+    }
+    cairo_stroke(t);
+    char text[64];
+    if (c->count == 0)
+        return;
+    snprintf(text, sizeof text, "%s %.6g", name, value_of(c, c->count - 1, mean));
+    tn_type_line(t, WIDTH - RIGHT + 6, last + (mean ? -4 : 8), TN_ALIGN_LEFT, text);
+}
+
+tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path, tn_error *error)
+{
+    tn_canvas_format format;
+    tn_canvas *canvas = NULL;
+    tn_canvas_options options = {.width = WIDTH, .height = HEIGHT, .title = title};
+    tn_status status = tn_canvas_format_of(path, &format, error);
+    if (status == TN_OK)
+        status = tn_canvas_new(path, format, &options, &canvas, error);
+    if (status == TN_OK) {
+        chart c = {.context = tn_canvas_context(canvas), .stats = stats, .count = count};
+        find_range(&c);
+        draw_axes(&c, title);
+        draw_curve(&c, true, "mean");
+        draw_curve(&c, false, "best");
+        status = tn_canvas_commit(canvas, error);
+    }
+    tn_canvas_free(canvas);
+    return status;
+}
+
+tn_status tn_run_results(tn_run *run, tn_error *error)
+{
+    tn_generation_stats *stats = NULL;
+    size_t count;
+    char *plot = NULL;
+    tn_status status = write_best(run, error);
+    if (status == TN_OK)
+        status = tn_run_store_stats(run->store, &stats, &count, error);
+    if (status == TN_OK)
+        status = write_stats(run, stats, count, error);
+    if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_run_plot(stats, count, run->job->grammar->name, plot, error);
+    free(plot);
+    free(stats);
+    return status;
+}

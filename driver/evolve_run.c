@@ -1,0 +1,245 @@
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "driver/evolve.h"
+#include "runtime/vm/file.h"
+
+char *tn_run_database(const char *dir)
+{
+    char *path = NULL;
+    return asprintf(&path, "%s/run.sqlite", dir) < 0 ? NULL : path;
+}
+
+void tn_run_clear(tn_run *run)
+{
+    tn_evolution_free(run->evolution);
+    tn_run_store_free(run->store);
+    free(run->dir);
+    *run = (tn_run){0};
+}
+
+static tn_status make_dir(const char *path, tn_error *error)
+{
+    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+        return TN_OK;
+    return tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: %s", path, strerror(errno));
+}
+
+/* ---- beginning */
+
+static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
+{
+    char hash[20];
+    snprintf(hash, sizeof hash, "%016" PRIx64, run->job->grammar->hash);
+    const char *const keys[] = {"format", "identity", "study_path", "study", "grammar_path", "grammar"};
+    const char *const values[] = {"1", run->job->identity, texts->study_path, texts->study_text, texts->grammar_path,
+                                  texts->grammar_text};
+    return tn_run_store_put_meta(run->store, keys, values, sizeof keys / sizeof *keys, error);
+}
+
+static tn_status same_as_stored(tn_run *run, const char *key, const char *now, const char *what, tn_error *error)
+{
+    char *stored;
+    tn_status status = tn_run_store_get_meta(run->store, key, &stored, error);
+    if (status == TN_OK && (!stored || strcmp(stored, now) != 0)) {
+        status = tn_fail(error, TN_INVALID, 1052, "the run in %.200s was started with another %s", run->dir, what);
+        tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+    }
+    free(stored);
+    return status;
+}
+
+/* Makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
+static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
+{
+    uint32_t count;
+    tn_run_scores scores = {0};
+    tn_run_event *events = NULL;
+    size_t event_count = 0;
+    tn_status status = tn_run_store_generations(run->store, &count, error);
+    if (status == TN_OK)
+        status = tn_run_store_scores(run->store, run->job->evaluator.objectives, &scores, error);
+    if (status == TN_OK)
+        status = tn_run_store_events(run->store, &events, &event_count, error);
+    tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+    for (size_t at = 0; status == TN_OK && run->generations < count; run->generations++) {
+        if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
+            break;
+        for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++) {
+            tn_genome places = {0}; /* numbers parted by blanks, which is how genomes are read */
+            status = tn_genome_read(events[at].text, strlen(events[at].text), &places, error);
+            uint32_t *chosen = calloc(places.count + 1, sizeof *chosen);
+            for (size_t i = 0; chosen && i < places.count; i++)
+                chosen[i] = (uint32_t)(places.codons[i] - 1);
+            if (status == TN_OK)
+                status = chosen ? tn_evolution_choose(run->evolution, chosen, places.count, error) : tn_fail_memory(error);
+            free(chosen);
+            tn_genome_clear(&places);
+        }
+        if (status == TN_OK)
+            status = tn_evolution_step(run->evolution, error);
+        if (status == TN_OK)
+            status = tn_run_store_check(run->store, run->evolution, error);
+    }
+    tn_evolution_recall(run->evolution, NULL, NULL);
+    tn_run_scores_clear(&scores);
+    tn_run_events_free(events, event_count);
+    return status;
+}
+
+/* Where there is a database but no meta in it, the run was killed while it began: then it begins again. */
+static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
+                               tn_error *error)
+{
+    bool there = access(path, F_OK) == 0;
+    if (!options->resume || !there) {
+        tn_status status = tn_run_store_create(path, options->durable, &run->store, error);
+        return status == TN_OK ? put_meta(run, texts, error) : status;
+    }
+    char *identity = NULL;
+    tn_status status = tn_run_store_open(path, options->durable, false, &run->store, error);
+    if (status == TN_OK && tn_run_store_get_meta(run->store, "identity", &identity, NULL) == TN_OK && identity) {
+        status = same_as_stored(run, "identity", run->job->identity, "study", error);
+        if (status == TN_OK)
+            status = same_as_stored(run, "grammar", texts->grammar_text, "grammar", error);
+        if (status == TN_OK)
+            status = repeat(run, UINT64_MAX, error);
+    } else {
+        tn_run_store_free(run->store);
+        run->store = NULL;
+        if (unlink(path) != 0)
+            return tn_fail(error, TN_IO, 902, "cannot begin %.200s again: %s", path, strerror(errno));
+        status = tn_run_store_create(path, options->durable, &run->store, error);
+        if (status == TN_OK)
+            status = put_meta(run, texts, error);
+    }
+    free(identity);
+    return status;
+}
+
+tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts, tn_run *run,
+                       tn_error *error)
+{
+    *run = (tn_run){.job = job, .dir = strdup(dir)};
+    char *path = tn_run_database(dir);
+    tn_status status = run->dir && path ? make_dir(dir, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
+    if (status == TN_OK)
+        status = open_or_begin(run, path, options, texts, error);
+    free(path);
+    return status;
+}
+
+/* ---- going on */
+
+static char *places_text(const uint32_t *chosen, size_t count)
+{
+    char *text = malloc(count * 12 + 1);
+    size_t size = 0;
+    if (!text)
+        return NULL;
+    text[0] = '\0';
+    for (size_t i = 0; i < count; i++)
+        size += (size_t)sprintf(text + size, i ? " %u" : "%u", chosen[i] + 1);
+    return text;
+}
+
+tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error)
+{
+    char kind[] = "choose", *text = chosen ? places_text(chosen, chosen_count) : NULL;
+    tn_run_event event = {0, kind, text};
+    if (chosen && !text)
+        return tn_fail_memory(error);
+    tn_status status = chosen ? tn_evolution_choose(run->evolution, chosen, chosen_count, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_evolution_step(run->evolution, error);
+    if (status == TN_OK)
+        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, &event, chosen != NULL, error);
+    run->generations += status == TN_OK;
+    free(text);
+    return status;
+}
+
+bool tn_run_reached(const tn_run *run)
+{
+    return run->job->study.says_stop && run->generations && tn_evolution_stats(run->evolution).best[0] <= run->job->study.stop;
+}
+
+/* ---- replay */
+
+static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
+{
+    char *path = NULL, *text = NULL;
+    tn_status status = tn_run_store_get_meta(run->store, "grammar_path", &path, error);
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(run->store, "grammar", &text, error);
+    if (status == TN_OK && (!path || !text))
+        status = tn_fail(error, TN_INVALID, 1051, "the run's database holds no grammar");
+    if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)
+        status = tn_fail(error, TN_INVALID, 1052, "the run's grammar does not compile with this version of tartan");
+    free(path);
+    free(text);
+    return status;
+}
+
+/* The settings of the stored study; its texts live in the arena of `opened`. */
+static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study *study, tn_error *error)
+{
+    char *text = NULL;
+    uint32_t file;
+    tn_compilation *c = &opened->compilation;
+    tn_status status = tn_run_store_get_meta(run->store, "study", &text, error);
+    if (status == TN_OK && !text)
+        status = tn_fail(error, TN_INVALID, 1051, "the run's database holds no study");
+    if (status == TN_OK)
+        status = tn_sources_add(&c->sources, "run.study", text, strlen(text), &file, error);
+    if (status == TN_OK && !tn_evolution_settings_read(&c->sources, file, &c->diagnostics, c->arena, study))
+        status = tn_fail(error, TN_INVALID, 1052, "the run's study cannot be read by this version of tartan");
+    free(text);
+    return status;
+}
+
+tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,
+                        const tn_individual **individual, tn_error *error)
+{
+    tn_evolution_study study;
+    tn_job_options options = {.only_replay = true};
+    *individual = NULL;
+    *run = (tn_run){.job = job, .dir = strdup(dir)};
+    char *path = tn_run_database(dir), *identity = NULL;
+    tn_status status = path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
+    free(path);
+    if (status == TN_OK)
+        status = compile_stored(run, opened, error);
+    if (status == TN_OK)
+        status = read_stored(run, opened, &study, error);
+    /* a seed of the command line is part of the identity */
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(run->store, "identity", &identity, error);
+    const char *seed = identity ? strstr(identity, "\" seed ") : NULL;
+    if (seed) {
+        options.says_seed = true;
+        options.seed = strtoull(seed + 7, NULL, 10);
+    }
+    free(identity);
+    if (status == TN_OK)
+        status = tn_evolution_job_make(&study, dir, opened->module, &options, job, error);
+    if (status == TN_OK)
+        status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
+    if (status == TN_OK)
+        status = repeat(run, id, error);
+    size_t born = 0;
+    const tn_individual *const *newest = status == TN_OK && run->generations ? tn_evolution_born(run->evolution, &born) : NULL;
+    for (size_t i = 0; i < born; i++)
+        if (newest[i]->id == id)
+            *individual = newest[i];
+    if (status == TN_OK && !*individual)
+        status = tn_fail(error, TN_INVALID, 1041, "the run has no individual %" PRIu64, id);
+    return status;
+}

@@ -1,0 +1,198 @@
+#include "driver/learn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open.h"
+#include "runtime/plan/rules.h"
+#include "runtime/plan/stream.h"
+
+#define EXAMPLES_MAX 1000000u
+#define STATES_MAX 2000u /* of a rule's automaton: what needs more is no rule that a person would keep */
+
+typedef struct example {
+    size_t first; /* tray */
+    size_t length;
+    bool drop;
+} example;
+
+struct tn_learner {
+    example *examples;
+    size_t count, capacity;
+    tn_tray *trays;
+    size_t tray_count, tray_capacity;
+    uint32_t codes; /* of the schema, to see that a sentence is of the same */
+    double length_weight;
+    bool separately;
+};
+
+void tn_learner_free(tn_learner *l)
+{
+    if (!l)
+        return;
+    free(l->examples);
+    free(l->trays);
+    free(l);
+}
+
+static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_error *error)
+{
+    if (l->count == EXAMPLES_MAX)
+        return tn_fail(error, TN_LIMIT, 1044, "there are more than %u examples, the limit", EXAMPLES_MAX);
+    if (l->count == l->capacity) {
+        size_t capacity = l->capacity ? l->capacity * 2 : 256;
+        example *grown = realloc(l->examples, capacity * sizeof *grown);
+        if (!grown)
+            return tn_fail_memory(error);
+        l->examples = grown;
+        l->capacity = capacity;
+    }
+    if (l->tray_count + plan->length > l->tray_capacity) {
+        size_t capacity = (l->tray_count + plan->length) * 2;
+        tn_tray *grown = realloc(l->trays, capacity * sizeof *grown);
+        if (!grown)
+            return tn_fail_memory(error);
+        l->trays = grown;
+        l->tray_capacity = capacity;
+    }
+    l->examples[l->count++] = (example){l->tray_count, plan->length, drop};
+    if (plan->length)
+        memcpy(l->trays + l->tray_count, plan->trays, plan->length * sizeof *plan->trays);
+    l->tray_count += plan->length;
+    return TN_OK;
+}
+
+static tn_status read_examples(tn_learner *l, const tn_schema *schema, const char *path, bool drop, tn_error *error)
+{
+    tn_plan_reader *reader = NULL;
+    const tn_plan *plan;
+    tn_status status = tn_plan_reader_open(schema, path, NULL, &reader, error);
+    if (status != TN_OK)
+        return status;
+    while ((status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan)
+        if ((status = add_example(l, plan, drop, error)) != TN_OK)
+            break;
+    tn_plan_reader_free(reader);
+    return status;
+}
+
+/* Compiles a rule that only serves to have the schema. */
+static tn_status read_all(tn_learner *l, const char *name, const char *keep, const char *drop, tn_error *error)
+{
+    char text[320];
+    tn_opened opened;
+    tn_schema *schema = NULL;
+    snprintf(text, sizeof text, "use \"%.200s\"\nrule learned = any\n", name);
+    tn_status status = tn_open_bytes("examples.plan", (const uint8_t *)text, strlen(text), false, &opened);
+    if (status != TN_OK)
+        status = tn_fail(error, TN_INVALID, 1044, "the schema `%.200s` of the examples cannot be used", name);
+    if (status == TN_OK)
+        status = tn_schema_new(opened.module, opened.module->RULE_records[opened.module->RULE_count - 1].schema, 0, &schema, error);
+    if (status == TN_OK) {
+        l->codes = schema->tray_count;
+        status = read_examples(l, schema, keep, false, error);
+    }
+    if (status == TN_OK)
+        status = read_examples(l, schema, drop, true, error);
+    tn_schema_free(schema);
+    tn_close(&opened);
+    return status;
+}
+
+tn_status tn_learner_new(const char *schema, const char *keep, const char *drop, double length_weight, bool separately,
+                         tn_learner **learner, tn_error *error)
+{
+    tn_learner *l = calloc(1, sizeof *l);
+    *learner = l;
+    if (!l)
+        return tn_fail_memory(error);
+    l->length_weight = length_weight;
+    l->separately = separately;
+    tn_status status = read_all(l, schema, keep, drop, error);
+    if (status == TN_OK && l->count == 0)
+        status = tn_fail(error, TN_INVALID, 1044, "there are no examples to learn from");
+    if (status != TN_OK) {
+        tn_learner_free(l);
+        *learner = NULL;
+    }
+    return status;
+}
+
+/* ---- scoring a rule */
+
+static tn_status count_wrong(const tn_learner *l, const tn_rules *rules, uint64_t *wrong, tn_error *error)
+{
+    tn_matcher *matcher = NULL;
+    tn_status status = tn_matcher_new(rules, &matcher, error);
+    *wrong = 0;
+    for (size_t i = 0; i < l->count && status == TN_OK; i++) {
+        uint64_t bits = 0;
+        status = tn_match(matcher, l->trays + l->examples[i].first, l->examples[i].length, &bits, error);
+        *wrong += (bits & 1) != l->examples[i].drop;
+    }
+    tn_matcher_free(matcher);
+    return status;
+}
+
+static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *wrong, tn_error *error)
+{
+    if (module->RULE_count == 0)
+        return tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+    const tn_rule_record *rule = &module->RULE_records[module->RULE_count - 1];
+    tn_rules_options options = {.engine = TN_ENGINE_DFA, .max_states = STATES_MAX};
+    tn_schema *schema = NULL;
+    tn_rules *rules = NULL;
+    tn_status status = tn_schema_new(module, rule->schema, 0, &schema, error);
+    if (status == TN_OK && schema->tray_count != l->codes)
+        status = tn_fail(error, TN_INVALID, 0, "the rule is of another schema than the examples");
+    if (status == TN_OK)
+        status = tn_rules_new(schema, &rule->holds, 1, &options, &rules, error);
+    if (status == TN_OK)
+        status = count_wrong(l, rules, wrong, error);
+    tn_rules_free(rules);
+    tn_schema_free(schema);
+    return status;
+}
+
+static const char *first_error(const tn_opened *opened)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].severity == TN_ERROR)
+            return list->items[i].message;
+    return "it does not compile";
+}
+
+static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
+                            tn_error *error)
+{
+    const tn_learner *l = context;
+    tn_opened opened;
+    tn_error own = {0};
+    uint64_t wrong = 0;
+    (void)thread;
+    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, size, false, &opened);
+    if (status != TN_OK)
+        snprintf(own.message, sizeof own.message, "%.199s", first_error(&opened));
+    else
+        status = judge(l, opened.module, &wrong, &own);
+    tn_close(&opened);
+    if (status == TN_MEMORY || status == TN_INTERNAL) {
+        *error = own;
+        return status;
+    }
+    if (status != TN_OK) {
+        score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
+        snprintf(message, 200, "%.199s", own.message);
+        return TN_OK;
+    }
+    score->objectives[0] = (double)wrong + (l->separately ? 0 : l->length_weight * (double)size);
+    score->objectives[1] = (double)size;
+    return TN_OK;
+}
+
+tn_evaluator tn_learner_evaluator(tn_learner *learner)
+{
+    return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule};
+}
