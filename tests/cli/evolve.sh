@@ -1,0 +1,110 @@
+# Runs of evolution: the same bytes for any number of threads, whether interrupted or not; extension; replay; breeding by hand.
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+fail() { echo "evolve: $*" >&2; failed=1; }
+
+cat > hello.study <<'X'
+evolution {
+  grammar "words"
+  match "hello world"
+  population 60
+  generations 25
+  selection tournament 4
+  crossover subtree 0.8
+  seed 7
+}
+X
+
+# ---- any number of threads, the same database
+"$TARTAN" evolve hello.study -o one --threads 1 > one.txt || fail "does not run"
+"$TARTAN" evolve hello.study -o four --threads 4 > four.txt || fail "does not run with four threads"
+cmp -s one/run.sqlite four/run.sqlite || fail "four threads make another run than one"
+cmp -s one/stats.csv four/stats.csv || fail "four threads make other statistics"
+diff -r one/best four/best > /dev/null || fail "four threads have other results"
+
+# ---- a run in the way is not overwritten
+"$TARTAN" evolve hello.study -o one > /dev/null 2> err.txt && fail "overwrote a run"
+grep -q 'E1050' err.txt || fail "does not say that there is a run"
+
+# ---- stopped early and extended: the same as made at once
+"$TARTAN" evolve hello.study -o short --generations 9 > /dev/null || fail "does not stop early"
+"$TARTAN" evolve hello.study -o short --resume > /dev/null || fail "cannot be extended"
+cmp -s one/run.sqlite short/run.sqlite || fail "an extended run differs from one made at once"
+
+# ---- killed at any moment and resumed: the same bytes
+cat > slow.study <<'X'
+evolution {
+  grammar "words"
+  match "a quick brown fox jumps over the lazy dog"
+  population 200
+  generations 60
+  crossover two-point 0.9
+  seed 3
+}
+X
+"$TARTAN" evolve slow.study -o whole > /dev/null || fail "does not run"
+kills=${KILLS:-12}
+for i in $(seq 1 "$kills"); do
+  rm -rf killed
+  for again in 1 2 3; do
+    "$TARTAN" evolve slow.study -o killed --resume > /dev/null 2>&1 &
+    pid=$!
+    sleep "$(awk -v seed="$i$again" 'BEGIN { srand(seed); print 0.01 + rand() * 0.12 }')"
+    kill -9 "$pid" 2> /dev/null
+    wait "$pid" 2> /dev/null
+  done
+  "$TARTAN" evolve slow.study -o killed --resume > /dev/null || fail "cannot be resumed"
+  cmp -s whole/run.sqlite killed/run.sqlite || fail "a killed run ends with other bytes (kill $i)"
+done
+
+# ---- another study does not go on with the run
+sed 's/population 60/population 61/' hello.study > other.study
+"$TARTAN" evolve other.study -o one --resume > /dev/null 2> err.txt && fail "resumed with another study"
+grep -q 'E1052' err.txt || fail "does not say that the study differs"
+
+# ---- replay: what the database says of an individual
+id=$(sed -n 's/^best: individual //p' one.txt)
+"$TARTAN" runs replay one "$id" > replay.txt || fail "cannot replay"
+tail -n 1 replay.txt | cmp -s - one/best/1.txt || fail "the replayed individual is not the best one"
+"$TARTAN" map "$(dirname "$TARTAN")/stdlib/words.bnf" --genome "$(sed -n 's/^# genome: //p' replay.txt)" 2> /dev/null | tail -n 1 > mapped.txt
+[ -s mapped.txt ] && { cmp -s mapped.txt one/best/1.txt || fail "the replayed genome maps to something else"; }
+"$TARTAN" runs replay one 99999999 > /dev/null 2>&1 && fail "replayed an individual that is not there"
+"$TARTAN" runs show one | grep -q '^ *25 ' || fail "does not show the last generation"
+"$TARTAN" runs compare one four | grep -c '^one\|^four' | grep -q 2 || fail "does not compare"
+"$TARTAN" runs show nothing > /dev/null 2>&1; [ $? -eq 3 ] || fail "a run that is not there is no file error"
+
+# ---- breeding by hand: choices are stored and made again
+sed 's/population 60/population 12/' hello.study > hand.study
+printf '1 2*3 5\nx\n13\n4 4 6\n\n' | "$TARTAN" breed hand.study -o hand > hand.txt || fail "cannot breed"
+[ -f hand/sheet-0002.svg ] || fail "no sheet of the third generation"
+grep -q 'is no choice' hand.txt || fail "does not refuse a wrong choice"
+printf '1 2*3 5\n' | "$TARTAN" breed hand.study -o hand2 > /dev/null
+printf '4 4 6\n\n' | "$TARTAN" breed hand.study -o hand2 --resume > /dev/null || fail "cannot go on breeding"
+cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"
+"$TARTAN" runs replay hand 30 > /dev/null || fail "cannot replay a choice"
+
+# ---- fitting data; evaluations that fail are counted, not fatal
+printf 'x0,x1,y\n' > data.csv
+awk 'BEGIN { for (i = 0; i < 40; i++) printf "%d,%d,%d\n", i, i % 7, i * 2 + i % 7 }' >> data.csv
+cat > fit.study <<'X'
+evolution {
+  grammar "arithmetic"
+  fit "data.csv"
+  population 100
+  generations 15
+  max-depth 9
+  depth 3..6
+  seed 2
+}
+X
+"$TARTAN" evolve fit.study > fit.txt || fail "does not fit"
+grep -q '^best: individual' fit.txt || fail "finds nothing"
+grep -qE ' [1-9][0-9]* failed' fit.txt || sqlite3 fit.run/run.sqlite 'SELECT count(*) FROM birth WHERE state=2' 2> /dev/null | grep -qv '^0$' ||
+  fail "no evaluation failed, though the data have no x2"
+printf 'x0,y\n1,two\n' > data.csv
+"$TARTAN" evolve fit.study -o bad > /dev/null 2>&1; [ $? -eq 1 ] || fail "wrong data are no error"
+
+exit $failed
