@@ -90,22 +90,22 @@ static void breed(tn_evolution_session *e)
     if (status == TN_OK)
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK)
-        tn_session_fail(e->session, &error);
+        tn_job_fail(e->command, &error);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_evolution_session evolution;
-    tn_session_begin(&session, settings);
-    if (tn_evolution_session_open(&session, &evolution)) {
-        tn_session_show(&session);
+    tn_job_begin(&job, settings);
+    if (tn_evolution_session_open(&job, &evolution)) {
+        tn_job_show(&job);
         tn_interrupt_watch();
         breed(&evolution);
     }
     tn_evolution_session_close(&evolution);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

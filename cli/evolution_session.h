@@ -3,7 +3,7 @@
 #define TARTAN_CLI_EVOLUTION_SESSION_H
 
 #include "cli/option_rows.h"
-#include "cli/session.h"
+#include "cli/job.h"
 #include "driver/evolve.h"
 
 #define OPTION_RUN_DIR                                                                                                 \
@@ -13,15 +13,15 @@
 #define OPTION_RUN_DURABLE FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 
 typedef struct tn_evolution_session {
-    tn_session *session;
+    tn_job *command;
     tn_evolution_job job;
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
 } tn_evolution_session;
 
 /* Opens the study that the first operand names, and begins or resumes its run. False where that failed. Close it in any case, before
- * the session ends. */
-bool tn_evolution_session_open(tn_session *session, tn_evolution_session *evolution);
+ * the job ends. */
+bool tn_evolution_session_open(tn_job *command, tn_evolution_session *evolution);
 void tn_evolution_session_close(tn_evolution_session *evolution);
 
 #endif

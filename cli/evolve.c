@@ -20,7 +20,7 @@ static void evolve(tn_evolution_session *e)
     if (status == TN_OK && e->run.generations)
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK)
-        tn_session_fail(e->session, &error);
+        tn_job_fail(e->command, &error);
 }
 
 static void summarise(const tn_evolution_session *e, FILE *out)
@@ -41,21 +41,21 @@ static void summarise(const tn_evolution_session *e, FILE *out)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_evolution_session evolution;
     tn_output output;
-    tn_session_begin(&session, settings);
-    if (tn_evolution_session_open(&session, &evolution)) {
-        tn_session_show(&session);
+    tn_job_begin(&job, settings);
+    if (tn_evolution_session_open(&job, &evolution)) {
+        tn_job_show(&job);
         tn_interrupt_watch();
         evolve(&evolution);
-        if (tn_session_output(&session, NULL, &output)) {
+        if (tn_job_output(&job, NULL, &output)) {
             summarise(&evolution, output.stream);
-            tn_session_commit(&session, &output);
+            tn_job_commit(&job, &output);
         }
     }
     tn_evolution_session_close(&evolution);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

@@ -7,7 +7,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/option_rows.h"
-#include "cli/session.h"
+#include "cli/job.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/gene/invert.h"
 #include "runtime/gene/mapper.h"
@@ -19,7 +19,7 @@
 #define RANDOM_CODON_BITS 31         /* their size */
 
 typedef struct mapping_run {
-    tn_session *session;
+    tn_job *job;
     tn_grammar *grammar;
     tn_mapper *mapper;
     tn_map_options options;
@@ -31,7 +31,7 @@ typedef struct mapping_run {
 
 static void fail(mapping_run *run, const tn_error *error)
 {
-    tn_session_fail(run->session, error);
+    tn_job_fail(run->job, error);
     run->stop = true;
 }
 
@@ -94,7 +94,7 @@ static void write_text(const mapping_run *run, const tn_mapping *m)
 
 static void write_tree(mapping_run *run, const tn_mapping *m)
 {
-    const char *how = run->session->settings->tree;
+    const char *how = run->job->settings->tree;
     tn_tree tree;
     tn_error error;
     tn_status status = tn_tree_make(m->events, m->event_count, &tree, &error);
@@ -111,7 +111,7 @@ static void write_tree(mapping_run *run, const tn_mapping *m)
 
 static void map_genome(mapping_run *run)
 {
-    const tn_settings *settings = run->session->settings;
+    const tn_settings *settings = run->job->settings;
     tn_mapping mapping;
     tn_error error;
     if (tn_map(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) != TN_OK) {
@@ -142,9 +142,9 @@ static void read_genome(mapping_run *run, const char *path, uint64_t line, const
         return;
     }
     error.line = line;
-    tn_report_error(tn_session_diagnostics(run->session), &error, path, text, length);
+    tn_report_error(tn_job_diagnostics(run->job), &error, path, text, length);
     int code = tn_exit_code(status);
-    run->session->exit_code = code > run->session->exit_code ? code : run->session->exit_code;
+    run->job->exit_code = code > run->job->exit_code ? code : run->job->exit_code;
     run->stop = true;
 }
 
@@ -180,7 +180,7 @@ static void read_genomes(mapping_run *run, const char *path)
 
 static void random_genomes(mapping_run *run)
 {
-    const tn_settings *settings = run->session->settings;
+    const tn_settings *settings = run->job->settings;
     size_t codons = settings->codons.given ? (size_t)settings->codons.value : RANDOM_CODONS;
     tn_error error;
     if (!tn_genome_reserve(&run->genome, codons)) {
@@ -200,15 +200,15 @@ static void random_genomes(mapping_run *run)
 
 static void invert(mapping_run *run)
 {
-    const tn_settings *settings = run->session->settings;
+    const tn_settings *settings = run->job->settings;
     const char *sentence = settings->invert;
     tn_invert_options options = {.max_depth = run->options.max_depth, .max_items = (size_t)settings->max_items.value};
     tn_error error;
     tn_status status = tn_invert(run->grammar, sentence, strlen(sentence), &options, &run->genome, &error);
     if (status != TN_OK) {
         error.line = error.column ? 1 : 0;
-        tn_report_error(tn_session_diagnostics(run->session), &error, "sentence", sentence, strlen(sentence));
-        run->session->exit_code = tn_exit_code(status);
+        tn_report_error(tn_job_diagnostics(run->job), &error, "sentence", sentence, strlen(sentence));
+        run->job->exit_code = tn_exit_code(status);
         return;
     }
     for (size_t i = 0; i < run->genome.count; i++)
@@ -218,23 +218,23 @@ static void invert(mapping_run *run)
 
 /* ---- the command */
 
-static bool check_options(tn_session *session)
+static bool check_options(tn_job *job)
 {
-    const tn_settings *s = session->settings;
+    const tn_settings *s = job->settings;
     int sources = (s->genome != NULL) + (s->genomes != NULL) + s->random.given + (s->invert != NULL);
     if (sources != 1) {
-        tn_session_usage(session, "say what to map: one of --genome, --genomes, --random or --invert");
+        tn_job_usage(job, "say what to map: one of --genome, --genomes, --random or --invert");
         return false;
     }
     tn_error error;
     tn_canvas_format format;
     bool picture = s->tree && strcmp(s->tree, "text") != 0 && strcmp(s->tree, "json") != 0;
     if (picture && tn_canvas_format_of(s->tree, &format, &error) != TN_OK) {
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
         return false;
     }
     if (picture && !s->genome) {
-        tn_session_usage(session, "a picture is of one genome: give it with --genome");
+        tn_job_usage(job, "a picture is of one genome: give it with --genome");
         return false;
     }
     return true;
@@ -242,19 +242,19 @@ static bool check_options(tn_session *session)
 
 static bool prepare(mapping_run *run)
 {
-    tn_session *session = run->session;
-    const tn_settings *settings = session->settings;
+    tn_job *job = run->job;
+    const tn_settings *settings = job->settings;
     tn_error error;
-    if (!tn_session_open(session, settings->operands.items[0]))
+    if (!tn_job_open(job, settings->operands.items[0]))
         return false;
-    if (session->opened.module->GRAMMAR_count == 0) {
+    if (job->opened.module->GRAMMAR_count == 0) {
         tn_fail(&error, TN_INVALID, E_NOT_A_GRAMMAR, "%.200s holds no grammar that genomes are mapped through",
                 settings->operands.items[0]);
         tn_error_help(&error, "such grammars are .bnf files");
         fail(run, &error);
         return false;
     }
-    if (tn_grammar_new(session->opened.module, 0, &run->grammar, &error) != TN_OK) {
+    if (tn_grammar_new(job->opened.module, 0, &run->grammar, &error) != TN_OK) {
         fail(run, &error);
         return false;
     }
@@ -278,11 +278,11 @@ static bool prepare(mapping_run *run)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
-    mapping_run run = {.session = &session};
+    tn_job job;
+    mapping_run run = {.job = &job};
     tn_output output;
-    tn_session_begin(&session, settings);
-    if (check_options(&session) && prepare(&run) && tn_session_output(&session, settings->output, &output)) {
+    tn_job_begin(&job, settings);
+    if (check_options(&job) && prepare(&run) && tn_job_output(&job, settings->output, &output)) {
         run.out = output.stream;
         tn_interrupt_watch();
         if (settings->invert)
@@ -293,12 +293,12 @@ static int run(const tn_command *command, const tn_settings *settings)
             read_genomes(&run, settings->genomes);
         else
             random_genomes(&run);
-        tn_session_commit(&session, &output);
+        tn_job_commit(&job, &output);
     }
     tn_genome_clear(&run.genome);
     tn_mapper_free(run.mapper);
     tn_grammar_free(run.grammar);
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {

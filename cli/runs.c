@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "cli/option_rows.h"
-#include "cli/session.h"
+#include "cli/job.h"
 #include "driver/evolve.h"
 
-static bool read_run(tn_session *session, const char *dir, tn_generation_stats **stats, size_t *count, char **identity)
+static bool read_run(tn_job *job, const char *dir, tn_generation_stats **stats, size_t *count, char **identity)
 {
     tn_run_store *store = NULL;
     tn_error error;
@@ -22,18 +22,18 @@ static bool read_run(tn_session *session, const char *dir, tn_generation_stats *
     if (status == TN_OK)
         status = tn_run_store_stats(store, stats, count, &error);
     if (status != TN_OK)
-        tn_session_fail(session, &error);
+        tn_job_fail(job, &error);
     tn_run_store_free(store);
     free(path);
     return status == TN_OK;
 }
 
-static void show(tn_session *session, const char *dir, FILE *out)
+static void show(tn_job *job, const char *dir, FILE *out)
 {
     tn_generation_stats *stats;
     size_t count;
     char *identity;
-    if (read_run(session, dir, &stats, &count, &identity)) {
+    if (read_run(job, dir, &stats, &count, &identity)) {
         fprintf(out, "%s: %s\n", dir, identity ? identity : "not begun");
         fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid", "evaluations", "births");
         for (size_t i = 0; i < count; i++)
@@ -46,15 +46,15 @@ static void show(tn_session *session, const char *dir, FILE *out)
 }
 
 /* One run a line: where each came, and after how many evaluations it first had its best. */
-static void compare(tn_session *session, FILE *out)
+static void compare(tn_job *job, FILE *out)
 {
-    const tn_option_list *dirs = &session->settings->operands;
+    const tn_option_list *dirs = &job->settings->operands;
     fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations", "best first at");
     for (size_t d = 1; d < dirs->count; d++) {
         tn_generation_stats *stats;
         size_t count, first = 0;
         char *identity;
-        bool read = read_run(session, dirs->items[d], &stats, &count, &identity);
+        bool read = read_run(job, dirs->items[d], &stats, &count, &identity);
         if (read && count == 0)
             fprintf(out, "%-30s %10s\n", dirs->items[d], "none");
         if (read && count) {
@@ -69,20 +69,20 @@ static void compare(tn_session *session, FILE *out)
     }
 }
 
-static void replay(tn_session *session, const char *dir, const char *id_text, FILE *out)
+static void replay(tn_job *job, const char *dir, const char *id_text, FILE *out)
 {
-    tn_evolution_job job = {0};
+    tn_evolution_job evolved = {0};
     tn_run run = {0};
     tn_opened opened = {0};
     const tn_individual *individual;
     tn_error error = {0};
     uint64_t id;
     if (!tn_number_read(id_text, &id)) {
-        tn_session_usage(session, "an individual is a number, not `%.60s`", id_text);
+        tn_job_usage(job, "an individual is a number, not `%.60s`", id_text);
         return;
     }
-    if (tn_run_replay(dir, id, &opened, &job, &run, &individual, &error) != TN_OK) {
-        tn_session_fail(session, &error);
+    if (tn_run_replay(dir, id, &opened, &evolved, &run, &individual, &error) != TN_OK) {
+        tn_job_fail(job, &error);
     } else {
         fprintf(out, "# individual %" PRIu64, id);
         if (individual->parents[0] != TN_NO_PARENT)
@@ -97,35 +97,35 @@ static void replay(tn_session *session, const char *dir, const char *id_text, FI
         fprintf(out, "\n%s\n", individual->sentence);
     }
     tn_run_clear(&run);
-    tn_evolution_job_clear(&job);
+    tn_evolution_job_clear(&evolved);
     tn_close(&opened);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_session session;
+    tn_job job;
     tn_output output;
     const tn_option_list *words = &settings->operands;
     const char *what = words->items[0];
-    tn_session_begin(&session, settings);
+    tn_job_begin(&job, settings);
     bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0, replays = strcmp(what, "replay") == 0;
     if (!shows && !compares && !replays)
-        tn_session_usage(&session, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
+        tn_job_usage(&job, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
     else if (replays && words->count != 3)
-        tn_session_usage(&session, "`tartan runs replay` takes a run's folder and the number of an individual");
+        tn_job_usage(&job, "`tartan runs replay` takes a run's folder and the number of an individual");
     else if (shows && words->count != 2)
-        tn_session_usage(&session, "`tartan runs show` takes one run's folder");
-    else if (tn_session_output(&session, settings->output, &output)) {
+        tn_job_usage(&job, "`tartan runs show` takes one run's folder");
+    else if (tn_job_output(&job, settings->output, &output)) {
         if (shows)
-            show(&session, words->items[1], output.stream);
+            show(&job, words->items[1], output.stream);
         else if (compares)
-            compare(&session, output.stream);
+            compare(&job, output.stream);
         else
-            replay(&session, words->items[1], words->items[2], output.stream);
-        tn_session_commit(&session, &output);
+            replay(&job, words->items[1], words->items[2], output.stream);
+        tn_job_commit(&job, &output);
     }
-    return tn_session_end(&session);
+    return tn_job_end(&job);
 }
 
 static const tn_option options[] = {OPTION_OUTPUT};

@@ -29,16 +29,16 @@ typedef struct tn_evolution_job {
     const char *extension;     /* of the files of best/ */
 } tn_evolution_job;
 
-typedef struct tn_job_options {
+typedef struct tn_evolution_job_options {
     unsigned threads;      /* 0: as many as there are */
     bool says_seed;
     uint64_t seed;
     bool only_replay;      /* no evaluating: scores will be recalled */
-} tn_job_options;
+} tn_evolution_job_options;
 
 /* Makes the job of a study at `path` (data files lie relative to it), with its grammar's module. */
 tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
-                                const tn_job_options *options, tn_evolution_job *job, tn_error *error);
+                                const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error);
 void tn_evolution_job_clear(tn_evolution_job *job);
 
 /* ---- a run */

@@ -43,7 +43,7 @@ static int number_of(const char *word, const char *const *names, int count)
 /* ---- settings */
 
 
-static void translate(const tn_evolution_study *s, const tn_grammar *grammar, const tn_job_options *options,
+static void translate(const tn_evolution_study *s, const tn_grammar *grammar, const tn_evolution_job_options *options,
                       tn_evolution_settings *out)
 {
     *out = tn_evolution_settings_default();
@@ -194,7 +194,7 @@ static tn_status read_seeds(tn_evolution_job *job, const char *path, tn_error *e
 }
 
 tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
-                                const tn_job_options *options, tn_evolution_job *job, tn_error *error)
+                                const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error)
 {
     *job = (tn_evolution_job){.study = *study};
     tn_status status = tn_grammar_new(module, 0, &job->grammar, error);

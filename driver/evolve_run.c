@@ -209,7 +209,7 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
                         const tn_individual **individual, tn_error *error)
 {
     tn_evolution_study study;
-    tn_job_options options = {.only_replay = true};
+    tn_evolution_job_options options = {.only_replay = true};
     *individual = NULL;
     *run = (tn_run){.job = job, .dir = strdup(dir)};
     char *path = tn_run_database(dir), *identity = NULL;
