@@ -77,7 +77,7 @@ typedef struct tn_settings {
 
     /* evolution */
     tn_option_number generations;
-    bool durable;
+    bool durable, figures;
 } tn_settings;
 
 typedef struct tn_command {

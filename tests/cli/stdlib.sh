@@ -7,3 +7,6 @@ for file in stdlib/*.plan examples/*/*.plan; do
         "$TARTAN" test "$file" >/dev/null
     fi
 done
+for file in stdlib/*.bnf; do
+    "$TARTAN" check --werror "$file"
+done
