@@ -288,7 +288,11 @@ static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
         bad_token(reader, item, "a non-terminal sticks to other text");
     else if (text.text[0] == '\'' || text.text[0] == '"')
         bad_token(reader, item, "a quote is not closed before the next blank");
-    else if (text.length > 4 && memcmp(text.text, "Edge", 4) == 0 && digit(text.text[4], 10) >= 0)
+}
+
+static void check_edge(tn_bnf_reader *reader, const tn_bnf_item *item)
+{
+    if (item->text.length > 4 && memcmp(item->text.text, "Edge", 4) == 0 && digit(item->text.text[4], 10) >= 0)
         bad_token(reader, item, "an edge with a number of its own: the genome draws the numbers, write Edge, EdgeX, EdgeY or EdgeZ");
 }
 
@@ -297,8 +301,10 @@ static void make_genr8(tn_bnf_reader *reader, tn_bnf_items items)
     for (tn_bnf_item *item = items.first; item; item = item->next) {
         if (item->kind == TN_BNF_PLAIN)
             check_token(reader, item);
-        if (is_piece(item))
+        if (is_piece(item)) {
+            check_edge(reader, item);
             item->kind = TN_BNF_TERMINAL;
+        }
         make_genr8(reader, item->body);
     }
 }

@@ -1,0 +1,156 @@
+/* Times mapping and evolution in memory: bench_gene WORDS.tnb ARITHMETIC.tnb SMALL.tnb WIDE.tnb LONG.tnb
+ *
+ * Mapping: random genomes of 200 codons, one thread. Evolution: string match and Vladislavleva-4, population 500, 50 generations, by
+ * 1, 2 and 4 threads. Prints one figure a line. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "runtime/gene/evolve.h"
+#include "runtime/gene/problem.h"
+#include "runtime/vm/random.h"
+
+enum { GENOMES = 20000, CODONS = 200, ROUNDS = 5, REPEATS = 10, POINTS = 1024, VARIABLES = 5, GENERATIONS = 50 };
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "bench_gene: %s\n", what);
+    exit(1);
+}
+
+static tn_grammar *load(const char *path)
+{
+    tn_module *module;
+    tn_grammar *grammar;
+    tn_error error;
+    if (tn_module_load_file(path, NULL, &module, &error) != TN_OK || tn_grammar_new(module, 0, &grammar, &error) != TN_OK)
+        stop(error.message);
+    tn_module_free(module);
+    return grammar;
+}
+
+static int compare(const void *left, const void *right)
+{
+    const double *a = left, *b = right;
+    return *a < *b ? -1 : *a > *b;
+}
+
+static double median(double *values, size_t count)
+{
+    qsort(values, count, sizeof *values, compare);
+    return values[count / 2];
+}
+
+static void bench_mapping(const char *name, const char *path)
+{
+    tn_grammar *grammar = load(path);
+    tn_mapper *mapper = tn_mapper_new(grammar);
+    uint64_t *codons = malloc(sizeof *codons * GENOMES * CODONS), used = 0, valid = 0;
+    tn_map_options options = tn_map_options_of(grammar);
+    tn_mapping mapping;
+    double times[ROUNDS];
+    if (!mapper || !codons)
+        stop("out of memory");
+    for (uint64_t i = 0; i < (uint64_t)GENOMES * CODONS; i++)
+        codons[i] = tn_random64(1, 2, i) % 100000;
+    for (int round = 0; round < ROUNDS; round++) {
+        double start = seconds();
+        used = valid = 0;
+        for (int repeat = 0; repeat < REPEATS; repeat++)
+            for (size_t i = 0; i < GENOMES; i++) {
+                tn_map(mapper, codons + i * CODONS, CODONS, &options, &mapping, NULL);
+                used += mapping.valid ? mapping.used : CODONS;
+                valid += mapping.valid;
+            }
+        times[round] = seconds() - start;
+    }
+    double maps = (double)GENOMES * REPEATS;
+    printf("map %-12s %8.2f million a second, %6.1f codons each, %3.0f %% valid\n", name, maps / median(times, ROUNDS) / 1e6,
+           (double)used / maps, 100 * (double)valid / maps);
+    free(codons);
+    tn_mapper_free(mapper);
+    tn_grammar_free(grammar);
+}
+
+/* 10 / (5 + sum (x - 3)^2) at random points of [0.05, 6.05]^5 (Vladislavleva et al., 2009, problem 4). */
+static tn_problem *vladislavleva_4(unsigned threads)
+{
+    static double columns[VARIABLES + 1][POINTS];
+    static const char *const names[] = {"x0", "x1", "x2", "x3", "x4"};
+    const double *pointers[VARIABLES + 1];
+    tn_problem *problem;
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double sum = 5;
+        for (uint64_t k = 0; k < VARIABLES; k++) {
+            columns[k][i] = 0.05 + 6 * (double)(tn_random64(1, k, i) >> 11) * 0x1p-53;
+            sum += (columns[k][i] - 3) * (columns[k][i] - 3);
+        }
+        columns[VARIABLES][i] = 10 / sum;
+    }
+    for (size_t k = 0; k <= VARIABLES; k++)
+        pointers[k] = columns[k];
+    if (tn_problem_fit(names, pointers, VARIABLES, POINTS, threads, &problem, NULL) != TN_OK)
+        stop("out of memory");
+    return problem;
+}
+
+static double run(const tn_grammar *grammar, tn_problem *problem, unsigned threads, bool fit, double *best)
+{
+    tn_evaluator evaluator = tn_problem_evaluator(problem);
+    tn_evolution_settings settings = tn_evolution_settings_default();
+    tn_evolution *evolution;
+    settings.threads = threads;
+    settings.mapping = tn_map_options_of(grammar);
+    settings.mapping.max_depth = fit ? 17 : 0;
+    settings.depth_low = fit ? 2 : 5;
+    settings.depth_high = fit ? 8 : 20;
+    double start = seconds();
+    if (tn_evolution_new(grammar, &settings, &evaluator, &evolution, NULL) != TN_OK)
+        stop("out of memory");
+    for (int g = 0; g <= GENERATIONS; g++)
+        if (tn_evolution_step(evolution, NULL) != TN_OK)
+            stop("a generation failed");
+    double time = seconds() - start;
+    *best = tn_evolution_stats(evolution).best[0];
+    tn_evolution_free(evolution);
+    return time;
+}
+
+static void bench_evolution(const char *name, const char *path, bool fit)
+{
+    tn_grammar *grammar = load(path);
+    for (unsigned threads = 1; threads <= 4; threads *= 2) {
+        double times[ROUNDS], best = 0;
+        for (int round = 0; round < ROUNDS; round++) {
+            tn_problem *problem = NULL;
+            if (fit)
+                problem = vladislavleva_4(threads);
+            else if (tn_problem_match("Hello world", &problem, NULL) != TN_OK)
+                stop("out of memory");
+            times[round] = run(grammar, problem, threads, fit, &best);
+            tn_problem_free(problem);
+        }
+        printf("evolve %-16s %u threads %8.1f ms, best %.4g\n", name, threads, median(times, ROUNDS) * 1e3, best);
+    }
+    tn_grammar_free(grammar);
+}
+
+int main(int count, char **words)
+{
+    if (count != 6)
+        stop("usage: bench_gene WORDS.tnb ARITHMETIC.tnb SMALL.tnb WIDE.tnb LONG.tnb");
+    bench_mapping("4 rules", words[3]);
+    bench_mapping("40 rules", words[4]);
+    bench_mapping("long", words[5]);
+    bench_evolution("string match", words[1], false);
+    bench_evolution("Vladislavleva-4", words[2], true);
+    return 0;
+}
