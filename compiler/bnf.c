@@ -19,6 +19,10 @@ static bool collect_rules(tn_bnf_grammar *g)
 
 static void check_sizes(tn_bnf_grammar *g)
 {
+    for (size_t r = 0; r < g->rule_count; r++)
+        if (g->rules[r]->name.length > TN_NAME_MAX)
+            tn_report(g->reader->diagnostics, E_NAME_TOO_LONG, g->rules[r]->name_span, "a name of %zu bytes; the limit is %u",
+                      g->rules[r]->name.length, TN_NAME_MAX);
     if (g->production_count > TN_BNF_PRODUCTIONS_MAX)
         tn_report(g->reader->diagnostics, E_GRAMMAR_TOO_LARGE, g->rules[0]->name_span,
                   "the grammar has %zu alternatives, more than %u, the limit", g->production_count, TN_BNF_PRODUCTIONS_MAX);
@@ -139,6 +143,12 @@ tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *dia
     size_t errors_before = diagnostics->error_count;
     tn_bnf_reader reader = {.arena = arena, .diagnostics = diagnostics, .file = file};
     tn_bnf_grammar g = {.reader = &reader};
+    const char *zero = memchr(source->text, '\0', source->size);
+    if (zero) {
+        uint32_t at = (uint32_t)(zero - source->text);
+        tn_report(diagnostics, E_STRAY_CHARACTER, (tn_span){file, at, at + 1}, "a grammar cannot hold the character 0");
+        return tn_fail(error, TN_INVALID, E_STRAY_CHARACTER, "the grammar has errors");
+    }
     tn_bnf_read(&reader, source->text, source->size);
     if (!collect_rules(&g))
         return tn_fail_memory(error);

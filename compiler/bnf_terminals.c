@@ -120,8 +120,6 @@ static void put_piece(piece_writer *w, const tn_bnf_item *item)
         } else if (text[i] == '\\') {
             i += read_escape(w, text + i, item->text.length - i);
         } else {
-            if (text[i] == '\0')
-                tn_report(w->reader->diagnostics, E_STRAY_CHARACTER, item->span, "a grammar cannot hold the character 0");
             w->out[w->size++] = text[i++];
         }
     }
@@ -278,9 +276,7 @@ static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
 {
     tn_bnf_text text = item->text;
     const char *open = memchr(text.text, '<', text.length);
-    if (memchr(text.text, '\0', text.length))
-        tn_report(reader->diagnostics, E_STRAY_CHARACTER, item->span, "a grammar cannot hold the character 0");
-    else if (memchr(text.text, '{', text.length) || memchr(text.text, '}', text.length) ||
+    if (memchr(text.text, '{', text.length) || memchr(text.text, '}', text.length) ||
              memchr(text.text, '[', text.length) || memchr(text.text, ']', text.length) ||
              memchr(text.text, '|', text.length))
         bad_token(reader, item, "a brace, bracket or bar sticks to other text");

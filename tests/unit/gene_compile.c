@@ -140,6 +140,12 @@ static void test_large(void **state)
     text = repeat("[ ", 100000, "%dialect genr8\n%repair off\n<a> ::= ", "\n");
     says(text, "E1014 ");
     free(text);
+    text = repeat("n", 253, "<", "> ::= x\n"); /* a name of 255 bytes */
+    says(text, "");
+    free(text);
+    text = repeat("n", 254, "<", "> ::= x\n");
+    says(text, "E0812 ");
+    free(text);
     assert_int_equal(wrong, 0);
 }
 
