@@ -2,8 +2,8 @@
 """Runs the examples of Markdown pages: docs.py [--update] PAGE...
 
 A ```console block holds commands (lines that start with "$ ") and under each what it prints, standard output and errors
-together; a line "..." stands for any number of lines. A ```plan block is a rule file: it must pass `tartan check`, and one
-whose first line is "# NAME.plan" is there under that name for the commands below it. Each page runs in a copy of its own
+together; a line "..." stands for any number of lines. A ```plan, ```bnf or ```study block is a rule file: it must pass `tartan
+check`, and one whose first line is "# NAME.plan" is there under that name for the commands below it. Each page runs in a copy of its own
 folder. TARTAN is the binary. --update writes what is printed now into the pages.
 """
 import os, re, shutil, subprocess, sys, tempfile
@@ -56,9 +56,9 @@ def console(page, block, folder, update):
     return out, failures
 
 
-def rules(page, block, folder):
-    named = re.match(r"# (\S+\.plan)\n", block)
-    name = named.group(1) if named else "block.plan"
+def rules(page, kind, block, folder):
+    named = re.match(r"# (\S+\.%s)\n" % kind, block)
+    name = named.group(1) if named else "block." + kind
     with open(os.path.join(folder, name), "w") as file:
         file.write(block)
     code, printed = run("tartan check " + name, folder)
@@ -83,8 +83,8 @@ def check(page, update):
             if kind == "console":
                 block, failed = console(page, block, folder, update)
                 failures += failed
-            elif kind == "plan":
-                failures += rules(page, block, folder)
+            elif kind in ("plan", "bnf", "study"):
+                failures += rules(page, kind, block, folder)
             return "```%s\n%s```" % (kind, block)
 
         new = BLOCK.sub(one, text)
