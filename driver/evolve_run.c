@@ -47,7 +47,7 @@ static tn_status same_as_stored(tn_run *run, const char *key, const char *now, c
     char *stored;
     tn_status status = tn_run_store_get_meta(run->store, key, &stored, error);
     if (status == TN_OK && (!stored || strcmp(stored, now) != 0)) {
-        status = tn_fail(error, TN_INVALID, 1052, "the run in %.200s was started with another %s", run->dir, what);
+        status = tn_fail(error, TN_INVALID, 1252, "the run in %.200s was started with another %s", run->dir, what);
         tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
     }
     free(stored);
@@ -180,9 +180,9 @@ static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
     if (status == TN_OK)
         status = tn_run_store_get_meta(run->store, "grammar", &text, error);
     if (status == TN_OK && (!path || !text))
-        status = tn_fail(error, TN_INVALID, 1051, "the run's database holds no grammar");
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no grammar");
     if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)
-        status = tn_fail(error, TN_INVALID, 1052, "the run's grammar does not compile with this version of tartan");
+        status = tn_fail(error, TN_INVALID, 1252, "the run's grammar does not compile with this version of tartan");
     free(path);
     free(text);
     return status;
@@ -196,11 +196,11 @@ static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study 
     tn_compilation *c = &opened->compilation;
     tn_status status = tn_run_store_get_meta(run->store, "study", &text, error);
     if (status == TN_OK && !text)
-        status = tn_fail(error, TN_INVALID, 1051, "the run's database holds no study");
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no study");
     if (status == TN_OK)
         status = tn_sources_add(&c->sources, "run.study", text, strlen(text), &file, error);
     if (status == TN_OK && !tn_evolution_settings_read(&c->sources, file, &c->diagnostics, c->arena, study))
-        status = tn_fail(error, TN_INVALID, 1052, "the run's study cannot be read by this version of tartan");
+        status = tn_fail(error, TN_INVALID, 1252, "the run's study cannot be read by this version of tartan");
     free(text);
     return status;
 }
@@ -240,6 +240,6 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
         if (newest[i]->id == id)
             *individual = newest[i];
     if (status == TN_OK && !*individual)
-        status = tn_fail(error, TN_INVALID, 1041, "the run has no individual %" PRIu64, id);
+        status = tn_fail(error, TN_INVALID, 1241, "the run has no individual %" PRIu64, id);
     return status;
 }

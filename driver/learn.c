@@ -39,7 +39,7 @@ void tn_learner_free(tn_learner *l)
 static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_error *error)
 {
     if (l->count == EXAMPLES_MAX)
-        return tn_fail(error, TN_LIMIT, 1044, "there are more than %u examples, the limit", EXAMPLES_MAX);
+        return tn_fail(error, TN_LIMIT, 1244, "there are more than %u examples, the limit", EXAMPLES_MAX);
     if (l->count == l->capacity) {
         size_t capacity = l->capacity ? l->capacity * 2 : 256;
         example *grown = realloc(l->examples, capacity * sizeof *grown);
@@ -86,7 +86,7 @@ static tn_status read_all(tn_learner *l, const char *name, const char *keep, con
     snprintf(text, sizeof text, "use \"%.200s\"\nrule learned = any\n", name);
     tn_status status = tn_open_bytes("examples.plan", (const uint8_t *)text, strlen(text), false, &opened);
     if (status != TN_OK)
-        status = tn_fail(error, TN_INVALID, 1044, "the schema `%.200s` of the examples cannot be used", name);
+        status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
     if (status == TN_OK)
         status = tn_schema_new(opened.module, opened.module->RULE_records[opened.module->RULE_count - 1].schema, 0, &schema, error);
     if (status == TN_OK) {
@@ -111,7 +111,7 @@ tn_status tn_learner_new(const char *schema, const char *keep, const char *drop,
     l->separately = separately;
     tn_status status = read_all(l, schema, keep, drop, error);
     if (status == TN_OK && l->count == 0)
-        status = tn_fail(error, TN_INVALID, 1044, "there are no examples to learn from");
+        status = tn_fail(error, TN_INVALID, 1244, "there are no examples to learn from");
     if (status != TN_OK) {
         tn_learner_free(l);
         *learner = NULL;

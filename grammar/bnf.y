@@ -3,6 +3,7 @@
 %define api.pure full
 %define api.prefix {tn_bnf_}
 %define parse.error custom
+%define lr.default-reduction accepting
 %define api.location.type {tn_span}
 %locations
 %expect 0
@@ -110,9 +111,14 @@ void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size)
         reader->failed = true;
         return;
     }
-    if (tn_bnf__scan_buffer(text, size + 2, scanner))
-        tn_bnf_parse(reader, scanner);
-    else
+    if (!tn_bnf__scan_buffer(text, size + 2, scanner)) {
         reader->failed = true;
+    } else if (tn_bnf_parse(reader, scanner) != 0) {
+        /* the lexer keeps a zero byte behind its last token: at the end of the text, everything is as it was */
+        TN_BNF_STYPE value;
+        tn_span span;
+        while (tn_bnf_lex(&value, &span, scanner) != 0)
+            ;
+    }
     tn_bnf_lex_destroy(scanner);
 }

@@ -3,6 +3,7 @@
 %define api.pure full
 %define api.prefix {tn_evolution_yy_}
 %define parse.error custom
+%define lr.default-reduction accepting
 %define api.location.type {tn_span}
 %locations
 %expect 0
@@ -83,9 +84,14 @@ void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size)
         reader->failed = true;
         return;
     }
-    if (tn_evolution_yy__scan_buffer(text, size + 2, scanner))
-        tn_evolution_yy_parse(reader, scanner);
-    else
+    if (!tn_evolution_yy__scan_buffer(text, size + 2, scanner)) {
         reader->failed = true;
+    } else if (tn_evolution_yy_parse(reader, scanner) != 0) {
+        /* the lexer keeps a zero byte behind its last token: at the end of the text, everything is as it was */
+        TN_EVOLUTION_YY_STYPE value;
+        tn_span span;
+        while (tn_evolution_yy_lex(&value, &span, scanner) != 0)
+            ;
+    }
     tn_evolution_yy_lex_destroy(scanner);
 }

@@ -407,7 +407,7 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
     if (c->out_of_memory)
         return tn_fail_memory(error);
     if (c->too_many) {
-        tn_fail(error, TN_LIMIT, 1023, "deriving the sentence takes more than %zu parser states, the limit", c->max_items);
+        tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit", c->max_items);
         tn_error_help(error, "raise it with --max-items, or take a shorter sentence");
         return TN_LIMIT;
     }

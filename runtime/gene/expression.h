@@ -46,7 +46,7 @@ typedef struct tn_expression {
 
 void tn_expression_clear(tn_expression *expression);
 
-/* TN_INVALID with the column (E1042), TN_LIMIT where it nests too deep. */
+/* TN_INVALID with the column (E1242), TN_LIMIT where it nests too deep. */
 tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count, tn_expression *expression,
                               tn_error *error);
 

@@ -171,7 +171,7 @@ tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **gra
     size_t productions, words;
     measure(module, d.record, &productions, &words);
     if (words > TN_WORD_MAX || d.record->rule_count > TN_WORD_MAX)
-        return tn_fail(error, TN_LIMIT, 1014, "the grammar has more than %u symbols", TN_WORD_MAX);
+        return tn_fail(error, TN_LIMIT, 1214, "the grammar has more than %u symbols", TN_WORD_MAX);
     d.grammar = calloc(1, sizeof *d.grammar);
     if (!d.grammar)
         return tn_fail_memory(error);

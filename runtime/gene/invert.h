@@ -17,8 +17,8 @@ typedef struct tn_invert_options {
 
 #define TN_INVERT_ITEMS 2000000u
 
-/* In the genr8 dialect the sentence's tokens are parted by white space of any kind. TN_INVALID (E1022) with the column and what
- * was expected there, TN_LIMIT (E1023), TN_MEMORY. */
+/* In the genr8 dialect the sentence's tokens are parted by white space of any kind. TN_INVALID (E1222) with the column and what
+ * was expected there, TN_LIMIT (E1223), TN_MEMORY. */
 tn_status tn_invert(const tn_grammar *grammar, const char *sentence, size_t size, const tn_invert_options *options,
                     tn_genome *genome, tn_error *error);
 

@@ -15,7 +15,7 @@ tn_status tn_problem_match(const char *target, tn_problem **problem, tn_error *e
 tn_status tn_problem_fit(const char *const *names, const double *const *columns, size_t variables, size_t points, unsigned threads,
                          tn_problem **problem, tn_error *error);
 
-/* The same from a CSV text: a first line of names, then numbers; the last column is the value wanted. E1043 with the place. */
+/* The same from a CSV text: a first line of names, then numbers; the last column is the value wanted. E1243 with the place. */
 tn_status tn_problem_fit_csv(const char *text, size_t size, unsigned threads, tn_problem **problem, tn_error *error);
 
 tn_evaluator tn_problem_evaluator(tn_problem *problem);

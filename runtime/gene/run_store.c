@@ -31,7 +31,7 @@ static tn_status wrong(tn_run_store *store, tn_error *error)
     if (code == SQLITE_NOMEM)
         return tn_fail_memory(error);
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-        return tn_fail(error, TN_INVALID, 1051, "the run's database is damaged: %s", sqlite3_errmsg(store->db));
+        return tn_fail(error, TN_INVALID, 1251, "the run's database is damaged: %s", sqlite3_errmsg(store->db));
     return tn_fail(error, TN_IO, 902, "the run's database: %s", sqlite3_errmsg(store->db));
 }
 
@@ -100,7 +100,7 @@ tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **sto
 {
     *store = NULL;
     if (access(path, F_OK) == 0) {
-        tn_fail(error, TN_INVALID, 1050, "there is a run in %.200s already", path);
+        tn_fail(error, TN_INVALID, 1250, "there is a run in %.200s already", path);
         tn_error_help(error, "--resume goes on with it; -o DIR puts this run elsewhere");
         return TN_INVALID;
     }
@@ -142,7 +142,7 @@ tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_r
     if (status == TN_OK)
         status = query_number(*store, "PRAGMA application_id", &id, error);
     if (status == TN_OK && id != APPLICATION_ID)
-        status = tn_fail(error, TN_INVALID, 1051, "%.200s is not the database of a run", path);
+        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
     if (status == TN_OK && !read_only)
         status = prepare_writing(*store, error);
     return done(store, status);
@@ -374,7 +374,7 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
     if (status != TN_OK)
         return status;
     if (most >= (int64_t)1 << 32)
-        return tn_fail(error, TN_LIMIT, 1051, "the run has more than 2^32 births, the limit of resuming");
+        return tn_fail(error, TN_LIMIT, 1251, "the run has more than 2^32 births, the limit of resuming");
     scores->count = (size_t)(most + 1);
     scores->scores = calloc(scores->count + 1, sizeof *scores->scores);
     scores->known = calloc(scores->count + 1, 1);
@@ -409,7 +409,7 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
     sqlite3_finalize(statement);
     if (same)
         return TN_OK;
-    tn_fail(error, TN_INVALID, 1052, "generation %u does not come out as it is stored: the run was made with another grammar, study or "
+    tn_fail(error, TN_INVALID, 1252, "generation %u does not come out as it is stored: the run was made with another grammar, study or "
                                      "version", generation);
     tn_error_help(error, "resume it with the files and the version of tartan that it was started with");
     return TN_INVALID;

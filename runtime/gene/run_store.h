@@ -17,10 +17,10 @@
 
 typedef struct tn_run_store tn_run_store;
 
-/* Makes a new database; TN_INVALID (E1050) where the file is there already. `durable` also survives the loss of power. */
+/* Makes a new database; TN_INVALID (E1250) where the file is there already. `durable` also survives the loss of power. */
 tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **store, tn_error *error);
 
-/* Opens one that is there, to go on with (or only to read). TN_IO where it is not, TN_INVALID (E1051) where it is none. */
+/* Opens one that is there, to go on with (or only to read). TN_IO where it is not, TN_INVALID (E1251) where it is none. */
 tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error);
 void tn_run_store_free(tn_run_store *store);
 
@@ -57,7 +57,7 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
 void tn_run_scores_clear(tn_run_scores *scores);
 bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score);
 
-/* Are these the members that the stored generation has, in this order? TN_INVALID (E1052) where not: then the database is of
+/* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) where not: then the database is of
  * another study, grammar or version. */
 tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution, tn_error *error);
 

@@ -7,8 +7,8 @@ cd "$(dirname "$0")/../diagnostics"
 failed=0
 seen=$(mktemp)
 trap 'rm -f "$seen"' EXIT
-for plan in *.plan; do
-    name=${plan%.plan}
+for plan in *.plan *.bnf *.study; do
+    name=${plan%.*}
     status=0
     said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
     if [ "${1-}" = --update ]; then

@@ -27,7 +27,7 @@ diff -r one/best four/best > /dev/null || fail "four threads have other results"
 
 # ---- a run in the way is not overwritten
 "$TARTAN" evolve hello.study -o one > /dev/null 2> err.txt && fail "overwrote a run"
-grep -q 'E1050' err.txt || fail "does not say that there is a run"
+grep -q 'E1250' err.txt || fail "does not say that there is a run"
 
 # ---- stopped early and extended: the same as made at once
 "$TARTAN" evolve hello.study -o short --generations 9 > /dev/null || fail "does not stop early"
@@ -63,7 +63,7 @@ done
 # ---- another study does not go on with the run
 sed 's/population 60/population 61/' hello.study > other.study
 "$TARTAN" evolve other.study -o one --resume > /dev/null 2> err.txt && fail "resumed with another study"
-grep -q 'E1052' err.txt || fail "does not say that the study differs"
+grep -q 'E1252' err.txt || fail "does not say that the study differs"
 
 # ---- replay: what the database says of an individual
 id=$(sed -n 's/^best: individual //p' one.txt)

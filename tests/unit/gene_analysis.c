@@ -98,7 +98,7 @@ static void test_number_limit(void **state)
     tn_error error;
     mpz_init(total);
     assert_int_equal(tn_count_derivations(g, 40, &codons, total, &error), TN_LIMIT);
-    assert_int_equal(error.code, 1027);
+    assert_int_equal(error.code, 1227);
     mpz_clear(total);
     tn_grammar_free(g);
 }

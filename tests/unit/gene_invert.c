@@ -62,7 +62,7 @@ static void refused(tn_grammar *grammar, const char *sentence, uint32_t max_dept
     tn_error error = {0};
     tn_invert_options options = {.max_depth = max_depth};
     assert_int_equal(tn_invert(grammar, sentence, strlen(sentence), &options, &genome, &error), TN_INVALID);
-    assert_int_equal(error.code, 1022);
+    assert_int_equal(error.code, 1222);
     assert_string_equal(error.message, message);
     assert_int_equal(error.column, column);
     tn_genome_clear(&genome);
