@@ -59,7 +59,7 @@ static void test_diagnostics(void **state)
     says("%dialect genr8\n%repair off\n<a> ::= x }\n", "E1211 ");
     says("%dialect genr8\n%repair off\n<a> ::= { x ]\n", "E1211 ");
     says("%dialect genr8\n%repair off\n<a> ::= { x | y }\n<b> ::= z", "E1211 W151 ");
-    says("%dialect genr8\n%repair off\n<a> ::= {x }\n", "E1210 E1211 ");
+    says("%dialect genr8\n%repair off\n<a> ::= {x }\n", "E1211 ");
     says("%dialect genr8\n%repair off\n<a> ::= x{ y\n", "E1210 ");
     says("%dialect genr8\n%repair off\n<a> ::= <b>+\n<b> ::= x\n", "E1210 W151 ");
     says("%dialect genr8\n%repair off\n<a> ::= 'x y'\n", "E1210 ");
