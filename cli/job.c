@@ -109,10 +109,16 @@ void tn_job_show(tn_job *job)
         show(job);
 }
 
-bool tn_job_reopen(tn_job *job, const char *path)
+void tn_job_next(tn_job *job)
 {
     show(job);
     tn_close(&job->opened);
+    tn_diagnostics_init(tn_job_diagnostics(job), &job->opened.compilation.sources);
+}
+
+bool tn_job_reopen(tn_job *job, const char *path)
+{
+    tn_job_next(job);
     return tn_job_open(job, path);
 }
 

@@ -35,6 +35,9 @@ void tn_job_begin(tn_job *job, const tn_settings *settings);
 /* Opens a rule file or module; false where that failed (then end the job). */
 bool tn_job_open(tn_job *job, const char *path);
 
+/* Says what there is to say about the file that is open, and closes it: for commands that take several. */
+void tn_job_next(tn_job *job);
+
 /* Opens another file for the same command, after what there was to say about the one before is said. */
 bool tn_job_reopen(tn_job *job, const char *path);
 

@@ -63,7 +63,7 @@ typedef struct tn_settings {
     int on_error; /* 0 stop, 1 skip */
 
     const char *output, *dropped;
-    bool json, mirror, resume;
+    bool json, mirror, resume, check, diff;
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 

@@ -12,7 +12,7 @@
 static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,
                        size_t *use_count)
 {
-    tn_ast_file *tree = tn_parse_plan(arena, diagnostics, file);
+    tn_ast_file *tree = tn_parse_plan(arena, diagnostics, file, NULL);
     if (!tree)
         return false;
     size_t count = 0;

@@ -5,6 +5,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/token.h"
 
 struct tn_ast_file;
 
@@ -19,6 +20,7 @@ typedef struct tn_parse {
     size_t size;
     uint32_t file;
     struct tn_ast_file *result;
+    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
 
     /* the lexer's */
     uint32_t offset;      /* of the next byte */
@@ -42,7 +44,8 @@ typedef struct tn_parse {
     _Alignas(max_align_t) unsigned char pool[1024]; /* for flex's own few bytes of state */
 } tn_parse;
 
-/* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. */
-struct tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
+/* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`
+ * where that is not NULL. */
+struct tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
 #endif

@@ -480,10 +480,11 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, v
     return 0;
 }
 
-tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file)
+tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
 {
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file};
+    tn_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file,
+                      .tokens = tokens};
     parse.result = TN_NEW(arena, tn_ast_file);
     if (!parse.result || !tn_text_check(diagnostics, file))
         return parse.result ? tn_ast_unread(parse.result) : NULL;
