@@ -1,6 +1,7 @@
 #include "runtime/plan/rules.h"
 
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -160,23 +161,37 @@ tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *trays, size_
     return tn_match(matcher->matcher, trays, length, bits, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
+/* Says which plan an error is about. */
+static void name_plan(size_t plan, tartan_error *error)
+{
+    char message[sizeof error->message];
+    memcpy(message, error->message, sizeof message);
+    snprintf(error->message, sizeof error->message, "plan %zu: %s", plan + 1, message);
+}
+
 /* The plans [begin, end) of tartan_match_all, in one thread; fills `error` where one fails. */
 static void match_some(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t begin, size_t end,
                        uint64_t *bits, tartan_error *error)
 {
-    tartan_matcher *matcher;
-    tn_plan_array plans = {
-        .trays = trays, .begin = begin ? ends[begin - 1] : 0, .ends = ends + begin, .count = end - begin};
-    for (size_t i = begin, at = plans.begin; i < end; at = ends[i++])
-        if (tn_api_trays(rules->schema, trays + at, ends[i] - at, error) != TARTAN_OK)
+    const tn_plan_array plans = {trays, begin ? ends[begin - 1] : 0, ends + begin, end - begin};
+    for (size_t i = begin, start = plans.begin; i < end; start = ends[i++]) {
+        if (tn_api_trays(rules->schema, trays + start, ends[i] - start, error) != TARTAN_OK) {
+            name_plan(i, error);
             return;
-    if (tartan_matcher_new(rules, &matcher, error) != TARTAN_OK)
-        return;
-    size_t done;
+        }
+    }
+    tn_matcher *matcher;
     tn_error found;
-    if (tn_match_all(matcher->matcher, &plans, bits + begin * tartan_rules_words(rules), &done, &found) != TN_OK)
+    size_t done = 0;
+    if (tn_matcher_new(rules->rules, &matcher, &found) != TN_OK) {
         tn_api_fail(&found, error);
-    tartan_matcher_free(matcher);
+        return;
+    }
+    if (tn_match_all(matcher, &plans, bits + begin * tartan_rules_words(rules), &done, &found) != TN_OK) {
+        tn_api_fail(&found, error);
+        name_plan(begin + done, error);
+    }
+    tn_matcher_free(matcher);
 }
 
 tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
