@@ -66,7 +66,7 @@ static void bench_mapping(const char *name, const char *path)
         used = valid = 0;
         for (int repeat = 0; repeat < REPEATS; repeat++)
             for (size_t i = 0; i < GENOMES; i++) {
-                tn_map(mapper, codons + i * CODONS, CODONS, &options, &mapping, NULL);
+                tn_map_genome(mapper, codons + i * CODONS, CODONS, &options, &mapping, NULL);
                 used += mapping.valid ? mapping.used : CODONS;
                 valid += mapping.valid;
             }

@@ -114,7 +114,7 @@ static void map_genome(mapping_run *run)
     const tn_settings *settings = run->job->settings;
     tn_mapping mapping;
     tn_error error;
-    if (tn_map(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) != TN_OK) {
+    if (tn_map_genome(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) != TN_OK) {
         fail(run, &error);
         return;
     }

@@ -26,7 +26,7 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
     for (const tn_evolution_setting *s = reader->first; s; s = s->next) {
         if (strcmp(s->name, "grammar") != 0 || !s->values || s->values->kind != TN_EVOLUTION_STRING || !s->values->text[0])
             continue;
-        *use = (tn_use){s->values->text, s->values->span};
+        *use = (tn_use){.path = s->values->text, .span = s->values->span};
         *use_count = 1;
     }
     return true;

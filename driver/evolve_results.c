@@ -57,7 +57,7 @@ static tn_status draw_derivation(tn_run *run, const char *path, const tn_individ
     tn_mapping mapping;
     tn_tree tree = {0};
     options.record = true;
-    tn_status status = mapper ? tn_map(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
+    tn_status status = mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
                               : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);

@@ -171,7 +171,7 @@ static bool keep_sentence(tn_individual *individual, const char *text, size_t si
 static tn_status map_individual(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
 {
     tn_mapping mapping;
-    tn_status status = tn_map(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons, individual->genome.count,
+    tn_status status = tn_map_genome(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons, individual->genome.count,
                               &e->settings.mapping, &mapping, error);
     if (status != TN_OK)
         return status;

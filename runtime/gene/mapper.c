@@ -666,7 +666,7 @@ static void describe(const tn_mapper *m, tn_mapping *mapping)
     mapping->max_id = m->max_id;
 }
 
-tn_status tn_map(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
+tn_status tn_map_genome(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
                  tn_error *error)
 {
     bool genr8 = m->grammar->dialect == TN_DIALECT_GENR8, repairing = false;

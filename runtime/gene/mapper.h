@@ -96,7 +96,7 @@ tn_mapper *tn_mapper_new(const tn_grammar *grammar);
 void tn_mapper_free(tn_mapper *mapper);
 
 /* Maps a genome. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
-tn_status tn_map(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
+tn_status tn_map_genome(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
                  tn_error *error);
 
 /* What a valid mapping is for: the repaired sentence where there is one, else the phenotype. */

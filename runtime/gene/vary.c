@@ -135,7 +135,7 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
     tn_mapping mapping;
     options.record = true;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     if (status != TN_OK)
         return status;
     *valid = mapping.valid;
@@ -182,7 +182,7 @@ static tn_status is_valid(tn_breeder *b, const tn_genome *genome, bool *valid, t
     tn_map_options options = b->mapping;
     tn_mapping mapping;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     *valid = status == TN_OK && mapping.valid;
     return status;
 }

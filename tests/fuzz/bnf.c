@@ -50,7 +50,7 @@ static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_op
         once.wraps = 0;
         once.repair = TN_REPAIR_OFF;
         once.max_steps = 0;
-        if (tn_map(mapper, genome.codons, genome.count, &once, &again, NULL) != TN_OK || !again.valid ||
+        if (tn_map_genome(mapper, genome.codons, genome.count, &once, &again, NULL) != TN_OK || !again.valid ||
             again.phenotype_size != size || memcmp(again.phenotype, sentence, size) != 0)
             fail("a genome found for a sentence maps to another");
     }
@@ -68,7 +68,7 @@ static void map(const tn_grammar *grammar, uint64_t seed)
     for (int recorded = 0; recorded < 2 && mapper; recorded++) {
         tn_mapping mapping;
         options.record = recorded;
-        if (tn_map(mapper, codons, CODONS, &options, &mapping, NULL) != TN_OK)
+        if (tn_map_genome(mapper, codons, CODONS, &options, &mapping, NULL) != TN_OK)
             break;
         if (recorded)
             write_all(grammar, &mapping);

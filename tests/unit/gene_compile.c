@@ -78,7 +78,7 @@ static void reads(const char *text, size_t count, const char *const *sentences)
         uint64_t codons[4] = {i, 0, 0, 0};
         tn_mapping mapping;
         tn_map_options options = {0};
-        assert_int_equal(tn_map(mapper, codons, 4, &options, &mapping, NULL), TN_OK);
+        assert_int_equal(tn_map_genome(mapper, codons, 4, &options, &mapping, NULL), TN_OK);
         assert_true(mapping.valid);
         assert_string_equal(mapping.phenotype, sentences[i]);
     }
@@ -174,7 +174,7 @@ static void test_damaged_modules(void **state)
                     tn_mapping mapping;
                     tn_map_options options = {.wraps = 3, .max_steps = 1000, .record = true};
                     tn_mapper *mapper = tn_mapper_new(grammar);
-                    assert_int_equal(tn_map(mapper, codons, 8, &options, &mapping, NULL), TN_OK);
+                    assert_int_equal(tn_map_genome(mapper, codons, 8, &options, &mapping, NULL), TN_OK);
                     tn_mapper_free(mapper);
                     tn_grammar_free(grammar);
                     loaded++;

@@ -79,7 +79,7 @@ static size_t check_file(const char *grammar_path, const char *rows_path, uint32
             tn_mapping mapping;
             options.wraps = wraps;
             options.record = recorded;
-            assert_int_equal(tn_map(mapper, codons, count, &options, &mapping, NULL), TN_OK);
+            assert_int_equal(tn_map_genome(mapper, codons, count, &options, &mapping, NULL), TN_OK);
             check_row(row, &mapping, genr8);
         }
         free(codons);
@@ -146,7 +146,7 @@ static void test_worked_example(void **state)
     tn_mapper *mapper = tn_mapper_new(grammar);
     tn_map_options options = {.record = true, .repair = TN_REPAIR_OFF};
     tn_mapping mapping;
-    assert_int_equal(tn_map(mapper, genome, 12, &options, &mapping, NULL), TN_OK);
+    assert_int_equal(tn_map_genome(mapper, genome, 12, &options, &mapping, NULL), TN_OK);
     assert_int_equal(mapping.reason, TN_MAP_OUT_OF_CODONS);
     size_t step = 0;
     for (size_t i = 0; i < mapping.event_count; i++) {
@@ -166,7 +166,7 @@ static void test_worked_example(void **state)
     uint64_t longer[200];
     for (size_t i = 0; i < 200; i++)
         longer[i] = i < 12 ? genome[i] : 40;
-    assert_int_equal(tn_map(mapper, longer, 200, &options, &mapping, NULL), TN_OK);
+    assert_int_equal(tn_map_genome(mapper, longer, 200, &options, &mapping, NULL), TN_OK);
     assert_true(mapping.valid);
     assert_memory_equal(mapping.phenotype, "Edge2 + Edge0 + Edge0 + Edge2 ;", 31);
     tn_mapper_free(mapper);
@@ -183,7 +183,7 @@ static void map_text(tn_grammar *grammar, const char *codons, const tn_map_optio
         genome[count++] = strtoull(at, &at, 10);
     tn_mapper *mapper = tn_mapper_new(grammar);
     tn_mapping mapping;
-    assert_int_equal(tn_map(mapper, genome, count, options, &mapping, NULL), TN_OK);
+    assert_int_equal(tn_map_genome(mapper, genome, count, options, &mapping, NULL), TN_OK);
     if (mapping.valid) {
         size_t size;
         assert_string_equal(tn_mapping_sentence(&mapping, &size), expected);

@@ -45,7 +45,7 @@ static void test_trees(void **state)
                                        .max_depth = f.mapping.max_depth, .codon_limit = 100000, .max_codons = 100000};
             assert_int_equal(tn_random_tree(f.grammar, &f.analysis, 0, 1, &options, &chance, &genome, NULL), TN_OK);
             tn_mapping mapping;
-            assert_int_equal(tn_map(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL), TN_OK);
+            assert_int_equal(tn_map_genome(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL), TN_OK);
             assert_true(mapping.valid);
             assert_int_equal(mapping.used, genome.count); /* reads the tree's codons, each once */
             assert_true(mapping.depth <= options.depth);
@@ -78,7 +78,7 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
         uint64_t a = tn_random64(1, round, 0) % 40, b = tn_random64(1, round, 1) % 40;
         tn_genome children[2] = {0}, copies[2] = {0}, *into[2] = {&children[0], &children[1]}, *twice[2] = {&copies[0], &copies[1]};
         tn_mapping mapping;
-        tn_map(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
+        tn_map_genome(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
         tn_parent parents[2] = {{&genomes[a], mapping.used}, {&genomes[b], 0}};
         uint8_t kinds[2], same[2];
         tn_chance chance = tn_chance_for(5, TN_PURPOSE_BIRTH, 1, round), repeated = chance;
@@ -89,7 +89,7 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
             assert_int_equal(kinds[i], same[i]);
             assert_int_equal(children[i].count, copies[i].count);
             assert_memory_equal(children[i].codons, copies[i].codons, children[i].count * sizeof(uint64_t));
-            assert_int_equal(tn_map(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
+            assert_int_equal(tn_map_genome(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
             assert_true(mapping.valid || !keeps_valid);
             tn_genome *place = &genomes[i ? b : a];
             if (mapping.valid && (i == 0 || a != b)) {
