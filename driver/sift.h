@@ -13,7 +13,8 @@ typedef struct tn_sifted {
     const uint64_t *bits; /* which rules match */
 } tn_sifted;
 
-/* What to do with the plans. Both return false to end early. Called by one thread only. */
+/* What to do with the plans. Both return false to end early. Called by one thread at a time, though not always by the
+ * same one. */
 typedef struct tn_sift_calls {
     void *context;
     bool (*plan)(void *context, const tn_sifted *plan);

@@ -132,8 +132,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The first character of a line that is no blank, or 0. */
-static char first_of(const char *text, size_t size)
+char tn_reader_first(const char *text, size_t size)
 {
     for (size_t i = 0; i < size; i++) {
         if (!is_blank(text[i]))
@@ -149,7 +148,7 @@ static tn_plan_format find_text_format(const tn_plan_reader *reader)
     while (text < end) {
         const char *newline = memchr(text, '\n', (size_t)(end - text));
         const char *stop = newline ? newline : end;
-        char first = first_of(text, (size_t)(stop - text));
+        char first = tn_reader_first(text, (size_t)(stop - text));
         if (first && first != '#')
             return first == '{' ? TN_FORMAT_JSON : TN_FORMAT_LINES;
         text = newline ? newline + 1 : end;
@@ -164,7 +163,7 @@ static tn_status next_text(tn_plan_reader *reader, bool *found, tn_error *error)
         tn_status status = tn_reader_line(reader, found, error);
         if (status != TN_OK || !*found)
             return status;
-        char first = first_of(reader->text, reader->text_size);
+        char first = tn_reader_first(reader->text, reader->text_size);
         if (first == '#' || (json && !first))
             continue;
         if (!json)

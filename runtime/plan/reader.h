@@ -44,6 +44,9 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
  * it is too long. */
 tn_status tn_reader_line(tn_plan_reader *reader, bool *found, tn_error *error);
 
+/* The first character of a line that is no blank, or 0. */
+char tn_reader_first(const char *text, size_t size);
+
 /* Looks at the first line of text without taking it: is it the header of a CSV file? Takes it and sets the columns if
  * so. */
 tn_status tn_reader_csv_open(tn_plan_reader *reader, bool *is_csv, tn_error *error);

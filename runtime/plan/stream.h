@@ -59,6 +59,23 @@ bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank);
 /* The format that is being read; TN_FORMAT_LINES and TN_FORMAT_JSON may alternate in one file. */
 tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
 
+/* ---- reading by several threads */
+
+/* Lines taken from a reader of plan lines or JSON lines. Taking is quick and is done by one thread at a time; what was
+ * taken is then read apart from the reader, by the thread that owns these lines. */
+typedef struct tn_plan_lines tn_plan_lines;
+tn_status tn_plan_lines_new(const tn_plan_reader *reader, tn_plan_lines **lines, tn_error *error);
+void tn_plan_lines_free(tn_plan_lines *lines);
+
+/* Takes the next whole lines, about `bytes` of them, in place of those that `lines` holds. *taken is false where there
+ * are none to take so: another format, a very long line, the end. tn_plan_reader_next goes on from there. */
+tn_status tn_plan_lines_take(tn_plan_lines *lines, tn_plan_reader *reader, size_t bytes, bool *taken, tn_error *error);
+
+/* The next plan of the lines taken, as tn_plan_reader_next gives it; `error` must not be NULL. */
+tn_status tn_plan_lines_next(tn_plan_lines *lines, const tn_plan **plan, tn_error *error);
+uint64_t tn_plan_lines_line(const tn_plan_lines *lines);
+const char *tn_plan_lines_text(const tn_plan_lines *lines, size_t *size);
+
 /* ---- writing */
 
 typedef struct tn_plan_writer tn_plan_writer;

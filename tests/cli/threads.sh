@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# The same bytes at any number of threads, bad plans and interpreted rules included; shards put together are the whole.
+name=threads
+. "$(dirname "$0")/golden.bash"
+shapes=$(cd "$here/../../bench" && pwd)/ten.plan
+
+# Some chunks of plans of all lengths, with mistakes, comments and empty plans among them.
+"$TARTAN" sample "$shapes" --trays 1..10 --per-length 700 --seed 5 >"$scratch/kept"
+"$TARTAN" sample "$files/sheds.plan" -l any-sheds 20000 --trays 0..9 --seed 5 >"$scratch/sheds"
+awk 'NR % 997 == 0 { print "3m roof | 3m" } NR % 1009 == 0 { print "# between" } { print }' "$scratch/sheds" >"$scratch/flawed"
+[ "$(wc -c <"$scratch/sheds")" -gt 600000 ] || fail 'too few plans for several chunks'
+
+# same COMMAND...: the same output, errors and exit code at 1 to 8 threads.
+same() {
+    local threads code
+    for threads in 1 2 3 4 5 6 7 8; do
+        code=0
+        "$@" --threads "$threads" >"$scratch/out.$threads" 2>"$scratch/err.$threads" || code=$?
+        echo "exit $code" >>"$scratch/out.$threads"
+        cmp -s "$scratch/out.1" "$scratch/out.$threads" || fail "$* differs with $threads threads"
+        cmp -s "$scratch/err.1" "$scratch/err.$threads" || fail "$* complains differently with $threads threads"
+    done
+}
+for format in bits names json; do
+    same "$TARTAN" match "$shapes" "$scratch/kept" --format "$format"
+    same "$TARTAN" match "$files/sheds.plan" "$scratch/flawed" --format "$format" --on-error skip
+done
+grep -q '^exit 1$' "$scratch/out.1" || fail 'bad plans are not noticed'
+is 'bad plans' "$(grep -c 'error\[E06' "$scratch/err.1")" "$(grep -c roof "$scratch/flawed")"
+same "$TARTAN" match "$files/sheds.plan" "$scratch/flawed" --format bits
+is 'up to the first bad plan' "$(wc -l <"$scratch/out.1")" "$(($(grep -n roof "$scratch/flawed" | head -1 | cut -d: -f1)))"
+same "$TARTAN" match "$files/sheds.plan" "$scratch/flawed" --format bits --on-error skip --engine vm
+same "$TARTAN" prune "$files/sheds.plan" "$scratch/flawed" --library sheds --dropped - --on-error skip
+same "$TARTAN" count "$shapes"
+
+# Other formats are read by one thread, and matched by several.
+for format in json csv bin; do
+    "$TARTAN" sample "$files/sheds.plan" -l any-sheds 20000 --trays 0..9 --seed 5 --format "$format" -o "$scratch/sheds.$format"
+    "$TARTAN" match "$files/sheds.plan" "$scratch/sheds.$format" --format bits --threads 4 >"$scratch/bits.$format"
+    "$TARTAN" match "$files/sheds.plan" "$scratch/sheds" --format bits --threads 1 | cmp -s - "$scratch/bits.$format" ||
+        fail "$format is matched differently"
+done
+
+# Shards of an enumeration, put together.
+"$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..7 >"$scratch/whole"
+for range in 0:1 1:1000 1000:20000 20000:9999999; do
+    "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..7 --from "${range%:*}" --to "${range#*:}"
+done | cmp -s - "$scratch/whole" || fail 'shards put together are not the whole'
+finish
