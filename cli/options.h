@@ -64,6 +64,7 @@ typedef struct tn_settings {
 
     const char *output, *dropped;
     bool json, mirror, resume, check, diff;
+    bool no_analysis, relations, examples; /* of check */
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 

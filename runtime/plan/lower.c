@@ -364,3 +364,51 @@ tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **o
 {
     return lower_form(lowering, function, FORM_PLAIN | FORM_REVERSED, out, error);
 }
+
+/* Lowers the nodes before the one at `offset`, and hands out what that one would take. */
+static tn_status lower_until(tn_lowering *lowering, tn_term *term, uint32_t form, uint32_t offset, tn_dfa **parts,
+                             size_t *count, tn_error *error)
+{
+    size_t at = 0;
+    while (at < term->count && term->nodes[at].offset != offset)
+        at++;
+    if (at == term->count || term->nodes[at].plain)
+        return tn_fail(error, TN_INTERNAL, 0, "an instruction that makes no relation");
+    uint8_t pops = tn_code_effect((uint8_t)term->nodes[at].code.opcode).pops;
+    term->count = at;
+    tn_dfa *last = NULL;
+    tn_status status = at > 0 ? lower_term(lowering, term, form, &last, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    for (size_t i = pops; i-- > 0; last = NULL)
+        parts[i] = last ? last : term->stack[--term->depth];
+    tn_dfa_free(last);
+    *count = pops;
+    return TN_OK;
+}
+
+tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
+                            tn_error *error)
+{
+    /* Where the whole function has been lowered, all that its instructions call has been too. */
+    tn_function_kind kind = (tn_function_kind)lowering->module->FUNCTION_records[function].kind;
+    uint32_t form = kind == TN_FUNCTION_HOLDS ? FORM_PLAIN : 0;
+    tn_dfa *whole = NULL;
+    *count = 0;
+    tn_status status = lower_form(lowering, function, form, &whole, error);
+    tn_dfa_free(whole);
+    if (status != TN_OK)
+        return status;
+    tn_term term;
+    status = term_read(lowering->module, function, form, &term, error);
+    if (status != TN_OK)
+        return status;
+    status = lower_until(lowering, &term, form, offset, parts, count, error);
+    term_clear(&term);
+    return status;
+}
+
+const tn_marked *tn_lowering_marked(const tn_lowering *lowering)
+{
+    return &lowering->marked;
+}

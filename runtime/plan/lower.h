@@ -8,6 +8,7 @@
 
 #include "runtime/plan/classes.h"
 #include "runtime/plan/dfa.h"
+#include "runtime/plan/marked.h"
 
 typedef struct tn_lowering tn_lowering;
 
@@ -23,5 +24,15 @@ tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_er
 
 /* The same of the function on the reversed plan: the plans whose reverse tn_lower's automaton accepts. */
 tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
+/* The automata (over the classes and the marker, see marked.h) of the relations that the instruction at `offset`, one
+ * of the function's that makes a relation, takes from the stack: parts has room for TN_OPERANDS_MAX. The caller frees
+ * them. */
+#define TN_OPERANDS_MAX 3
+tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
+                            tn_error *error);
+
+/* What the constructions of this lowering share, and the bounds that they keep. */
+const tn_marked *tn_lowering_marked(const tn_lowering *lowering);
 
 #endif

@@ -29,7 +29,7 @@ for plan in *.plan *.bnf *.study; do
 done
 [ "${1-}" != --update ] || exit 0
 # Every code that the front end of .plan files reports is among them.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/plan.[ly] ../../compiler/{ast*,check*,import,lexical,syntax_error}.c | sort -u)
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/plan.[ly] ../../compiler/{ast*,check*,import,lexical,syntax_error}.c ../../driver/analysis.c | sort -u)
 codes=$(while read -r name; do
     case $name in
     E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'error[E%04d]\n' ;;

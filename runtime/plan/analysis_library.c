@@ -1,0 +1,325 @@
+/* Libraries: clauses that contradict one another, and clauses that change nothing. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/analysis_data.h"
+
+typedef struct work {
+    tn_plan_analysis *analysis;
+    uint32_t index;
+    const tn_library_record *record;
+    const tn_clause_record *clauses;
+    size_t count;
+    tn_search_part *parts; /* [count]: what each clause has to answer of a kept plan */
+    tn_dfa **dfas;         /* [count] */
+} work;
+
+static bool prunes(const work *w, size_t i)
+{
+    return w->clauses[i].kind == TN_CLAUSE_PRUNE;
+}
+
+/* Written in the library itself, not taken over from another one. */
+static bool is_own(const work *w, size_t i)
+{
+    const tn_clause_record *clause = &w->clauses[i];
+    return clause->file == w->record->file && clause->begin >= w->record->begin && clause->end <= w->record->end;
+}
+
+static tn_status name_clause(const work *w, size_t i, tn_error *error)
+{
+    tn_error inner = *error;
+    tn_fail(error, inner.status, inner.code, "in the clause '%.80s': %.360s",
+            tn_text(w->analysis->schema->module, w->clauses[i].name), inner.message);
+    tn_error_help(error, "%s", inner.help);
+    error->code_offset = inner.code_offset;
+    return inner.status;
+}
+
+static tn_status lower_clauses(work *w, tn_error *error)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        tn_status status = tn_lower(w->analysis->lowering, w->clauses[i].holds, &w->dfas[i], error);
+        if (status != TN_OK)
+            return status == TN_LIMIT ? name_clause(w, i, error) : status;
+        w->parts[i] = (tn_search_part){w->dfas[i], !prunes(w, i)};
+    }
+    return TN_OK;
+}
+
+/* ---- plans by what some clauses say of them */
+
+static tn_status search(const work *w, const tn_search_part *parts, size_t count, bool lengths, tn_key *word,
+                        bool *found, tn_error *error)
+{
+    uint32_t low = lengths || w->record->trays_min == 0 ? w->record->trays_min : 1;
+    uint32_t high = lengths ? w->record->trays_max : UINT32_MAX;
+    return tn_plan_analysis_search(w->analysis, parts, count, low, high, "library", word, found, error);
+}
+
+/* With the clauses that are `in`, and without clause `left_out` (TN_NO_RECORD: with all of them). */
+static tn_status search_some(const work *w, const bool *in, size_t left_out, bool lengths, tn_key *word, bool *found,
+                             tn_error *error)
+{
+    tn_search_part *parts = malloc((w->count + 1) * sizeof *parts);
+    tn_dfa *all = NULL;
+    size_t count = 0;
+    if (!parts)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < w->count; i++)
+        if (in[i] && i != left_out)
+            parts[count++] = w->parts[i];
+    tn_status status = TN_OK;
+    if (count == 0) {
+        status = tn_dfa_constant(w->analysis->classes->count, true, &all, error);
+        parts[count++] = (tn_search_part){all, true};
+    }
+    if (status == TN_OK)
+        status = search(w, parts, count, lengths, word, found, error);
+    tn_dfa_free(all);
+    free(parts);
+    return status;
+}
+
+/* Confirms what every clause but `except` says of a plan that it leaves in. */
+static tn_status confirm_some(const work *w, const bool *in, size_t except, tn_shown_plan *plan, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < w->count; i++)
+        if (in[i] && i != except)
+            status = tn_plan_analysis_confirm(w->analysis, plan, w->clauses[i].holds, !prunes(w, i), error);
+    return status;
+}
+
+/* ---- empty libraries */
+
+/* Leaves out clause by clause what is not needed for there to be no plan. What is left is irreducible, unless a search
+ * passes a limit: then the clause stays, and *why says so. */
+static tn_status reduce(const work *w, bool *in, bool lengths, tn_error **why, tn_error *error)
+{
+    for (size_t i = w->count; i-- > 0;) {
+        tn_key word = {0};
+        bool found = false;
+        tn_error failure;
+        tn_status status = search_some(w, in, i, lengths, &word, &found, &failure);
+        free(word.data);
+        if (status == TN_LIMIT && !*why) {
+            *why = malloc(sizeof **why);
+            if (!*why)
+                return tn_fail_memory(error);
+            **why = failure;
+        }
+        if (status != TN_OK && status != TN_LIMIT) {
+            if (error)
+                *error = failure;
+            return status;
+        }
+        in[i] = found || status == TN_LIMIT;
+    }
+    return TN_OK;
+}
+
+static tn_status show_without(const work *w, const bool *in, size_t i, bool lengths, tn_shown_plan *plan,
+                              tn_error *error)
+{
+    tn_key word = {0};
+    bool found;
+    tn_status status = search_some(w, in, i, true, &word, &found, error);
+    if (status == TN_OK && !found && !lengths)
+        status = search_some(w, in, i, false, &word, &found, error);
+    if (status == TN_OK && found)
+        status = tn_plan_analysis_show(w->analysis, &word, plan, error);
+    free(word.data);
+    if (status == TN_OK)
+        status = confirm_some(w, in, i, plan, error);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+static tn_status list_reasons(const work *w, const bool *in, tn_plan_analysis_finding *finding, tn_error *error)
+{
+    finding->reasons = malloc((w->count + 1) * sizeof *finding->reasons);
+    if (!finding->reasons)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < w->count; i++) {
+        if (!in[i])
+            continue;
+        tn_status status = show_without(w, in, i, finding->with_lengths, &finding->plans[finding->reason_count], error);
+        if (status != TN_OK)
+            return status;
+        finding->reasons[finding->reason_count++] = (uint32_t)(w->record->clause_first + i);
+    }
+    return TN_OK;
+}
+
+static tn_status explain_empty(const work *w, bool *in, tn_error *error)
+{
+    tn_plan_analysis_finding *finding = tn_plan_analysis_add(w->analysis, TN_FOUND_EMPTY, w->count);
+    if (!finding)
+        return tn_fail_memory(error);
+    finding->library = w->index;
+    tn_key word = {0};
+    for (size_t i = 0; i < w->count; i++)
+        in[i] = true;
+    tn_status status = search_some(w, in, w->count, false, &word, &finding->with_lengths, error);
+    free(word.data);
+    if (status == TN_LIMIT)
+        finding->with_lengths = true;
+    else if (status != TN_OK)
+        return status;
+    status = reduce(w, in, finding->with_lengths, &finding->why, error);
+    return status == TN_OK ? list_reasons(w, in, finding, error) : status;
+}
+
+/* ---- clauses that change nothing */
+
+/* Is there a plan that this clause alone keeps out? */
+static tn_status drops_alone(const work *w, size_t i, bool *alone, tn_error *error)
+{
+    tn_search_part *parts = malloc(w->count * sizeof *parts);
+    tn_key word = {0};
+    if (!parts)
+        return tn_fail_memory(error);
+    memcpy(parts, w->parts, w->count * sizeof *parts);
+    parts[i].accepts = !parts[i].accepts;
+    tn_status status = search(w, parts, w->count, true, &word, alone, error);
+    free(parts);
+    free(word.data);
+    return status;
+}
+
+/* The other prunes that drop the plan too. */
+static tn_status list_droppers(const work *w, size_t i, const tn_key *word, tn_plan_analysis_finding *finding,
+                               tn_error *error)
+{
+    finding->reasons = malloc(w->count * sizeof *finding->reasons);
+    if (!finding->reasons)
+        return tn_fail_memory(error);
+    tn_status status = tn_plan_analysis_confirm(w->analysis, finding->plans, w->clauses[i].holds, true, error);
+    for (size_t k = 0; status == TN_OK && k < w->count; k++) {
+        if (k == i || !prunes(w, k) || !tn_dfa_accepts(w->dfas[k], word->data, word->size))
+            continue;
+        finding->reasons[finding->reason_count++] = (uint32_t)(w->record->clause_first + k);
+        status = tn_plan_analysis_confirm(w->analysis, finding->plans, w->clauses[k].holds, true, error);
+    }
+    return status;
+}
+
+/* The shortest plan that the library would generate and the prune drops. */
+static tn_status show_dropped(const work *w, size_t i, tn_plan_analysis_finding *finding, tn_error *error)
+{
+    tn_search_part *parts = malloc(w->count * sizeof *parts);
+    tn_key word = {0};
+    size_t count = 0;
+    bool found;
+    if (!parts)
+        return tn_fail_memory(error);
+    for (size_t k = 0; k < w->count; k++)
+        if (!prunes(w, k) || k == i)
+            parts[count++] = (tn_search_part){w->dfas[k], true};
+    tn_status status = search(w, parts, count, true, &word, &found, error);
+    if (status == TN_OK && found)
+        status = tn_plan_analysis_show(w->analysis, &word, finding->plans, error);
+    if (status == TN_OK && found)
+        status = list_droppers(w, i, &word, finding, error);
+    free(parts);
+    free(word.data);
+    return status;
+}
+
+static tn_status report_idle(const work *w, size_t i, tn_error *error)
+{
+    tn_plan_analysis_finding *finding =
+        tn_plan_analysis_add(w->analysis, prunes(w, i) ? TN_FOUND_IDLE_PRUNE : TN_FOUND_IDLE_REQUIRE, 1);
+    if (!finding)
+        return tn_fail_memory(error);
+    finding->library = w->index;
+    finding->clause = (uint32_t)(w->record->clause_first + i);
+    return prunes(w, i) ? show_dropped(w, i, finding, error) : TN_OK;
+}
+
+/* What became of one clause. */
+typedef struct verdict {
+    tn_status status;
+    bool needed;
+    tn_error error;
+} verdict;
+
+static tn_status find_idle(const work *w, tn_error *error)
+{
+    verdict *verdicts = calloc(w->count, sizeof *verdicts);
+    if (!verdicts)
+        return tn_fail_memory(error);
+#pragma omp parallel for schedule(dynamic)
+    for (size_t i = 0; i < w->count; i++) {
+        verdicts[i].needed = true;
+        if (is_own(w, i))
+            verdicts[i].status = drops_alone(w, i, &verdicts[i].needed, &verdicts[i].error);
+    }
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < w->count; i++) {
+        status = verdicts[i].status;
+        if (status == TN_OK && !verdicts[i].needed)
+            status = report_idle(w, i, &verdicts[i].error);
+        if (status == TN_LIMIT) {
+            name_clause(w, i, &verdicts[i].error);
+            status = tn_plan_analysis_give_up(w->analysis, TN_NO_RECORD, w->index, &verdicts[i].error, error);
+        } else if (status != TN_OK && error) {
+            *error = verdicts[i].error;
+        }
+    }
+    free(verdicts);
+    return status;
+}
+
+/* ---- a library */
+
+static tn_status analyse(work *w, bool *in, tn_error *error)
+{
+    tn_key word = {0};
+    bool found;
+    for (size_t i = 0; i < w->count; i++)
+        in[i] = true;
+    tn_status status = search_some(w, in, w->count, true, &word, &found, error);
+    free(word.data);
+    if (status != TN_OK)
+        return status;
+    return found ? find_idle(w, error) : explain_empty(w, in, error);
+}
+
+static tn_status look_at(work *w, tn_error *error)
+{
+    bool *in = calloc(w->count + 1, sizeof *in);
+    w->parts = calloc(w->count + 1, sizeof *w->parts);
+    w->dfas = calloc(w->count + 1, sizeof *w->dfas);
+    tn_error why = {0};
+    tn_status status = in && w->parts && w->dfas ? lower_clauses(w, &why) : tn_fail_memory(&why);
+    if (status == TN_OK)
+        status = analyse(w, in, &why);
+    for (size_t i = 0; w->dfas && i < w->count; i++)
+        tn_dfa_free(w->dfas[i]);
+    free(w->dfas);
+    free(w->parts);
+    free(in);
+    if (status == TN_LIMIT)
+        return tn_plan_analysis_give_up(w->analysis, TN_NO_RECORD, w->index, &why, error);
+    if (status != TN_OK && error)
+        *error = why;
+    return status;
+}
+
+tn_status tn_plan_analysis_libraries(tn_plan_analysis *analysis, tn_error *error)
+{
+    const tn_module *module = analysis->schema->module;
+    tn_status status = TN_OK;
+    for (uint32_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
+        const tn_library_record *record = &module->LIBRARY_records[l];
+        work w = {.analysis = analysis,
+                  .index = l,
+                  .record = record,
+                  .clauses = module->CLAUSE_records + record->clause_first,
+                  .count = record->clause_count};
+        if (record->schema == analysis->schema_index && !(record->flags & TN_IMPORTED) && w.count > 0)
+            status = look_at(&w, error);
+    }
+    return status;
+}

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# check: what rules mean. (What is wrong with their text: diagnostics.sh and build.sh.)
+name=check
+. "$(dirname "$0")/golden.bash"
+
+cat >"$scratch/odd.plan" <<'PLAN'
+schema s { door = flag }
+rule all = tray(door) or not tray(door)
+PLAN
+golden relations 'tartan check relations.plan --relations'
+golden relations_limit 'tartan check relations.plan --relations --max-states 20'
+golden examples "tartan check $scratch/odd.plan --relations; tartan check sheds.plan --relations --examples"
+golden relations_json 'tartan check sheds.plan --relations --examples --json'
+golden warning "tartan check $scratch/odd.plan"
+golden warning_json "tartan check --diagnostics=json $scratch/odd.plan"
+golden werror "tartan check --werror $scratch/odd.plan"
+golden no_analysis "tartan check --werror --no-analysis $scratch/odd.plan"
+golden no_relations_without_analysis 'tartan check sheds.plan --relations --no-analysis'
+golden examples_without_relations 'tartan check sheds.plan --examples'
+golden relations_of_two 'tartan check sheds.plan rows.plan --relations'
+
+# A module says nothing of what its author allows: it has relations, but no warnings.
+"$TARTAN" build "$scratch/odd.plan" -o "$scratch/odd.tnb" 2>/dev/null
+exits 0 "$TARTAN" check --werror "$scratch/odd.tnb"
+cmp -s <("$TARTAN" check --relations "$files/sheds.plan") \
+    <("$TARTAN" build "$files/sheds.plan" -o "$scratch/sheds.tnb" && "$TARTAN" check --relations "$scratch/sheds.tnb") ||
+    fail 'a module has other relations than its source'
+
+# The same at any number of threads.
+for threads in 1 2 5; do
+    "$TARTAN" check --threads "$threads" --relations --examples stdlib/lahave-houses.plan >"$scratch/$threads" 2>&1
+    cmp -s "$scratch/1" "$scratch/$threads" || fail "$threads threads find something else"
+done
+finish
