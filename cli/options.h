@@ -79,6 +79,11 @@ typedef struct tn_settings {
     /* evolution */
     tn_option_number generations;
     bool durable, figures;
+
+    /* explaining */
+    bool full;
+    const char *plan_file;
+    tn_option_number nearest;
 } tn_settings;
 
 typedef struct tn_command {

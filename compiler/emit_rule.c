@@ -34,32 +34,29 @@ static uint32_t condition_of(const tn_ast_expr *expr)
 
 static void emit_whole(tn_emit *emit, const tn_ast_expr *expr);
 
+/* What makes the neighbour of its parts has the neighbour's own place, so that explaining it can name it. */
 static void emit_neighbour(tn_emit *emit, const tn_ast_expr *neighbour)
 {
-    const tn_ast_expr *beginning = NULL, *end = NULL;
-    bool chained = false;
+    tn_span span = neighbour->node.span;
+    bool beginning = false, end = false, chained = false;
     for (TN_EACH(const tn_ast_expr, part, neighbour->parts)) {
-        if (part->kind == TN_EXPR_BEGINNING) {
-            beginning = part;
+        beginning = beginning || part->kind == TN_EXPR_BEGINNING;
+        end = end || part->kind == TN_EXPR_END;
+        if (part->kind == TN_EXPR_BEGINNING || part->kind == TN_EXPR_END)
             continue;
-        }
-        if (part->kind == TN_EXPR_END) {
-            end = part;
-            continue;
-        }
         bool optional = part->kind == TN_EXPR_OPTIONAL;
         emit_whole(emit, optional ? first_part(part) : part);
-        tn_emit_op(emit, part->node.span, TN_OP_NONEMPTY, 0, 0);
+        tn_emit_op(emit, span, TN_OP_NONEMPTY, 0, 0);
         if (optional)
-            tn_emit_op(emit, part->node.span, TN_OP_OPTIONAL, 0, 0);
+            tn_emit_op(emit, span, TN_OP_OPTIONAL, 0, 0);
         if (chained)
-            tn_emit_op(emit, neighbour->node.span, TN_OP_CHAIN, 0, 0);
+            tn_emit_op(emit, span, TN_OP_CHAIN, 0, 0);
         chained = true;
     }
     if (beginning)
-        tn_emit_op(emit, beginning->node.span, TN_OP_BEGINNING, 0, 0);
+        tn_emit_op(emit, span, TN_OP_BEGINNING, 0, 0);
     if (end)
-        tn_emit_op(emit, end->node.span, TN_OP_END, 0, 0);
+        tn_emit_op(emit, span, TN_OP_END, 0, 0);
 }
 
 /* All parts by `emit_part`, joined. */

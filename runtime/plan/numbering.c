@@ -46,6 +46,17 @@ uint32_t tn_number(tn_numbering *numbering, uint64_t key)
     return numbering->count - 1;
 }
 
+uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key)
+{
+    uint32_t mask = numbering->capacity - 1;
+    if (numbering->capacity == 0)
+        return UINT32_MAX;
+    for (uint32_t at = (uint32_t)tn_mix64(key) & mask; numbering->slots[at]; at = (at + 1) & mask)
+        if (numbering->keys[numbering->slots[at] - 1] == key)
+            return numbering->slots[at] - 1;
+    return UINT32_MAX;
+}
+
 uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
 {
     if (numbering->count >= numbering->capacity / 2) {

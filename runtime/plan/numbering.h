@@ -18,6 +18,9 @@ typedef struct tn_numbering {
 /* The key's number, new or old; UINT32_MAX where out of memory. */
 uint32_t tn_number(tn_numbering *numbering, uint64_t key);
 
+/* The key's number, or UINT32_MAX where it has none. */
+uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key);
+
 /* Gives a key that is known to be new the next number, without remembering it: for callers who keep a table of their
  * own instead. Not to be mixed with tn_number on one tn_numbering. */
 uint32_t tn_number_new(tn_numbering *numbering, uint64_t key);

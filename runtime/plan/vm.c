@@ -513,6 +513,22 @@ tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, s
     return status;
 }
 
+tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end, bool reversed,
+                          const uint64_t **relation, size_t *words, tn_error *error)
+{
+    vm->work = vm->work_limit;
+    vm->stack.count = 0;
+    vm->frame_count = 0;
+    tn_status status = add_frame(vm, 0, reversed, error);
+    if (status == TN_OK)
+        vm->frames[0].offset = code_begin;
+    while (status == TN_OK && (vm->frame_count > 1 || vm->frames[0].offset < code_end))
+        status = run_instruction(vm, error);
+    *relation = vm->stack.words;
+    *words = vm->words;
+    return status;
+}
+
 tn_status tn_plan_vm_holds(tn_plan_vm *vm, uint32_t function, bool *holds, tn_error *error)
 {
     return tn_plan_vm_relation(vm, function, 0, vm->length, holds, error);

@@ -33,4 +33,10 @@ tn_status tn_plan_vm_holds(tn_plan_vm *vm, uint32_t function, bool *holds, tn_er
 /* Is [begin, end) in the relation of a function (WHOLE or HOLDS)? 0 <= begin <= end <= the plan's length. */
 tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, size_t end, bool *in, tn_error *error);
 
+/* The relation of a stretch of a function's code that leaves one relation on the stack (a term: the code of one part of
+ * a rule), on the plan or, reversed, on the plan turned round (places are then counted from its end). Rows of *words
+ * words each (relation.h), valid until the vm is used again. */
+tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end, bool reversed,
+                          const uint64_t **relation, size_t *words, tn_error *error);
+
 #endif

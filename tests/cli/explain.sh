@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# explain: which clauses drop a plan, by which trays, and what is nearest; rules by themselves; JSON and pictures.
+name=explain
+. "$(dirname "$0")/golden.bash"
+
+golden dropped "tartan explain sheds.plan '3m door | 3m door' --library sheds"
+golden kept "tartan explain sheds.plan '3m door' --library sheds"
+golden rank "tartan explain sheds.plan '#3' --library sheds --full"
+golden length "tartan explain sheds.plan '3m door | 3m - | 3m - | 3m - | 6m -' --library sheds --nearest 1"
+golden rule "tartan explain sheds.plan '3m - | 6m - | 3m door' --rule wide-end --rule door-pair"
+golden rules_alone "tartan explain parts.plan 'low red 1m | high grey 1m | low grey 2m | high red 1m | low blue 3m' --full"
+golden rules_unmatched "tartan explain parts.plan 'high grey 1m | low blue 1m | high grey 1m' --full"
+golden json "tartan explain sheds.plan '6m - | 3m -' --library sheds --json"
+golden file "printf '3m door\n6m -\n' | tartan explain sheds.plan --plan - --library sheds --nearest 0"
+golden bad_plan "tartan explain sheds.plan '3m dor' --library sheds"
+golden bad_rank "tartan explain sheds.plan '#x' --library sheds"
+golden no_such_rank "tartan explain sheds.plan '#100000' --library sheds"
+golden rank_of_rules "tartan explain parts.plan '#1'"
+golden no_plan "tartan explain sheds.plan"
+golden two_plans "tartan explain sheds.plan '3m -' --plan -"
+golden state_limit "tartan explain sheds.plan '6m - | 3m -' --library sheds --max-states 2"
+golden too_long "tartan explain parts.plan 'low red 1m | low red 1m | low red 1m' --max-length 2"
+
+# A module explains as its rule file does, and pictures are made in each format, the same each time.
+(cd "$files" && "$TARTAN" build sheds.plan -o "$scratch/sheds.tnb")
+is 'from a module' "$("$TARTAN" explain "$scratch/sheds.tnb" '6m - | 3m -' --library sheds)" \
+    "$("$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds)"
+plan=$("$TARTAN" unrank stdlib/lahave-houses.plan 12345)
+for format in svg png pdf; do
+    "$TARTAN" explain stdlib/lahave-houses.plan "$plan" --full -o "$scratch/a.$format"
+    "$TARTAN" explain stdlib/lahave-houses.plan "$plan" --full -o "$scratch/b.$format"
+    cmp "$scratch/a.$format" "$scratch/b.$format" || fail "the pictures in $format differ"
+done
+grep -q 'rgb(36' "$scratch/a.svg" || fail 'no green'
+grep -q 'rgb(78' "$scratch/a.svg" || fail 'no red'
+"$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds -o "$scratch/table.svg"
+[ -s "$scratch/table.svg" ] || fail 'no picture of a schema without roles'
+exits 2 "$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds -o "$scratch/a.txt"
+
+# What is nearest to a plan that is kept is not asked; what is nearest otherwise is kept.
+"$TARTAN" explain "$files/sheds.plan" '3m door | 3m door' --library sheds --nearest 100 | sed -n 's/^    \([36]m\)/\1/p' >"$scratch/near"
+[ -s "$scratch/near" ] || fail 'no nearest plans'
+is 'nearest plans that are not kept' "$("$TARTAN" prune "$files/sheds.plan" "$scratch/near" --library sheds | wc -l)" \
+    "$(wc -l <"$scratch/near")"
+finish
