@@ -1,19 +1,43 @@
 /* tartan evolve: breeds sentences of a grammar towards what a study wants. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <time.h>
 
 #include "cli/evolution_session.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+/* What there is to see while it runs. */
+static void describe(const tn_evolution_session *e, uint64_t evaluated_before, double start, char *text, size_t size)
+{
+    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
+    uint32_t invalid = s.no_sentence + s.failed + s.limited, members = invalid + s.scored;
+    double seconds = now() - start;
+    snprintf(text, size, "generations; best %.5g, mean %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s", s.best[0], s.mean,
+             members ? 100.0 * invalid / members : 0, s.distinct,
+             seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
+}
+
 static void evolve(tn_evolution_session *e)
 {
     tn_progress progress;
     tn_error error;
-    tn_progress_begin(&progress, "generations", (double)e->generations + 1);
+    char text[200] = "generations";
+    double start = now();
+    uint64_t before = e->run.generations ? tn_evolution_stats(e->run.evolution).evaluations : 0;
+    tn_progress_begin(&progress, text, (double)e->generations + 1);
     tn_status status = TN_OK;
     while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
         status = tn_run_step(&e->run, NULL, 0, &error);
+        if (status == TN_OK && progress.shows)
+            describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);
     }
     tn_progress_end(&progress);
