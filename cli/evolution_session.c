@@ -31,8 +31,11 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     const tn_source *grammar = source_of(e->command, study->grammar_file), *text = source_of(e->command, 0);
     tn_run_texts texts = {path, text->text, grammar->path, grammar->text};
     e->generations = settings->generations.given ? (uint32_t)settings->generations.value : (uint32_t)study->generations;
-    return tn_evolution_job_make(study, path, e->command->opened.module, &options, &e->job, error) == TN_OK &&
-           tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+    bool begun = tn_evolution_job_make(study, path, e->command->opened.module, &options, &e->job, error) == TN_OK &&
+                 tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+    for (size_t i = 0; begun && i < settings->changes.count; i++)
+        begun = tn_run_set(&e->run, settings->changes.items[i], error) == TN_OK;
+    return begun;
 }
 
 bool tn_evolution_session_open(tn_job *command, tn_evolution_session *e)

@@ -9,6 +9,9 @@
 #define OPTION_RUN_DIR                                                                                                 \
     TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)")
 #define OPTION_RUN_RESUME FLAG("resume", 0, resume, "go on with the run in the folder, if there is one")
+#define OPTION_RUN_SET                                                                                                 \
+    LIST("set", 0, "\"NAME VALUE\"", changes,                                                                          \
+         "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated")
 #define OPTION_RUN_SEED NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's")
 #define OPTION_RUN_DURABLE FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 

@@ -86,6 +86,7 @@ static const tn_option options[] = {
     OPTION_RUN_DIR,
     OPTION_RUN_RESUME,
     NUMBER("generations", 'g', "N", generations, 0, 1000000, "how many generations to breed, instead of the study's number"),
+    OPTION_RUN_SET,
     OPTION_RUN_SEED,
     OPTION_THREADS,
     OPTION_RUN_DURABLE,

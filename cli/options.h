@@ -78,6 +78,7 @@ typedef struct tn_settings {
 
     /* evolution */
     tn_option_number generations;
+    tn_option_list changes;
     bool durable, figures;
 
     /* explaining */

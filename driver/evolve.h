@@ -54,6 +54,10 @@ typedef struct tn_run {
     tn_run_store *store;
     tn_evolution *evolution;
     uint32_t generations; /* done */
+    tn_run_event *changes; /* of targets and weights: all that were made, the last `new_changes` of them not stored yet */
+    size_t change_count, new_changes;
+    tn_rescored *rescored; /* by those */
+    size_t rescored_count;
 } tn_run;
 
 /* What of the study and its grammar a database keeps, so that a run can be replayed from it alone. */
@@ -68,6 +72,11 @@ tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_opti
 
 /* Makes and stores the next generation, bred from the members chosen where a person chose (places from 0; NULL: selection). */
 tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error);
+
+/* Changes a target or weight of a run that has begun, as "length-weight 0.01": all members are scored again, and the change is
+ * stored with the next generation. A change that holds already changes nothing, so that the same words may be said at every
+ * resuming. */
+tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
 
 /* Is there nothing left to wish for (`stop`)? */
 bool tn_run_reached(const tn_run *run);

@@ -146,7 +146,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
     size_t objectives = job->settings.select.selection == TN_SELECT_NSGA2 ? 2 : 1;
     job->extension = job->study.problem == TN_EVOLVE_LEARN ? "plan" : "txt";
     if (only_replay) {
-        job->evaluator = (tn_evaluator){NULL, objectives, never_evaluate};
+        job->evaluator = (tn_evaluator){NULL, objectives, never_evaluate, NULL};
         return TN_OK;
     }
     if (job->study.problem == TN_EVOLVE_MATCH)

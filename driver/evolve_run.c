@@ -19,6 +19,8 @@ void tn_run_clear(tn_run *run)
 {
     tn_evolution_free(run->evolution);
     tn_run_store_free(run->store);
+    tn_run_events_free(run->changes, run->change_count);
+    free(run->rescored);
     free(run->dir);
     *run = (tn_run){0};
 }
@@ -54,6 +56,125 @@ static tn_status same_as_stored(tn_run *run, const char *key, const char *now, c
     return status;
 }
 
+/* ---- changes of targets and weights */
+
+/* The word that a change is about, with its length. */
+static size_t subject_of(const char *change)
+{
+    return strcspn(change, " ");
+}
+
+/* Is this what the last change of the same subject said? */
+static bool holds_already(const tn_run *run, const char *change)
+{
+    size_t length = subject_of(change);
+    for (size_t i = run->change_count; i-- > 0;)
+        if (subject_of(run->changes[i].text) == length && strncmp(run->changes[i].text, change, length) == 0)
+            return strcmp(run->changes[i].text, change) == 0;
+    return false;
+}
+
+static tn_status remember_change(tn_run *run, uint32_t generation, const char *change, tn_error *error)
+{
+    tn_run_event *grown = realloc(run->changes, (run->change_count + 1) * sizeof *grown);
+    if (!grown)
+        return tn_fail_memory(error);
+    run->changes = grown;
+    grown[run->change_count++] = (tn_run_event){generation, strdup("set"), strdup(change)};
+    return grown[run->change_count - 1].kind && grown[run->change_count - 1].text ? TN_OK : tn_fail_memory(error);
+}
+
+static int compare_rescored(const void *left, const void *right)
+{
+    const tn_rescored *a = left, *b = right;
+    return a->id < b->id ? -1 : a->id > b->id;
+}
+
+static tn_status keep_rescored(tn_run *run, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    tn_rescored *kept = calloc(count + 1, sizeof *kept);
+    if (!kept)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        kept[i] = (tn_rescored){members[i]->id, members[i]->score};
+    qsort(kept, count, sizeof *kept, compare_rescored);
+    free(run->rescored);
+    run->rescored = kept;
+    run->rescored_count = count;
+    return TN_OK;
+}
+
+tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
+{
+    const tn_evaluator *evaluator = &run->job->evaluator;
+    if (run->generations == 0 || !evaluator->adjust) {
+        tn_fail(error, TN_INVALID, 1232, run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
+        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning" : "change the study itself");
+        return TN_INVALID;
+    }
+    if (holds_already(run, change))
+        return TN_OK;
+    tn_status status = evaluator->adjust(evaluator->context, change, error);
+    if (status == TN_OK)
+        status = remember_change(run, run->generations, change, error);
+    if (status == TN_OK) {
+        run->new_changes++;
+        status = tn_evolution_rescore(run->evolution, error);
+    }
+    return status == TN_OK ? keep_rescored(run, error) : status;
+}
+
+typedef struct rescored_list {
+    const tn_rescored *items;
+    size_t count;
+} rescored_list;
+
+static bool recall_rescored(void *context, uint64_t id, tn_score *score)
+{
+    const rescored_list *list = context;
+    tn_rescored key = {.id = id};
+    const tn_rescored *found = bsearch(&key, list->items, list->count, sizeof key, compare_rescored);
+    if (found)
+        *score = found->score;
+    return found != NULL;
+}
+
+/* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
+static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error *error)
+{
+    const tn_evaluator *evaluator = &run->job->evaluator;
+    rescored_list list = {0};
+    tn_rescored *items = NULL;
+    tn_status status = evaluator->adjust ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
+    if (status == TN_OK)
+        status = remember_change(run, event->generation, event->text, error);
+    if (status == TN_OK)
+        status = tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
+    list.items = items;
+    if (status == TN_OK) {
+        tn_evolution_recall(run->evolution, recall_rescored, &list);
+        status = tn_evolution_rescore(run->evolution, error);
+    }
+    free(items);
+    return status;
+}
+
+static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error *error)
+{
+    tn_genome places = {0}; /* numbers parted by blanks, which is how genomes are read */
+    tn_status status = tn_genome_read(event->text, strlen(event->text), &places, error);
+    uint32_t *chosen = calloc(places.count + 1, sizeof *chosen);
+    for (size_t i = 0; chosen && i < places.count; i++)
+        chosen[i] = (uint32_t)(places.codons[i] - 1);
+    if (status == TN_OK)
+        status = chosen ? tn_evolution_choose(run->evolution, chosen, places.count, error) : tn_fail_memory(error);
+    free(chosen);
+    tn_genome_clear(&places);
+    return status;
+}
+
 /* Makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
 static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
 {
@@ -70,17 +191,10 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
     for (size_t at = 0; status == TN_OK && run->generations < count; run->generations++) {
         if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
             break;
-        for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++) {
-            tn_genome places = {0}; /* numbers parted by blanks, which is how genomes are read */
-            status = tn_genome_read(events[at].text, strlen(events[at].text), &places, error);
-            uint32_t *chosen = calloc(places.count + 1, sizeof *chosen);
-            for (size_t i = 0; chosen && i < places.count; i++)
-                chosen[i] = (uint32_t)(places.codons[i] - 1);
-            if (status == TN_OK)
-                status = chosen ? tn_evolution_choose(run->evolution, chosen, places.count, error) : tn_fail_memory(error);
-            free(chosen);
-            tn_genome_clear(&places);
-        }
+        for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++)
+            status = strcmp(events[at].kind, "set") == 0 ? repeat_change(run, &events[at], error)
+                                                         : repeat_choice(run, &events[at], error);
+        tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
         if (status == TN_OK)
             status = tn_evolution_step(run->evolution, error);
         if (status == TN_OK)
@@ -153,15 +267,28 @@ static char *places_text(const uint32_t *chosen, size_t count)
 tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error)
 {
     char kind[] = "choose", *text = chosen ? places_text(chosen, chosen_count) : NULL;
-    tn_run_event event = {0, kind, text};
-    if (chosen && !text)
+    size_t count = run->new_changes;
+    tn_run_event *events = calloc(count + 1, sizeof *events);
+    if (!events || (chosen && !text)) {
+        free(events);
+        free(text);
         return tn_fail_memory(error);
+    }
+    for (size_t i = 0; i < count; i++)
+        events[i] = run->changes[run->change_count - count + i];
+    if (chosen)
+        events[count++] = (tn_run_event){0, kind, text};
     tn_status status = chosen ? tn_evolution_choose(run->evolution, chosen, chosen_count, error) : TN_OK;
     if (status == TN_OK)
         status = tn_evolution_step(run->evolution, error);
     if (status == TN_OK)
-        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, &event, chosen != NULL, error);
-    run->generations += status == TN_OK;
+        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count, run->rescored,
+                                  run->new_changes ? run->rescored_count : 0, error);
+    if (status == TN_OK) {
+        run->generations++;
+        run->new_changes = 0;
+    }
+    free(events);
     free(text);
     return status;
 }

@@ -192,7 +192,23 @@ static tn_status score_rule(void *context, unsigned thread, const char *sentence
     return TN_OK;
 }
 
+/* "length-weight 0.01" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_learner *l = context;
+    static const char name[] = "length-weight ";
+    char *end = NULL;
+    double weight = strncmp(change, name, sizeof name - 1) == 0 ? strtod(change + sizeof name - 1, &end) : -1;
+    if (!end || end == change + sizeof name - 1 || *end || !(weight >= 0 && weight <= 1000)) {
+        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_error_help(error, "a run that learns a rule has `length-weight X`, from 0 to 1000");
+        return TN_INVALID;
+    }
+    l->length_weight = weight;
+    return TN_OK;
+}
+
 tn_evaluator tn_learner_evaluator(tn_learner *learner)
 {
-    return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule};
+    return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule, adjust};
 }

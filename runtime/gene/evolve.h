@@ -31,6 +31,8 @@ typedef struct tn_evaluator {
     size_t objectives;
     tn_status (*evaluate)(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
                           tn_error *error);
+    /* Changes a target or weight, "NAME VALUE ..."; NULL where nothing can be changed. Never while evaluating. */
+    tn_status (*adjust)(void *context, const char *change, tn_error *error);
 } tn_evaluator;
 
 typedef enum tn_initialisation { TN_INITIALISE_RANDOM, TN_INITIALISE_RAMPED, TN_INITIALISE_GROW, TN_INITIALISE_PI_GROW,

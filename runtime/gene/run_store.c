@@ -13,7 +13,7 @@
 
 struct tn_run_store {
     sqlite3 *db;
-    sqlite3_stmt *put_birth, *put_generation, *put_event;
+    sqlite3_stmt *put_birth, *put_generation, *put_event, *put_rescore;
 };
 
 static const char schema[] =
@@ -23,7 +23,9 @@ static const char schema[] =
     " members BLOB);"
     "CREATE TABLE birth(id INTEGER PRIMARY KEY, kind INTEGER, parent INTEGER, other INTEGER, state INTEGER, fitness REAL,"
     " more BLOB, message TEXT);"
-    "CREATE TABLE event(generation INTEGER, number INTEGER, kind TEXT, text TEXT, PRIMARY KEY(generation, number)) WITHOUT ROWID;";
+    "CREATE TABLE event(generation INTEGER, number INTEGER, kind TEXT, text TEXT, PRIMARY KEY(generation, number)) WITHOUT ROWID;"
+    "CREATE TABLE rescore(generation INTEGER, id INTEGER, state INTEGER, fitness REAL, more BLOB, PRIMARY KEY(generation, id))"
+    " WITHOUT ROWID;";
 
 static tn_status wrong(tn_run_store *store, tn_error *error)
 {
@@ -61,6 +63,7 @@ void tn_run_store_free(tn_run_store *store)
     sqlite3_finalize(store->put_birth);
     sqlite3_finalize(store->put_generation);
     sqlite3_finalize(store->put_event);
+    sqlite3_finalize(store->put_rescore);
     sqlite3_close(store->db);
     free(store);
 }
@@ -84,6 +87,8 @@ static tn_status prepare_writing(tn_run_store *store, tn_error *error)
         status = prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)", &store->put_generation, error);
     if (status == TN_OK)
         status = prepare(store, "INSERT INTO event VALUES(?,?,?,?)", &store->put_event, error);
+    if (status == TN_OK)
+        status = prepare(store, "INSERT INTO rescore VALUES(?,?,?,?,?)", &store->put_rescore, error);
     return status;
 }
 
@@ -211,25 +216,31 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_t objectives, tn_error *error)
+/* State, the first objective and the further ones, from column `first` on. */
+static void bind_score(sqlite3_stmt *s, int first, const tn_score *score, size_t objectives)
 {
     uint8_t more[8 * TN_OBJECTIVES_MAX];
-    sqlite3_stmt *s = store->put_birth;
     for (size_t i = 1; i < objectives; i++)
-        tn_put_u64(more + 8 * (i - 1), bits_of(born->score.objectives[i]));
+        tn_put_u64(more + 8 * (i - 1), bits_of(score->objectives[i]));
+    sqlite3_bind_int(s, first, (int)score->state);
+    if (score->state == TN_SCORED)
+        sqlite3_bind_double(s, first + 1, score->objectives[0]);
+    else
+        sqlite3_bind_null(s, first + 1);
+    if (objectives > 1)
+        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (objectives - 1)), SQLITE_TRANSIENT);
+    else
+        sqlite3_bind_null(s, first + 2);
+}
+
+static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_t objectives, tn_error *error)
+{
+    sqlite3_stmt *s = store->put_birth;
     sqlite3_bind_int64(s, 1, (int64_t)born->id);
     sqlite3_bind_int(s, 2, born->kind);
     bind_id(s, 3, born->parents[0]);
     bind_id(s, 4, born->parents[1]);
-    sqlite3_bind_int(s, 5, (int)born->score.state);
-    if (born->score.state == TN_SCORED)
-        sqlite3_bind_double(s, 6, born->score.objectives[0]);
-    else
-        sqlite3_bind_null(s, 6);
-    if (objectives > 1)
-        sqlite3_bind_blob(s, 7, more, (int)(8 * (objectives - 1)), SQLITE_TRANSIENT);
-    else
-        sqlite3_bind_null(s, 7);
+    bind_score(s, 5, &born->score, objectives);
     bool said = born->score.state == TN_SCORE_FAILED || born->score.state == TN_SCORE_LIMIT;
     if (born->score.state == TN_SCORE_NO_SENTENCE)
         sqlite3_bind_text(s, 8, tn_map_reason_text(born->reason), -1, SQLITE_STATIC);
@@ -280,8 +291,21 @@ static tn_status put_events(tn_run_store *store, uint32_t generation, const tn_r
     return status;
 }
 
+static tn_status put_rescored(tn_run_store *store, uint32_t generation, const tn_rescored *rescored, size_t count,
+                              size_t objectives, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        sqlite3_bind_int64(store->put_rescore, 1, generation);
+        sqlite3_bind_int64(store->put_rescore, 2, (int64_t)rescored[i].id);
+        bind_score(store->put_rescore, 3, &rescored[i].score, objectives);
+        status = finish_step(store, store->put_rescore, error);
+    }
+    return status;
+}
+
 tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives, const tn_run_event *events,
-                           size_t event_count, tn_error *error)
+                           size_t event_count, const tn_rescored *rescored, size_t rescored_count, tn_error *error)
 {
     size_t count;
     const tn_individual *const *born = tn_evolution_born(evolution, &count);
@@ -289,6 +313,8 @@ tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, s
     tn_status status = run(store, "BEGIN IMMEDIATE", error);
     if (status == TN_OK)
         status = put_events(store, generation, events, event_count, error);
+    if (status == TN_OK)
+        status = put_rescored(store, generation, rescored, rescored_count, objectives, error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
         status = put_birth(store, born[i], objectives, error);
     if (status == TN_OK)
@@ -387,6 +413,35 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
             continue;
         read_score(statement, objectives, &scores->scores[id]);
         scores->known[id] = 1;
+    }
+    sqlite3_finalize(statement);
+    return status;
+}
+
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored, size_t *count,
+                                tn_error *error)
+{
+    sqlite3_stmt *statement = NULL;
+    size_t capacity = 0;
+    *rescored = NULL;
+    *count = 0;
+    tn_status status =
+        prepare(store, "SELECT id, state, fitness, more FROM rescore WHERE generation=? ORDER BY id", &statement, error);
+    if (status == TN_OK)
+        sqlite3_bind_int64(statement, 1, generation);
+    while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
+        if (*count == capacity) {
+            capacity = capacity ? capacity * 2 : 64;
+            tn_rescored *grown = realloc(*rescored, capacity * sizeof *grown);
+            if (!grown) {
+                status = tn_fail_memory(error);
+                break;
+            }
+            *rescored = grown;
+        }
+        tn_rescored *one = &(*rescored)[(*count)++];
+        *one = (tn_rescored){.id = (uint64_t)sqlite3_column_int64(statement, 0)};
+        read_score(statement, objectives, &one->score);
     }
     sqlite3_finalize(statement);
     return status;

@@ -4,7 +4,9 @@
  *   generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births, mean_codons,
  *               mean_depth, members: 8 bytes an id, little-endian, the best first
  *   birth       id, kind, parent, other, state, fitness, more, message: `more` holds the further objectives, 8 bytes each
- *   event       generation, number, kind, text: before that generation is bred; kind choose (places, from 1) or set (key value)
+ *   event       generation, number, kind, text: before that generation is bred; kind choose (places, from 1) or set (a target or
+ *               weight)
+ *   rescore     generation, id, state, fitness, more: the members' scores after a set
  *
  * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored depends on
  * the clock, the machine, or an interruption: a generation is one transaction, so that a run that was killed and resumed ends with
@@ -38,9 +40,18 @@ typedef struct tn_run_event {
     char *kind, *text;
 } tn_run_event;
 
-/* Stores the generation that was made last, and the events that came before it, in one transaction. */
+typedef struct tn_rescored {
+    uint64_t id;
+    tn_score score;
+} tn_rescored;
+
+/* Stores the generation that was made last, and the events and scores that came before it, in one transaction. */
 tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives, const tn_run_event *events,
-                           size_t event_count, tn_error *error);
+                           size_t event_count, const tn_rescored *rescored, size_t rescored_count, tn_error *error);
+
+/* The members' scores after the changes before a generation, in order of their ids. The caller frees *rescored. */
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored, size_t *count,
+                                tn_error *error);
 
 /* All events, in order. The caller frees with tn_run_events_free. */
 tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t *count, tn_error *error);

@@ -107,4 +107,18 @@ grep -qE ' [1-9][0-9]* failed' fit.txt || sqlite3 fit.run/run.sqlite 'SELECT cou
 printf 'x0,y\n1,two\n' > data.csv
 "$TARTAN" evolve fit.study -o bad > /dev/null 2>&1; [ $? -eq 1 ] || fail "wrong data are no error"
 
+# ---- learning a rule; weights changed while the run is paused are made again, and once only
+examples=$OLDPWD/examples/learning-a-rule
+sed "s#\(keep\|drop\).plans#$examples/\1.plans#; s/nsga2 2/tournament 3/; s/population 200/population 60/" "$examples/learn.study" > learn.study
+"$TARTAN" evolve learn.study -o steps --generations 4 > /dev/null || fail "does not learn"
+"$TARTAN" evolve learn.study -o steps --resume --generations 6 --set "length-weight 0.2" > /dev/null || fail "cannot change a weight"
+"$TARTAN" evolve learn.study -o steps --resume --generations 9 --set "length-weight 0.2" > /dev/null || fail "cannot go on"
+"$TARTAN" evolve learn.study -o leap --generations 4 > /dev/null
+"$TARTAN" evolve learn.study -o leap --resume --generations 9 --set "length-weight 0.2" > /dev/null
+cmp -s steps/run.sqlite leap/run.sqlite || fail "a changed weight is not made again as it was"
+"$TARTAN" evolve learn.study -o leap --resume --generations 11 > /dev/null || fail "cannot go on without saying it again"
+"$TARTAN" runs replay leap 500 > /dev/null || fail "cannot replay past a change"
+"$TARTAN" evolve learn.study -o leap --resume --set "colour 3" > /dev/null 2>&1; [ $? -eq 1 ] || fail "changes what is not there"
+"$TARTAN" check leap/best/1.plan || fail "the best rule is no rule file"
+
 exit $failed
