@@ -316,5 +316,6 @@ void tn_settings_clear(tn_settings *settings)
 {
     free(settings->operands.items);
     free(settings->rules.items);
+    free(settings->changes.items);
     *settings = (tn_settings){0};
 }
