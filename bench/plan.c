@@ -1,9 +1,10 @@
 /* Times matching in memory: bench_plan MODULE PLANS FOLDER
  *
- * Makes PLANS random plans of 4 to 10 trays, matches every rule against each with both engines in one thread, and
- * prints the median time of several runs. Both must decide the same. Leaves in FOLDER, for the peers: trays.txt (the
- * spelling of each tray), plans.bin (a byte a tray, 33 + its number, a newline after each plan), plans.pl (Prolog
- * facts) and mask.txt (each plan's bits, in decimal).
+ * Makes PLANS random plans of 4 to 10 trays, and prints, a line each, what was done (all: which of the rules match;
+ * any: whether one does), how, and the median seconds a plan of several runs in one thread. All ways must decide the
+ * same. Leaves in FOLDER, for the peers: trays.txt (the spelling of each tray), plans.bin (a byte a tray, 33 + its
+ * number, a newline after each plan), plans.pl (Prolog facts), plans.txt (plan lines) and mask.txt (each plan's bits,
+ * in decimal).
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "runtime/plan/lower.h"
 #include "runtime/plan/rules.h"
 #include "runtime/plan/text.h"
 #include "runtime/vm/random.h"
@@ -57,42 +59,139 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* One run over the first `count` plans: all in one call, or each in its own. */
-static void match(tn_matcher *matcher, const plans *all, size_t count, bool together, uint64_t *bits)
+static double median(double *times)
 {
-    tn_error error;
-    size_t done;
-    tn_plan_array array = {all->trays, 0, all->ends, count};
-    if (together && tn_match_all(matcher, &array, bits, &done, &error) != TN_OK)
-        stop(error.message);
-    for (size_t i = 0; !together && i < count; i++) {
-        size_t begin = i ? all->ends[i - 1] : 0;
-        if (tn_match(matcher, all->trays + begin, all->ends[i] - begin, &bits[i], &error) != TN_OK)
-            stop(error.message);
-    }
+    qsort(times, RUNS, sizeof *times, by_value);
+    return times[RUNS / 2];
 }
 
-/* Median seconds of matching the first `count` plans. */
-static double time_engine(const tn_schema *schema, const uint32_t *functions, size_t rules_count, tn_engine engine,
-                          const plans *all, size_t count, bool together, uint64_t *bits)
+static void print_time(const char *work, const char *how, double time, size_t count)
+{
+    printf("%s %s %.12f\n", work, how, time / (double)count);
+}
+
+/* ---- ours */
+
+/* The same, each plan in a call of its own. */
+static void time_one_by_one(tn_matcher *matcher, const plans *all, uint64_t *bits)
+{
+    tn_error error;
+    double times[RUNS];
+    for (size_t run = 0; run < RUNS; run++) {
+        double start = seconds();
+        for (size_t i = 0; i < all->count; i++) {
+            size_t begin = i ? all->ends[i - 1] : 0;
+            if (tn_match(matcher, all->trays + begin, all->ends[i] - begin, &bits[i], &error) != TN_OK)
+                stop(error.message);
+        }
+        times[run] = seconds() - start;
+    }
+    print_time("all", "single", median(times), all->count);
+}
+
+/* All rules, and then whether any, by the engine and instruction set given. */
+static void time_engine(const char *how, const tn_schema *schema, const uint32_t *functions, size_t rules_count,
+                        const tn_rules_options *options, const plans *all, size_t count, uint64_t *bits)
 {
     tn_error error;
     tn_rules *rules;
     tn_matcher *matcher;
-    if (tn_rules_new(schema, functions, rules_count, &(tn_rules_options){.engine = engine}, &rules, &error) != TN_OK ||
+    size_t done;
+    uint8_t *matches = malloc(count);
+    tn_plan_array plan_array = {all->trays, 0, all->ends, count};
+    if (tn_rules_new(schema, functions, rules_count, options, &rules, &error) != TN_OK ||
         tn_matcher_new(rules, &matcher, &error) != TN_OK)
         stop(error.message);
-    double times[RUNS];
+    double times[RUNS], any_times[RUNS];
     for (size_t run = 0; run < RUNS; run++) {
         double start = seconds();
-        match(matcher, all, count, together, bits);
+        if (!matches || tn_match_all(matcher, &plan_array, bits, &done, &error) != TN_OK)
+            stop(error.message);
         times[run] = seconds() - start;
+        start = seconds();
+        if (tn_match_any(matcher, &plan_array, matches, &done, &error) != TN_OK)
+            stop(error.message);
+        any_times[run] = seconds() - start;
     }
+    for (size_t i = 0; i < count; i++)
+        if (matches[i] != (bits[i] != 0))
+            stop("whether any rule matches is not what all of them say");
+    print_time("all", how, median(times), count);
+    print_time("any", how, median(any_times), count);
+    if (options->engine == TN_ENGINE_AUTO && options->simd == TN_SIMD_BEST)
+        time_one_by_one(matcher, all, bits);
     tn_matcher_free(matcher);
     tn_rules_free(rules);
-    qsort(times, RUNS, sizeof *times, by_value);
-    return times[RUNS / 2];
+    free(matches);
 }
+
+/* ---- the plain loop: a table a rule, a plan after another, what a program would do that did not care */
+
+typedef struct plain {
+    uint32_t classes;
+    uint32_t *class_of; /* [trays] */
+    uint32_t *tables[64];
+    uint8_t *accept[64];
+} plain;
+
+static void plain_make(plain *p, const tn_schema *schema, const uint32_t *functions, size_t rules)
+{
+    tn_classes *classes;
+    tn_lowering *lowering;
+    tn_error error;
+    if (tn_classes_new(schema, functions, rules, &classes, &error) != TN_OK ||
+        tn_lowering_new(classes, 0, &lowering, &error) != TN_OK)
+        stop(error.message);
+    p->classes = classes->count;
+    p->class_of = malloc(schema->tray_count * sizeof *p->class_of);
+    for (uint32_t t = 0; p->class_of && t < schema->tray_count; t++)
+        p->class_of[t] = classes->of_tray[t];
+    for (size_t i = 0; i < rules; i++) {
+        tn_dfa *dfa;
+        if (tn_lower(lowering, functions[i], &dfa, &error) != TN_OK)
+            stop(error.message);
+        p->tables[i] = malloc((size_t)dfa->states * p->classes * sizeof *p->tables[i]);
+        p->accept[i] = malloc(dfa->states);
+        if (!p->class_of || !p->tables[i] || !p->accept[i])
+            stop("out of memory");
+        memcpy(p->accept[i], dfa->accept, dfa->states);
+        for (uint32_t s = 0; s < dfa->states; s++)
+            for (uint32_t c = 0; c < p->classes; c++)
+                p->tables[i][(size_t)s * p->classes + c] = tn_dfa_read(dfa, s, c);
+        tn_dfa_free(dfa);
+    }
+    tn_lowering_free(lowering);
+    tn_classes_free(classes);
+}
+
+static void time_plain(const tn_schema *schema, const uint32_t *functions, size_t rules, const plans *all,
+                       uint64_t *bits)
+{
+    plain p;
+    double times[RUNS];
+    plain_make(&p, schema, functions, rules);
+    for (size_t run = 0; run < RUNS; run++) {
+        double start = seconds();
+        for (size_t i = 0; i < all->count; i++) {
+            bits[i] = 0;
+            for (size_t r = 0; r < rules; r++) {
+                uint32_t state = 0;
+                for (size_t k = i ? all->ends[i - 1] : 0; k < all->ends[i]; k++)
+                    state = p.tables[r][(size_t)state * p.classes + p.class_of[all->trays[k]]];
+                bits[i] |= (uint64_t)p.accept[r][state] << r;
+            }
+        }
+        times[run] = seconds() - start;
+    }
+    print_time("all", "plain", median(times), all->count);
+    for (size_t r = 0; r < rules; r++) {
+        free(p.tables[r]);
+        free(p.accept[r]);
+    }
+    free(p.class_of);
+}
+
+/* ---- what the peers read */
 
 static FILE *create(const char *folder, const char *name)
 {
@@ -125,7 +224,8 @@ static void write_files(const tn_schema *schema, const plans *all, const uint64_
                         const char *folder)
 {
     FILE *trays = create(folder, "trays.txt"), *bytes = create(folder, "plans.bin"),
-         *masks = create(folder, "mask.txt"), *prolog = create(folder, "plans.pl");
+         *masks = create(folder, "mask.txt"), *prolog = create(folder, "plans.pl"),
+         *lines = create(folder, "plans.txt");
     for (tn_tray tray = 0; tray < schema->tray_count; tray++) {
         tn_buffer line = {0};
         if (!tn_plan_write_line(schema, &tray, 1, &line))
@@ -138,11 +238,16 @@ static void write_files(const tn_schema *schema, const plans *all, const uint64_
         for (size_t k = begin; k < all->ends[i]; k++)
             fputc(BYTE_FIRST + (int)all->trays[k], bytes);
         fputc('\n', bytes);
+        tn_buffer line = {0};
+        if (!tn_plan_write_line(schema, all->trays + begin, all->ends[i] - begin, &line))
+            stop("out of memory");
+        fprintf(lines, "%s\n", line.data);
+        free(line.data);
         fprintf(masks, "%" PRIu64 "\n", bits[i]);
         if (i < facts)
             write_fact(schema, all->trays + begin, all->ends[i] - begin, prolog);
     }
-    if (fclose(trays) | fclose(bytes) | fclose(masks) | fclose(prolog))
+    if (fclose(trays) | fclose(bytes) | fclose(masks) | fclose(prolog) | fclose(lines))
         stop("cannot write to the folder");
 }
 
@@ -164,20 +269,26 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < rules; i++)
         functions[i] = module->RULE_records[i].holds;
     plans all = make(schema, count);
-    uint64_t *dfa = calloc(count, sizeof *dfa), *one = calloc(count, sizeof *one), *vm = calloc(few, sizeof *vm);
-    if (!dfa || !one || !vm)
+    uint64_t *bits = calloc(count, sizeof *bits), *other = calloc(count, sizeof *other);
+    if (!bits || !other)
         stop("out of memory");
-    double all_time = time_engine(schema, functions, rules, TN_ENGINE_DFA, &all, count, true, dfa);
-    double one_time = time_engine(schema, functions, rules, TN_ENGINE_DFA, &all, count, false, one);
-    double vm_time = time_engine(schema, functions, rules, TN_ENGINE_VM, &all, few, false, vm);
-    if (memcmp(dfa, one, count * sizeof *dfa) != 0 || memcmp(dfa, vm, few * sizeof *dfa) != 0)
-        stop("the engines decide differently");
-    printf("dfa %.12f %zu\none %.12f %zu\nvm %.12f %zu\n", all_time / (double)count, count, one_time / (double)count,
-           count, vm_time / (double)few, few);
-    write_files(schema, &all, dfa, count / 100, argv[3]);
-    free(dfa);
-    free(one);
-    free(vm);
+    static const struct {
+        const char *how;
+        tn_rules_options options;
+    } engines[] = {{"portable", {.simd = TN_SIMD_NONE, .any = true}},
+                   {"avx2", {.simd = TN_SIMD_AVX2, .any = true}},
+                   {"tartan", {.any = true}},
+                   {"vm", {.engine = TN_ENGINE_VM}}};
+    time_plain(schema, functions, rules, &all, bits);
+    for (size_t e = 0; e < sizeof engines / sizeof *engines; e++) {
+        size_t compared = engines[e].options.engine == TN_ENGINE_VM ? few : count;
+        time_engine(engines[e].how, schema, functions, rules, &engines[e].options, &all, compared, other);
+        if (memcmp(bits, other, compared * sizeof *bits) != 0)
+            stop("the engines decide differently");
+    }
+    write_files(schema, &all, bits, count / 100, argv[3]);
+    free(bits);
+    free(other);
     free(all.trays);
     free(all.ends);
     tn_schema_free(schema);

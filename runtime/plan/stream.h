@@ -94,7 +94,7 @@ typedef struct tn_writer_options {
     tn_plan_format format;
     tn_plan_metadata metadata;
     bool resume;    /* go on with the SQLite library at the path, if there is one */
-    uint32_t batch; /* plans a transaction; 0: 50,000 */
+    uint32_t batch; /* plans a transaction; 0: 100,000 */
 } tn_writer_options;
 
 /* Opens a file to write plans to ("-": standard output, not for SQLite). A SQLite library that is there is replaced, or

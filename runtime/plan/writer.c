@@ -7,7 +7,7 @@
 #include "runtime/plan/pack.h"
 #include "runtime/vm/bytes.h"
 
-#define BATCH_DEFAULT 50000u
+#define BATCH_DEFAULT 100000u
 
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS])
@@ -38,6 +38,37 @@ int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size
             return INT64_MAX;
     }
     return total;
+}
+
+/* ---- the texts of trays: a plan line put together from them takes a copy a tray instead of one a value */
+
+#define TRAY_TEXTS_MAX 65536u
+
+static bool make_tray_texts(tn_plan_writer *writer)
+{
+    uint32_t count = writer->schema->tray_count;
+    if (count > TRAY_TEXTS_MAX || writer->format == TN_FORMAT_JSON || writer->format == TN_FORMAT_BIN)
+        return true;
+    writer->tray_text_end = malloc((count + 1) * sizeof *writer->tray_text_end);
+    for (tn_tray tray = 0; writer->tray_text_end && tray < count; tray++) {
+        if (!tn_buffer_append(&writer->tray_texts, " | ", 3) ||
+            !tn_plan_write_line(writer->schema, &tray, 1, &writer->tray_texts))
+            return false;
+        writer->tray_text_end[tray] = writer->tray_texts.size;
+    }
+    return writer->tray_text_end != NULL;
+}
+
+bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out)
+{
+    if (!writer->tray_texts.data)
+        return tn_plan_write_line(writer->schema, trays, length, out);
+    bool done = true;
+    for (size_t k = 0; done && k < length; k++) {
+        size_t begin = (trays[k] ? writer->tray_text_end[trays[k] - 1] : 0) + (k > 0 ? 0 : 3);
+        done = tn_buffer_append(out, writer->tray_texts.data + begin, writer->tray_text_end[trays[k]] - begin);
+    }
+    return done;
 }
 
 /* ---- what a file starts with */
@@ -115,6 +146,8 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
         bool sqlite = ends_in(path, ".sqlite") || ends_in(path, ".sqlite3") || ends_in(path, ".db");
         writer->format = sqlite ? TN_FORMAT_SQLITE : TN_FORMAT_LINES;
     }
+    if (!make_tray_texts(writer))
+        return tn_fail_memory(error);
     return writer->format == TN_FORMAT_SQLITE ? tn_writer_sqlite_open(writer, options, error)
                                               : open_file(writer, options, error);
 }
@@ -172,7 +205,7 @@ static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *
         if (!append_field(out, total, strlen(total)) || !append_text(out, ","))
             return false;
     }
-    return tn_plan_write_line(writer->schema, trays, length, line) &&
+    return tn_writer_line(writer, trays, length, line) &&
            (line->size == 0 || append_field(out, line->data, line->size)) && append_text(out, "\n");
 }
 
@@ -205,7 +238,7 @@ static bool append_plan(tn_plan_writer *writer, const char *rank, const tn_tray 
     case TN_FORMAT_BIN:
         return append_packed(writer, trays, length);
     default:
-        return tn_plan_write_line(writer->schema, trays, length, &writer->text) && append_text(&writer->text, "\n");
+        return tn_writer_line(writer, trays, length, &writer->text) && append_text(&writer->text, "\n");
     }
 }
 
@@ -256,6 +289,8 @@ void tn_plan_writer_free(tn_plan_writer *writer)
     free(writer->text.data);
     free(writer->packed.data);
     free(writer->last_rank.data);
+    free(writer->tray_texts.data);
+    free(writer->tray_text_end);
     free(writer->path);
     free(writer);
 }

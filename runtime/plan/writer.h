@@ -27,7 +27,9 @@ struct tn_plan_writer {
     bool closed;
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
-    tn_buffer text; /* of the plan in hand */
+    tn_buffer text;        /* of the plan in hand */
+    tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
+    size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
     tn_buffer packed;
 
     sqlite3 *database;
@@ -44,6 +46,9 @@ typedef struct tn_metadata_room {
 } tn_metadata_room;
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS]);
+
+/* Appends the plan line; false where out of memory. The same as tn_plan_write_line, from the trays' texts. */
+bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out);
 
 /* The plan's lengths added up, in nanometres. */
 int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length);

@@ -183,7 +183,7 @@ static tn_status resume(tn_plan_writer *writer, const tn_plan_metadata *metadata
 
 static tn_status open_database(tn_plan_writer *writer, tn_error *error)
 {
-    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE;
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(writer->path, &writer->database, flags, NULL) != SQLITE_OK)
         return failed(writer, error);
     sqlite3_busy_timeout(writer->database, BUSY_MILLISECONDS);
@@ -222,7 +222,7 @@ static bool make_plan(tn_plan_writer *writer, const tn_tray *trays, size_t lengt
 {
     writer->text.size = writer->packed.size = 0;
     return tn_buffer_append(&writer->text, "", 0) && tn_buffer_append(&writer->packed, "", 0) &&
-           tn_plan_write_line(writer->schema, trays, length, &writer->text) &&
+           tn_writer_line(writer, trays, length, &writer->text) &&
            tn_pack_trays(writer->schema, trays, length, &writer->packed);
 }
 

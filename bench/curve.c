@@ -1,0 +1,106 @@
+/* One point of a curve: bench_curve MODULE PLANS SHORTEST LONGEST THREADS
+ *
+ * Matches all rules of the module against PLANS random plans of SHORTEST to LONGEST trays in THREADS threads, and
+ * prints the median seconds a plan of several runs. bench_curve MODULE states prints how many states the first rule has
+ * (0: it is interpreted).
+ */
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "runtime/plan/rules.h"
+#include "runtime/vm/random.h"
+
+enum { RUNS = 7, RULES_MAX = 1000 };
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "bench_curve: %s\n", what);
+    exit(1);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static tn_plan_array make(const tn_schema *schema, size_t count, size_t shortest, size_t longest)
+{
+    tn_tray *trays = malloc(count * longest * sizeof *trays);
+    size_t *ends = malloc(count * sizeof *ends), at = 0;
+    if (!trays || !ends)
+        stop("out of memory");
+    for (size_t i = 0; i < count; i++) {
+        size_t length = shortest + tn_random64(2, 0, i) % (longest - shortest + 1);
+        for (size_t k = 0; k < length; k++)
+            trays[at++] = (tn_tray)(tn_random64(2, i + 1, k) % schema->tray_count);
+        ends[i] = at;
+    }
+    return (tn_plan_array){trays, 0, ends, count};
+}
+
+/* Every thread its share of the plans. */
+static void match(const tn_rules *rules, const tn_plan_array *plans, size_t threads, uint64_t *bits)
+{
+    size_t words = (tn_rules_count(rules) + 63) / 64;
+#pragma omp parallel for num_threads((int)threads) schedule(static, 1)
+    for (size_t t = 0; t < threads; t++) {
+        size_t first = plans->count * t / threads, last = plans->count * (t + 1) / threads, done;
+        tn_plan_array share = {plans->trays, first ? plans->ends[first - 1] : 0, plans->ends + first, last - first};
+        tn_matcher *matcher;
+        tn_error error;
+        if (tn_matcher_new(rules, &matcher, &error) != TN_OK ||
+            tn_match_all(matcher, &share, bits + first * words, &done, &error) != TN_OK)
+            stop(error.message);
+        tn_matcher_free(matcher);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 6 && argc != 3)
+        stop("usage: bench_curve MODULE PLANS SHORTEST LONGEST THREADS, or bench_curve MODULE states");
+    tn_error error;
+    tn_module *module;
+    tn_schema *schema;
+    tn_rules *rules;
+    if (tn_module_load_file(argv[1], NULL, &module, &error) != TN_OK ||
+        tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
+        stop(error.message);
+    static uint32_t functions[RULES_MAX];
+    if (module->RULE_count > RULES_MAX)
+        stop("too many rules");
+    for (size_t i = 0; i < module->RULE_count; i++)
+        functions[i] = module->RULE_records[i].holds;
+    tn_rules_options options = {.engine = TN_ENGINE_AUTO};
+    if (tn_rules_new(schema, functions, module->RULE_count, &options, &rules, &error) != TN_OK)
+        stop(error.message);
+    if (argc == 3) {
+        printf("%u\n", tn_rules_states(rules, 0));
+        return 0;
+    }
+    size_t count = strtoul(argv[2], NULL, 10), threads = strtoul(argv[5], NULL, 10);
+    tn_plan_array plans = make(schema, count, strtoul(argv[3], NULL, 10), strtoul(argv[4], NULL, 10));
+    uint64_t *bits = calloc(count, (module->RULE_count + 63) / 64 * sizeof *bits);
+    if (!bits)
+        stop("out of memory");
+    double times[RUNS];
+    match(rules, &plans, threads, bits);
+    for (size_t run = 0; run < RUNS; run++) {
+        double start = seconds();
+        match(rules, &plans, threads, bits);
+        times[run] = seconds() - start;
+    }
+    qsort(times, RUNS, sizeof *times, by_value);
+    printf("%.12f\n", times[RUNS / 2] / (double)count);
+    return 0;
+}
