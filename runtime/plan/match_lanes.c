@@ -38,19 +38,22 @@ static void copy_chunks(tn_lanes *lanes, const tn_tray *trays, const size_t *sta
 }
 
 #if defined(__x86_64__)
-/* The same by a masked load, which does not read past the plan. */
-__attribute__((target("avx512f,bmi2"))) static void copy_chunks_masked(tn_lanes *lanes, const tn_tray *trays,
-                                                                       const size_t *starts, uint32_t padding)
+/* Plans of any length, by masked loads, which do not read past the plan: every lane has as many chunks. */
+__attribute__((target("avx512f,bmi2"))) static void copy_masked(tn_lanes *lanes, const tn_tray *trays,
+                                                                const size_t *starts, uint32_t padding)
 {
     __m512i pad = _mm512_set1_epi32((int)padding);
     for (size_t k = 0; k < TN_LANES; k++) {
-        __mmask16 in_plan = (__mmask16)_bzhi_u32(0xffff, (unsigned)(starts[k + 1] - starts[k]));
-        _mm512_storeu_si512(lanes->rows + k * 2 * TN_LANES_CHUNK,
-                            _mm512_mask_loadu_epi32(pad, in_plan, trays + starts[k]));
+        uint32_t *rows = lanes->rows + k * lanes->stride;
+        size_t length = starts[k + 1] - starts[k];
+        for (size_t i = 0; i < lanes->stride - TN_LANES_CHUNK; i += TN_LANES_CHUNK) {
+            size_t left = length > i ? length - i : 0;
+            __mmask16 in_plan = (__mmask16)_bzhi_u32(0xffff, left < TN_LANES_CHUNK ? (unsigned)left : TN_LANES_CHUNK);
+            __m512i chunk = _mm512_mask_loadu_epi32(pad, in_plan, trays + starts[k] + (left ? i : 0));
+            _mm512_storeu_si512(rows + i, chunk);
+        }
     }
 }
-#else
-#define copy_chunks_masked copy_chunks
 #endif
 
 /* Any plans. */
@@ -60,8 +63,10 @@ static void copy_plans(tn_lanes *lanes, const tn_row_map *map, const tn_tray *tr
         uint32_t *rows = lanes->rows + k * lanes->stride;
         const tn_tray *plan = trays + starts[k];
         size_t length = starts[k + 1] - starts[k];
-        for (size_t i = 0; i < length; i++)
-            rows[i] = map->row_of_tray ? map->row_of_tray[plan[i]] : plan[i];
+        if (!map->row_of_tray && length > 0)
+            memcpy(rows, plan, length * sizeof *rows);
+        for (size_t i = 0; map->row_of_tray && i < length; i++)
+            rows[i] = map->row_of_tray[plan[i]];
         for (size_t i = length; i < lanes->longest; i++)
             rows[i] = map->rows;
     }
@@ -78,10 +83,13 @@ bool tn_lanes_fill(tn_lanes *lanes, const tn_row_map *map, const tn_plan_array *
     }
     if (!reserve(lanes, longest))
         return false;
-    bool chunks = longest <= TN_LANES_CHUNK && !map->row_of_tray;
-    if (chunks && lanes->masked)
-        copy_chunks_masked(lanes, plans->trays, starts, map->rows);
-    else if (chunks && starts[TN_LANES] + TN_LANES_CHUNK <= last)
+#if defined(__x86_64__)
+    if (lanes->masked && !map->row_of_tray) {
+        copy_masked(lanes, plans->trays, starts, map->rows);
+        return true;
+    }
+#endif
+    if (longest <= TN_LANES_CHUNK && !map->row_of_tray && starts[TN_LANES] + TN_LANES_CHUNK <= last)
         copy_chunks(lanes, plans->trays, starts, map->rows);
     else
         copy_plans(lanes, map, plans->trays, starts);
