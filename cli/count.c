@@ -151,8 +151,9 @@ static void write_text(const counts *c, FILE *out)
     mpz_init(pruned);
     mpz_sub(pruned, total->generated, total->kept);
     char *text = tn_digits(pruned, true);
-    fprintf(out, "%s%s%s\npruned: %s\nstates: %u\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
-            text ? text : "?", tn_library_states(c->ready->library));
+    fprintf(out, "%s%s%s\npruned: %s\nstates: %u%s\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
+            text ? text : "?", tn_library_states(c->ready->library),
+            tn_library_within(c->ready->library) ? " within these lengths" : "");
     free(text);
     mpz_clear(pruned);
     write_lengths(c, out);
@@ -206,7 +207,8 @@ static void write_json(const counts *c, FILE *out)
     tn_library_hash(c->ready->library, hash);
     json_object_set_new(root, "library", json_string(tn_text(c->ready->schema->module, c->ready->record->name)));
     json_object_set_new(root, "hash", json_string(hash));
-    json_object_set_new(root, "states", json_integer(tn_library_states(c->ready->library)));
+    bool within = tn_library_within(c->ready->library);
+    json_object_set_new(root, "states", within ? json_null() : json_integer(tn_library_states(c->ready->library)));
     set_number(root, "generated", total->generated);
     set_number(root, "pruned", pruned);
     set_number(root, "kept", total->kept);

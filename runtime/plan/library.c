@@ -1,5 +1,6 @@
 #include "runtime/plan/library_data.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,9 @@ void tn_integers_free(mpz_t *integers, size_t count)
     free(integers);
 }
 
+#define TRANSITIONS_PER_STATE 64u /* that an automaton may have on average, before states are not its size any more */
+#define WORK_PER_STATE 300u
+#define FEW_TRAYS 32u      /* of plans: so many automata of one length each are about as large as one of any length */
 #define TRIAL_STATES 2000u /* of a generator that trying each clause on is cheap for */
 
 /* ---- clauses */
@@ -77,15 +81,30 @@ static tn_status lower_clauses(tn_library *library, tn_error *error)
     return status;
 }
 
-tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
-                           tn_sparse **sparse, tn_error *error)
+tn_bounds tn_library_bounds(const tn_library *library)
 {
-    tn_bounds bounds = tn_bounds_make(library->max_joint);
+    uint64_t states = library->max_joint;
+    if (states < TN_LIBRARY_STATES_DEFAULT)
+        states = TN_LIBRARY_STATES_DEFAULT;
+    return (tn_bounds){.max_states = library->max_joint,
+                       .max_transitions = TRANSITIONS_PER_STATE * states,
+                       .max_work = WORK_PER_STATE * states};
+}
+
+tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
+                           tn_bounds *bounds, tn_sparse **sparse, tn_error *error)
+{
     tn_sparse *product = NULL, *small = NULL;
-    tn_status status = tn_sparse_product(*sparse, clause, operation, "library", &bounds, &product, error);
-    if (status == TN_OK)
-        status = tn_sparse_minimise(product, &small, error);
-    tn_sparse_free(product);
+    tn_status status;
+    if ((*sparse)->folded) {
+        const char *what = library->within ? "library, of its lengths alone," : "library";
+        status = tn_sparse_fold(*sparse, clause, operation, what, bounds, &small, error);
+    } else {
+        status = tn_sparse_product(*sparse, clause, operation, "library", bounds, &product, error);
+        if (status == TN_OK)
+            status = tn_sparse_minimise(product, &small, error);
+        tn_sparse_free(product);
+    }
     if (status != TN_OK)
         return status;
     tn_sparse_free(*sparse);
@@ -93,21 +112,52 @@ tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_d
     return TN_OK;
 }
 
-static tn_status apply_clause(const tn_library *library, size_t i, tn_sparse **sparse, tn_error *error)
+void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)
+{
+    size_t most[2] = {worst, worst};
+    if (!error)
+        return;
+    for (size_t i = 0; i < library->record->clause_count; i++) {
+        uint64_t growth = i == worst ? 0 : library->growth[i];
+        if (growth > 1000 && (most[0] == worst || growth > library->growth[most[0]])) {
+            most[1] = most[0];
+            most[0] = i;
+        } else if (growth > 1000 && (most[1] == worst || growth > library->growth[most[1]])) {
+            most[1] = i;
+        }
+    }
+    const tn_module *module = library->schema->module;
+    char others[200] = "";
+    if (most[1] != worst)
+        snprintf(others, sizeof others, ", '%.60s' or '%.60s', which multiply the states most",
+                 tn_text(module, clause_record(library, most[0])->name),
+                 tn_text(module, clause_record(library, most[1])->name));
+    tn_error_help(error, "leave out '%.60s'%s, give fewer trays with --trays, or raise the limit with --max-states",
+                  tn_text(module, clause_record(library, worst)->name), others);
+}
+
+static tn_status apply_clause(tn_library *library, size_t i, tn_sparse **sparse, tn_error *error)
 {
     const tn_clause_record *record = clause_record(library, i);
     tn_dfa_operation operation = is_prune(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
-    tn_status status = tn_library_apply(library, library->clauses[i], operation, sparse, error);
+    uint64_t before = (*sparse)->states;
+    tn_status status = tn_library_apply(library, library->clauses[i], operation, &library->bounds, sparse, error);
+    if (status == TN_OK)
+        library->growth[i] = (*sparse)->states * UINT64_C(1000) / (before + 1);
     if (status != TN_LIMIT)
         return status;
     if (error)
         error->code_offset = library->schema->module->FUNCTION_records[record->holds].code_begin;
-    return name_clause(library, i, error);
+    name_clause(library, i, error);
+    tn_library_blame(library, i, error);
+    return TN_LIMIT;
 }
 
-/* Everything, to begin with. */
+/* Everything, to begin with: of the library's lengths, or of any. */
 static tn_status everything(const tn_library *library, tn_sparse **out, tn_error *error)
 {
+    if (library->within)
+        return tn_sparse_words(library->classes->count, library->min, library->max, out, error);
     tn_dfa *all = NULL;
     tn_status status = tn_dfa_constant(library->classes->count, true, &all, error);
     if (status == TN_OK)
@@ -145,54 +195,87 @@ static tn_status require(tn_library *library, tn_error *error)
     return status;
 }
 
-/* How large the generator is without what one clause prunes: some clauses multiply states, others hardly add any. A
+/* How large a generator is without what one clause prunes: some clauses multiply states, others hardly add any. A
  * generator too large for so many trials: the clause's own size. */
-static tn_status try_prune(const tn_library *library, size_t i, uint32_t *size, tn_error *error)
+static tn_status try_prune(const tn_library *library, const tn_sparse *generator, size_t i, uint32_t *size,
+                           tn_error *error)
 {
     const tn_dfa *clause = library->clauses[library->prunes[i]];
     *size = clause->states;
-    if (library->generator->states > TRIAL_STATES)
+    if (generator->states > TRIAL_STATES)
         return TN_OK;
+    tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_minimise(library->generator, &trial, error); /* a copy */
+    tn_status status = tn_sparse_minimise(generator, &trial, error); /* a copy */
     if (status == TN_OK)
-        status = tn_library_apply(library, clause, TN_DFA_MINUS, &trial, error);
+        status = tn_library_apply(library, clause, TN_DFA_MINUS, &bounds, &trial, error);
     if (status == TN_OK)
         *size = trial->states;
     tn_sparse_free(trial);
     return status == TN_LIMIT ? TN_OK : status;
 }
 
-/* Orders the prunes so that those that multiply states come last, when the automaton is as large as it gets anyway. */
-static tn_status order_prunes(tn_library *library, tn_error *error)
+tn_status tn_library_order(const tn_library *library, const tn_sparse *generator, size_t **order, tn_error *error)
 {
     size_t count = library->prune_count;
     uint32_t *sizes = malloc((count + 1) * sizeof *sizes);
-    library->order = malloc((count + 1) * sizeof *library->order);
-    tn_status status = sizes && library->order ? TN_OK : tn_fail_memory(error);
+    *order = malloc((count + 1) * sizeof **order);
+    tn_status status = sizes && *order ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t size;
-        status = try_prune(library, i, &size, error);
-        insert(library->order, sizes, i, i, size);
+        status = try_prune(library, generator, i, &size, error);
+        insert(*order, sizes, i, i, size);
     }
     free(sizes);
     return status;
 }
 
-static tn_status combine(tn_library *library, tn_error *error)
+static void forget_combined(tn_library *library)
 {
+    tn_sparse_free(library->generator);
+    tn_sparse_free(library->live);
+    free(library->order);
+    library->generator = library->live = NULL;
+    library->order = NULL;
+}
+
+/* Combines the clauses, within the library's lengths or not, in at most `work` steps. */
+static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn_error *error)
+{
+    forget_combined(library);
+    library->within = within;
+    library->bounds = tn_library_bounds(library);
+    if (work < library->bounds.max_work)
+        library->bounds.max_work = work;
+    memset(library->growth, 0, library->record->clause_count * sizeof *library->growth);
     tn_status status = everything(library, &library->generator, error);
     if (status == TN_OK)
         status = require(library, error);
     if (status == TN_OK)
-        status = order_prunes(library, error);
+        status = tn_library_order(library, library->generator, &library->order, error);
     if (status == TN_OK)
         status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
     for (size_t i = 0; status == TN_OK && i < library->prune_count; i++)
         status = apply_clause(library, library->prunes[library->order[i]], &library->live, error);
-    if (status == TN_OK)
-        status = tn_sparse_complete(library->live, &library->kept, error);
     return status;
+}
+
+/* Plans of any length make the smallest automaton where rules remember little, and the largest where they remember
+ * much. Which way is taken depends on counted work, so it is the same everywhere. */
+static tn_status combine(tn_library *library, tn_error *error)
+{
+    tn_error ignored;
+    library->growth = calloc((size_t)library->record->clause_count + 1, sizeof *library->growth);
+    if (!library->growth)
+        return tn_fail_memory(error);
+    tn_status status = try_combine(library, false, library->max_eager, error);
+    if (status == TN_LIMIT)
+        status = try_combine(library, true, UINT64_MAX, error);
+    if (status == TN_LIMIT && library->max > FEW_TRAYS && try_combine(library, false, UINT64_MAX, &ignored) == TN_OK)
+        status = TN_OK;
+    if (status != TN_OK)
+        return status;
+    return tn_sparse_fill(library->live, &library->kept, error);
 }
 
 /* ---- opening */
@@ -238,6 +321,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->max_states = options->max_states ? options->max_states : TN_STATES_DEFAULT;
     library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
+    library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
     tn_status status = set_lengths(library, options, error);
     if (status == TN_OK)
         status = add_late(library, error);
@@ -276,15 +360,15 @@ void tn_library_free(tn_library *library)
         tn_dfa_free(library->clauses[i]);
     for (size_t left = 0; library->rows && left <= library->max; left++)
         tn_row_clear(&library->rows[left]);
-    tn_sparse_free(library->generator);
-    tn_sparse_free(library->live);
+    forget_combined(library);
     tn_dfa_free(library->kept);
     tn_classes_free(library->classes);
     tn_integers_free(library->generated, (size_t)library->max + 1);
     tn_integers_free(library->before, (size_t)library->max + 2);
     free(library->clauses);
     free(library->prunes);
-    free(library->order);
+    free(library->growth);
+    free(library->hash_room);
     free(library->rows);
     free(library->nearly);
     free(library->alive);
@@ -298,7 +382,14 @@ void tn_library_free(tn_library *library)
 
 uint32_t tn_library_states(const tn_library *library)
 {
-    return library->kept->states;
+    const tn_sparse *live = library->live;
+    bool dead = live->first[live->states] < (size_t)live->states * live->columns;
+    return live->states + (dead || live->states == 0);
+}
+
+bool tn_library_within(const tn_library *library)
+{
+    return library->within;
 }
 
 uint32_t tn_library_min(const tn_library *library)

@@ -1,6 +1,10 @@
 /* A library as one automaton: generator less the union of the prunes. Its paths are the library, so it is counted,
  * ranked, sampled and enumerated without generating and throwing away.
  *
+ * The automaton is of plans of any length where that is little work, since then it has few states however many trays
+ * there are. Otherwise it is of the library's lengths only (within them): what a rule could still remember or come to
+ * demand past the longest plan then makes no states.
+ *
  * Rank order: length, then tray by tray (tray numbers are schema order). Ranks start at 0.
  * A tn_library is immutable once opened and may be shared between threads; a tn_cursor belongs to one. It borrows the
  * schema.
@@ -21,6 +25,8 @@ typedef struct tn_library_options {
     uint32_t trays_min, trays_max;
     uint32_t max_length; /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
     uint64_t max_table;  /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
+    uint64_t max_eager;  /* steps that combining the clauses may take before it is tried within the lengths; 0:
+                            3,000,000 */
 } tn_library_options;
 
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */
@@ -28,14 +34,16 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
                          tn_library **library, tn_error *error);
 void tn_library_free(tn_library *library);
 
-/* States of the minimal complete automaton of the kept plans, without the length bounds. */
+/* States of the minimal complete automaton of the kept plans: without the length bounds, or (tn_library_within) with
+ * them. */
 uint32_t tn_library_states(const tn_library *library);
+bool tn_library_within(const tn_library *library);
 uint32_t tn_library_min(const tn_library *library);
 uint32_t tn_library_max(const tn_library *library);
 const tn_schema *tn_library_schema(const tn_library *library);
 
-/* Hash of the canonical meaning: schema, minimal automaton of the kept plans, lengths. Equal meaning, equal hash, on
- * every machine. */
+/* Hash of the meaning: schema, lengths, set of kept plans. Equal meaning, equal hash, on every machine, however the
+ * rules are written and the automaton was built. */
 void tn_library_hash(const tn_library *library, char hex[33]);
 
 /* Kept plans of one length, or (length = TN_ALL_LENGTHS) in all. */

@@ -12,6 +12,7 @@
 
 #define TN_LIBRARY_STATES_DEFAULT 1000000u
 #define TN_LIBRARY_LENGTH_DEFAULT 4096u
+#define TN_LIBRARY_EAGER_DEFAULT 3000000u
 #define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
 
 /* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
@@ -34,10 +35,14 @@ struct tn_library {
     tn_dfa **clauses;  /* [record->clause_count], in file order */
     size_t *prunes;    /* [prune_count]: which of the clauses */
     size_t prune_count;
-    size_t *order;         /* [prune_count]: indices of `prunes`, as they are applied */
-    tn_sparse *generator;  /* of what the requirements and totals leave */
-    tn_sparse *live;       /* of the kept plans, without a dead state */
-    tn_dfa *kept;          /* the same, complete and canonical */
+    size_t *order;        /* [prune_count]: indices of `prunes`, as they are applied */
+    tn_sparse *generator; /* of what the requirements and totals leave */
+    tn_sparse *live;      /* of the kept plans, without a dead state */
+    tn_dfa *kept;         /* the same, complete: its last state is the dead one */
+    bool within;          /* generator and live hold only plans of min..max trays */
+    tn_bounds bounds;     /* of combining the clauses */
+    uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
+    uint64_t max_eager;
     mpz_t *generated;      /* [max + 1]: by length */
     uint32_t *tray_column; /* [trays]: column of `kept` */
     tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
@@ -45,9 +50,10 @@ struct tn_library {
     double *nearly;        /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
-    mpz_t *before;    /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
-    uint32_t stride;  /* trays between the marks of `passed` */
-    uint32_t *passed; /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
+    mpz_t *before;       /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
+    uint32_t stride;     /* trays between the marks of `passed` */
+    uint32_t *passed;    /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
+    uint64_t *hash_room; /* of columns + 2 states, used under late->lock */
     tn_library_late *late;
 };
 
@@ -70,9 +76,19 @@ static inline double tn_nearly(const mpz_t count, size_t limbs)
     return ldexp(fraction, (int)(exponent - (long)(64 * limbs)));
 }
 
+/* What combining automata may cost: in proportion to the states that they may have. */
+tn_bounds tn_library_bounds(const tn_library *library);
+
 /* *sparse := *sparse with what a clause requires, or without what it prunes (operation), minimal. */
 tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
-                           tn_sparse **sparse, tn_error *error);
+                           tn_bounds *bounds, tn_sparse **sparse, tn_error *error);
+
+/* The prunes (indices of library->prunes) in an order to apply them to a generator in: those that multiply states come
+ * last, when the automaton is as large as it gets anyway. The caller frees *order, also after a failure. */
+tn_status tn_library_order(const tn_library *library, const tn_sparse *generator, size_t **order, tn_error *error);
+
+/* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
+void tn_library_blame(const tn_library *library, size_t worst, tn_error *error);
 
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);

@@ -21,14 +21,14 @@ static tn_dfa_operation operation_of(const tn_library *library, size_t clause)
 }
 
 /* *both := *both of which the reverse meets a clause too. */
-static tn_status apply_turned(const tn_library *library, tn_lowering *lowering, size_t clause, tn_sparse **both,
-                              tn_error *error)
+static tn_status apply_turned(const tn_library *library, tn_lowering *lowering, size_t clause, tn_bounds *bounds,
+                              tn_sparse **both, tn_error *error)
 {
     const tn_clause_record *record = &library->schema->module->CLAUSE_records[library->record->clause_first + clause];
     tn_dfa *turned = NULL;
     tn_status status = tn_lower_reversed(lowering, record->holds, &turned, error);
     if (status == TN_OK && !tn_dfa_equal(turned, library->clauses[clause]))
-        status = tn_library_apply(library, turned, operation_of(library, clause), both, error);
+        status = tn_library_apply(library, turned, operation_of(library, clause), bounds, both, error);
     tn_dfa_free(turned);
     return status;
 }
@@ -38,11 +38,12 @@ static tn_status count_both(const tn_library *library, mpz_t *counts, tn_error *
 {
     tn_lowering *lowering = NULL;
     tn_sparse *both = NULL;
+    tn_bounds bounds = tn_library_bounds(library);
     tn_status status = tn_lowering_new(library->classes, library->max_states, &lowering, error);
     if (status == TN_OK)
         status = tn_sparse_minimise(library->live, &both, error); /* a copy */
     for (size_t i = 0; status == TN_OK && i < library->record->clause_count; i++)
-        status = apply_turned(library, lowering, i, &both, error);
+        status = apply_turned(library, lowering, i, &bounds, &both, error);
     if (status == TN_OK)
         status = tn_count_lengths(both, library->classes, library->max, counts, error);
     tn_sparse_free(both);
@@ -50,31 +51,17 @@ static tn_status count_both(const tn_library *library, mpz_t *counts, tn_error *
     return status;
 }
 
-/* All words of at most `length` trays. */
-static tn_status short_words(const tn_library *library, uint32_t length, tn_sparse **out, tn_error *error)
-{
-    tn_dfa *words = tn_dfa_new(library->classes->count, 1, length + 2);
-    if (!words)
-        return tn_fail_memory(error);
-    for (uint32_t n = 0; n < length + 2; n++) {
-        words->delta[n] = n <= length ? n + 1 : n;
-        words->accept[n] = n <= length;
-    }
-    tn_status status = tn_sparse_make(words, 0, out, error);
-    tn_dfa_free(words);
-    return status;
-}
-
 /* The halves, of at most `length` trays, of the palindromes that all clauses let pass. */
 static tn_status make_halves(const tn_library *library, bool odd, uint32_t length, tn_sparse **halves, tn_error *error)
 {
-    tn_status status = short_words(library, length, halves, error);
+    tn_bounds joint = tn_library_bounds(library);
+    tn_status status = tn_sparse_words(library->classes->count, 0, length, halves, error);
     for (size_t i = 0; status == TN_OK && i < library->record->clause_count; i++) {
         tn_bounds bounds = tn_bounds_make(library->max_states);
         tn_dfa *half = NULL;
         status = tn_half(library->clauses[i], odd, &bounds, &half, error);
         if (status == TN_OK)
-            status = tn_library_apply(library, half, operation_of(library, i), halves, error);
+            status = tn_library_apply(library, half, operation_of(library, i), &joint, halves, error);
         tn_dfa_free(half);
     }
     return status;

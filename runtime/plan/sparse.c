@@ -213,7 +213,7 @@ tn_status tn_sparse_make(const tn_dfa *dfa, uint32_t start, tn_sparse **out, tn_
     return status;
 }
 
-tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *error)
+tn_status tn_sparse_fill(const tn_sparse *sparse, tn_dfa **out, tn_error *error)
 {
     uint32_t dead = sparse->states;
     tn_dfa *dfa = tn_dfa_new(sparse->letters, sparse->columns, sparse->states + 1);
@@ -226,7 +226,16 @@ tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *er
     for (uint32_t s = 0; s < sparse->states; s++)
         for (size_t e = sparse->first[s]; e < sparse->first[s + 1]; e++)
             dfa->delta[(size_t)s * dfa->columns + sparse->label[e]] = sparse->target[e];
-    tn_status status = tn_dfa_tidy(dfa, 0, out, error);
+    *out = dfa;
+    return TN_OK;
+}
+
+tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *error)
+{
+    tn_dfa *dfa = NULL;
+    tn_status status = tn_sparse_fill(sparse, &dfa, error);
+    if (status == TN_OK)
+        status = tn_dfa_tidy(dfa, 0, out, error);
     tn_dfa_free(dfa);
     return status;
 }
@@ -235,21 +244,12 @@ tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *er
 
 #define TABLE_ENTRIES_MAX (UINT64_C(1) << 23) /* 32 MB, of which only the pages used take memory */
 
-/* One column of the product that a column of the first operand splits into. */
-typedef struct tn_split {
-    uint32_t label; /* of the product */
-    uint32_t other; /* column of the second operand */
-} tn_split;
-
 typedef struct tn_sparse_work {
     const tn_sparse *a;
     const tn_dfa *b;
     tn_dfa_operation operation;
-    uint32_t settled;    /* the state of b with which nothing is accepted any more */
-    uint32_t columns;    /* of the product */
-    uint32_t *column;    /* [letters] */
-    size_t *split_first; /* [columns of a + 1] */
-    tn_split *splits;
+    uint32_t settled; /* the state of b with which nothing is accepted any more */
+    tn_splits splits;
     tn_numbering pairs;
     uint32_t *table; /* [states of a][states of b]: number + 1; NULL where that is too much: then `pairs` hashes */
     size_t *first;
@@ -257,29 +257,35 @@ typedef struct tn_sparse_work {
     size_t states_capacity, edges, edges_capacity;
 } tn_sparse_work;
 
-/* Pairs of columns that some letter has, in the order of first letters, and for each column of a those with it. */
-static bool make_splits(tn_sparse_work *work)
+bool tn_splits_make(tn_splits *splits, const tn_sparse *a, const tn_dfa *b)
 {
     tn_numbering pairs = {0};
-    bool ok = true;
-    work->column = malloc(((size_t)work->a->letters + 1) * sizeof *work->column);
-    ok = work->column != NULL;
-    for (uint32_t l = 0; ok && l < work->a->letters; l++) {
-        work->column[l] = tn_number(&pairs, (uint64_t)work->a->column[l] << 32 | work->b->column[l]);
-        ok = work->column[l] != UINT32_MAX;
+    *splits = (tn_splits){.column = malloc(((size_t)a->letters + 1) * sizeof *splits->column)};
+    bool ok = splits->column != NULL;
+    for (uint32_t l = 0; ok && l < a->letters; l++) {
+        splits->column[l] = tn_number(&pairs, (uint64_t)a->column[l] << 32 | b->column[l]);
+        ok = splits->column[l] != UINT32_MAX;
     }
-    work->columns = pairs.count;
-    work->split_first = calloc((size_t)work->a->columns + 2, sizeof *work->split_first);
-    work->splits = malloc(((size_t)pairs.count + 1) * sizeof *work->splits);
-    ok = ok && work->split_first && work->splits;
+    splits->columns = pairs.count;
+    splits->first = calloc((size_t)a->columns + 2, sizeof *splits->first);
+    splits->splits = malloc(((size_t)pairs.count + 1) * sizeof *splits->splits);
+    ok = ok && splits->first && splits->splits;
     for (uint32_t i = 0; ok && i < pairs.count; i++)
-        work->split_first[(pairs.keys[i] >> 32) + 2]++;
-    for (uint32_t c = 0; ok && c < work->a->columns; c++)
-        work->split_first[c + 2] += work->split_first[c + 1];
+        splits->first[(pairs.keys[i] >> 32) + 2]++;
+    for (uint32_t c = 0; ok && c < a->columns; c++)
+        splits->first[c + 2] += splits->first[c + 1];
     for (uint32_t i = 0; ok && i < pairs.count; i++)
-        work->splits[work->split_first[(pairs.keys[i] >> 32) + 1]++] = (tn_split){i, (uint32_t)pairs.keys[i]};
+        splits->splits[splits->first[(pairs.keys[i] >> 32) + 1]++] = (tn_split){i, (uint32_t)pairs.keys[i]};
     tn_numbering_clear(&pairs);
     return ok;
+}
+
+void tn_splits_clear(tn_splits *splits)
+{
+    free(splits->column);
+    free(splits->first);
+    free(splits->splits);
+    *splits = (tn_splits){0};
 }
 
 static bool work_reserve(tn_sparse_work *work, uint32_t state, size_t more)
@@ -323,18 +329,18 @@ static bool work_row(tn_sparse_work *work, uint32_t state)
     uint32_t p = (uint32_t)(work->pairs.keys[state] >> 32), q = (uint32_t)work->pairs.keys[state];
     const tn_sparse *a = work->a;
     const uint32_t *row = work->b->delta + (size_t)q * work->b->columns;
-    if (!work_reserve(work, state, work->columns))
+    if (!work_reserve(work, state, work->splits.columns))
         return false;
     work->first[state] = work->edges;
     for (size_t e = a->first[p]; e < a->first[p + 1]; e++) {
-        for (size_t i = work->split_first[a->label[e]]; i < work->split_first[a->label[e] + 1]; i++) {
-            uint32_t to = row[work->splits[i].other];
+        for (size_t i = work->splits.first[a->label[e]]; i < work->splits.first[a->label[e] + 1]; i++) {
+            uint32_t to = row[work->splits.splits[i].other];
             if (to == work->settled)
                 continue;
             uint32_t number = work_number(work, a->target[e], to);
             if (number == UINT32_MAX)
                 return false;
-            work->label[work->edges] = work->splits[i].label;
+            work->label[work->edges] = work->splits.splits[i].label;
             work->target[work->edges++] = number;
         }
     }
@@ -379,9 +385,9 @@ static tn_status work_finish(tn_sparse_work *work, tn_sparse **out, tn_error *er
     for (uint32_t s = 0; s < work->pairs.count; s++)
         accept[s] = pair_accepts(work, work->pairs.keys[s]);
     tn_sparse all = {.letters = work->a->letters,
-                     .columns = work->columns,
+                     .columns = work->splits.columns,
                      .states = work->pairs.count,
-                     .column = work->column,
+                     .column = work->splits.column,
                      .first = work->first,
                      .label = work->label,
                      .target = work->target,
@@ -397,7 +403,7 @@ tn_status tn_sparse_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operatio
     tn_sparse_work work = {.a = a, .b = b, .operation = operation};
     work.settled = tn_dfa_sink(b, operation != TN_DFA_AND);
     tn_status status = tn_bounds_check(bounds, what, 1, 1, a->letters, error);
-    if (status == TN_OK && !make_splits(&work))
+    if (status == TN_OK && !tn_splits_make(&work.splits, a, b))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = work_run(&work, what, bounds, error);
@@ -405,9 +411,7 @@ tn_status tn_sparse_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operatio
         status = work_finish(&work, out, error);
     tn_numbering_clear(&work.pairs);
     free(work.table);
-    free(work.column);
-    free(work.split_first);
-    free(work.splits);
+    tn_splits_clear(&work.splits);
     free(work.first);
     free(work.label);
     free(work.target);

@@ -5,6 +5,10 @@
  * ones alone. Every state is reached from state 0 and reaches an accepting one; an automaton that accepts nothing has
  * no states.
  *
+ * An automaton of plans of bounded length has no cycle. Then products need not be minimised after they are made: walked
+ * depth first, states are finished children first, and a finished state equal to an earlier one becomes that one
+ * (sparse_fold.c).
+ *
  * A tn_sparse is owned by its holder and immutable once made.
  */
 #ifndef TARTAN_PLAN_SPARSE_H
@@ -19,12 +23,16 @@ typedef struct tn_sparse {
     uint32_t *label;  /* columns; each at most once in a row */
     uint32_t *target;
     uint8_t *accept; /* [states] */
+    bool folded;     /* minimal, and without a cycle */
 } tn_sparse;
 
 void tn_sparse_free(tn_sparse *sparse);
 
 /* What `dfa` accepts from state `start`. */
 tn_status tn_sparse_make(const tn_dfa *dfa, uint32_t start, tn_sparse **out, tn_error *error);
+
+/* The same language, states and columns, with a dead state after the others. */
+tn_status tn_sparse_fill(const tn_sparse *sparse, tn_dfa **out, tn_error *error);
 
 /* The same language with its dead state (if it has one), canonical; minimal where `sparse` is. */
 tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *error);
@@ -33,8 +41,33 @@ tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *er
 tn_status tn_sparse_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const char *what,
                             tn_bounds *bounds, tn_sparse **out, tn_error *error);
 
-/* The same language with the fewest states, columns merged (sparse_minimise.c). */
+/* The plans of min..max letters; folded. */
+tn_status tn_sparse_words(uint32_t letters, uint32_t min, uint32_t max, tn_sparse **out, tn_error *error);
+
+/* As tn_sparse_product, of a folded a; folded. The bounds' states and transitions are of what is made, the work is of
+ * the pairs walked. */
+tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const char *what,
+                         tn_bounds *bounds, tn_sparse **out, tn_error *error);
+
+/* The same language with the fewest states, columns merged (sparse_minimise.c). Of what is folded: a copy. */
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error);
+
+/* Pairs of columns of two automata that some letter has, numbered in the order of first letters. Free with
+ * tn_splits_clear, also after a failure. */
+typedef struct tn_split {
+    uint32_t label; /* of the product */
+    uint32_t other; /* column of the second operand */
+} tn_split;
+
+typedef struct tn_splits {
+    uint32_t columns; /* of the product */
+    uint32_t *column; /* [letters] */
+    size_t *first;    /* [columns of a + 1]: what a column of the first operand splits into is a run of splits */
+    tn_split *splits;
+} tn_splits;
+
+bool tn_splits_make(tn_splits *splits, const tn_sparse *a, const tn_dfa *b);
+void tn_splits_clear(tn_splits *splits);
 
 /* Room for an automaton, its arrays' contents to be filled in; first is zeroed. NULL where out of memory. */
 tn_sparse *tn_sparse_new(uint32_t letters, uint32_t columns, uint32_t states, size_t edges);

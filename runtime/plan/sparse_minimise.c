@@ -216,8 +216,26 @@ static bool merge_columns(tn_sparse *sparse)
     return true;
 }
 
+static tn_status copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
+{
+    size_t edges = sparse->first[sparse->states];
+    tn_sparse *made = tn_sparse_new(sparse->letters, sparse->columns, sparse->states, edges);
+    *out = made;
+    if (!made)
+        return tn_fail_memory(error);
+    memcpy(made->column, sparse->column, sparse->letters * sizeof *made->column);
+    memcpy(made->first, sparse->first, ((size_t)sparse->states + 1) * sizeof *made->first);
+    memcpy(made->label, sparse->label, edges * sizeof *made->label);
+    memcpy(made->target, sparse->target, edges * sizeof *made->target);
+    memcpy(made->accept, sparse->accept, sparse->states);
+    made->folded = sparse->folded;
+    return TN_OK;
+}
+
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
 {
+    if (sparse->folded)
+        return copy(sparse, out, error);
     tn_sparse_refiner refiner = {.sparse = sparse};
     tn_sparse *made = NULL;
     tn_status status = refiner_make(&refiner, error);

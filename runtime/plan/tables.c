@@ -17,7 +17,7 @@ static tn_status pass_table(const tn_library *library, uint64_t bytes, uint32_t 
 
 static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error *error)
 {
-    uint64_t bytes = 0;
+    uint64_t bytes = (uint64_t)library->kept->states * library->kept->columns * sizeof *library->kept->delta;
     for (uint32_t left = 0; left <= library->max; left++) {
         tn_row *row = &library->rows[left];
         tn_status status = left ? tn_row_next(edges, row - 1, row, error) : tn_row_first(edges, row, error);
@@ -62,9 +62,11 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     library->rows = calloc(lengths, sizeof *library->rows);
     library->alive = calloc(lengths * library->alive_words, sizeof *library->alive);
     library->nearly = calloc(lengths * states, sizeof *library->nearly);
-    if (!library->rows || !library->alive || !library->nearly)
+    library->hash_room = malloc((library->kept->columns + 2 * (size_t)states + 1) * sizeof *library->hash_room);
+    if (!library->hash_room || !library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
-    tn_status status = tn_column_weights(library->classes, library->kept->column, library->kept->columns, &weights, error);
+    tn_status status =
+        tn_column_weights(library->classes, library->kept->column, library->kept->columns, &weights, error);
     if (status == TN_OK)
         status = tn_edges_of(&edges, library->kept, weights, error);
     if (status == TN_OK)

@@ -7,7 +7,8 @@
 
 #include "tests/support/test_library.h"
 
-bool test_library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max)
+static bool make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max,
+                 uint64_t max_eager)
 {
     test_random random = {.seed = seed};
     tn_builder *builder = tn_builder_new();
@@ -36,11 +37,21 @@ bool test_library_make(test_library *made, uint64_t seed, const test_schema *sch
     made->schema = test_schema_open(made->module, 0);
     tn_error error;
     test_ok(tn_plan_vm_new(made->schema, 0, &made->vm, &error), &error);
-    tn_library_options options = {.max_states = 2000};
+    tn_library_options options = {.max_states = 2000, .max_eager = max_eager};
     tn_status status = tn_library_new(made->schema, 0, &options, &made->library, &error);
     if (status != TN_LIMIT)
         test_ok(status, &error);
     return status == TN_OK;
+}
+
+bool test_library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max)
+{
+    return make(made, seed, schema, min, max, 0);
+}
+
+bool test_library_make_within(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max)
+{
+    return make(made, seed, schema, min, max, 1);
 }
 
 void test_library_clear(test_library *made)

@@ -19,6 +19,9 @@ typedef struct test_library {
 /* A library of at most TEST_CLAUSES_MAX random clauses; free it with test_library_clear, whatever this returns. false
  * where a clause passes the limit of 2,000 states, as some random ones do. */
 bool test_library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
+
+/* The same library, built within its lengths. */
+bool test_library_make_within(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
 void test_library_clear(test_library *made);
 
 /* What the reference engine says of a plan: bit i for clause i. */

@@ -159,30 +159,124 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
     return all.kept;
 }
 
-static void everything_agrees_with_trying_every_plan(void **state)
+typedef bool library_maker(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
+
+static void try_every_plan(library_maker *make)
 {
-    (void)state;
     uint32_t interesting = 0;
     for (uint64_t seed = 1; seed <= 60; seed++) {
         test_library made;
         uint32_t min = (uint32_t)(seed % 3);
-        if (test_library_make(&made, seed, &test_schema_tiny, min, min + 3))
+        if (make(&made, seed, &test_schema_tiny, min, min + 3))
             interesting += check_library(&made, min, min + 3) > 10;
         test_library_clear(&made);
     }
     assert_true(interesting > 15);
     for (uint64_t seed = 100; seed < 110; seed++) {
         test_library made;
-        if (test_library_make(&made, seed, &test_schema_house, 0, 2))
+        if (make(&made, seed, &test_schema_house, 0, 2))
             check_library(&made, 0, 2);
         test_library_clear(&made);
     }
+}
+
+static void everything_agrees_with_trying_every_plan(void **state)
+{
+    (void)state;
+    try_every_plan(test_library_make);
+}
+
+static void within_the_lengths_too(void **state)
+{
+    (void)state;
+    try_every_plan(test_library_make_within);
+}
+
+static void check_equal_counts(const test_library *a, const test_library *b)
+{
+    mpz_t x, y, only_x, only_y;
+    mpz_inits(x, y, only_x, only_y, NULL);
+    tn_error error;
+    for (uint32_t length = tn_library_min(a->library); length <= tn_library_max(a->library); length++) {
+        tn_library_kept(a->library, length, x);
+        tn_library_kept(b->library, length, y);
+        assert_int_equal(mpz_cmp(x, y), 0);
+        test_ok(tn_library_generated(a->library, length, x, &error), &error);
+        test_ok(tn_library_generated(b->library, length, y, &error), &error);
+        assert_int_equal(mpz_cmp(x, y), 0);
+        test_ok(tn_library_kept_mirror(a->library, length, x, &error), &error);
+        test_ok(tn_library_kept_mirror(b->library, length, y, &error), &error);
+        assert_int_equal(mpz_cmp(x, y), 0);
+    }
+    for (size_t i = 0; i < tn_library_prune_count(a->library); i++) {
+        uint32_t clause, states;
+        test_ok(tn_library_prune(a->library, i, &clause, x, only_x, &states, &error), &error);
+        test_ok(tn_library_prune(b->library, i, &clause, y, only_y, &states, &error), &error);
+        assert_int_equal(mpz_cmp(x, y), 0);
+        assert_int_equal(mpz_cmp(only_x, only_y), 0);
+    }
+    mpz_clears(x, y, only_x, only_y, NULL);
+}
+
+/* Lengths at which trying every plan takes too long. */
+static void both_ways_of_building_agree(void **state)
+{
+    (void)state;
+    uint32_t compared = 0, within = 0;
+    for (uint64_t seed = 200; seed < 230; seed++) {
+        test_library a, b;
+        char hash_a[33], hash_b[33];
+        bool ok_a = test_library_make(&a, seed, &test_schema_house, 1 + seed % 4, 9);
+        bool ok_b = test_library_make_within(&b, seed, &test_schema_house, 1 + seed % 4, 9);
+        if (ok_a && ok_b) {
+            check_equal_counts(&a, &b);
+            tn_library_hash(a.library, hash_a);
+            tn_library_hash(b.library, hash_b);
+            assert_string_equal(hash_a, hash_b);
+            compared++;
+            within += tn_library_within(b.library);
+        }
+        test_library_clear(&a);
+        test_library_clear(&b);
+    }
+    assert_true(compared > 10);
+    assert_true(within > 10);
+}
+
+static void a_hash_tells_libraries_apart(void **state)
+{
+    (void)state;
+    char hashes[40][33];
+    mpz_t kept[40];
+    uint32_t count = 0;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        test_library made;
+        if (test_library_make(&made, seed, &test_schema_tiny, 1, 4)) {
+            tn_library_hash(made.library, hashes[count]);
+            mpz_init(kept[count]);
+            tn_library_kept(made.library, TN_ALL_LENGTHS, kept[count++]);
+        }
+        test_library_clear(&made);
+    }
+    uint32_t different = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (mpz_cmp(kept[i], kept[j]) != 0) {
+                assert_string_not_equal(hashes[i], hashes[j]);
+                different++;
+            }
+    assert_true(different > 40);
+    for (uint32_t i = 0; i < count; i++)
+        mpz_clear(kept[i]);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_agrees_with_trying_every_plan),
+        cmocka_unit_test(within_the_lengths_too),
+        cmocka_unit_test(both_ways_of_building_agree),
+        cmocka_unit_test(a_hash_tells_libraries_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
