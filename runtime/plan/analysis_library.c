@@ -91,6 +91,40 @@ static tn_status confirm_some(const work *w, const bool *in, size_t except, tn_s
     return status;
 }
 
+/* Moves a part that the plan fails to the first `asked`, those that are asked about. False where it fails none. */
+static bool ask_one_more(tn_search_part *parts, size_t count, size_t *asked, const tn_key *word)
+{
+    for (size_t i = *asked; i < count; i++) {
+        if (tn_dfa_accepts(parts[i].dfa, word->data, word->size) == parts[i].accepts)
+            continue;
+        tn_search_part part = parts[i];
+        parts[i] = parts[*asked];
+        parts[(*asked)++] = part;
+        return true;
+    }
+    return false;
+}
+
+/* Is there a plan of the library's lengths that answers all parts as wanted? Asks about `first` alone to begin with,
+ * and about another part when a plan fails it: few of them are ever looked at together. Reorders the parts: where there
+ * is no such plan, the first
+ * `*asked` are reason enough. */
+static tn_status exists(const work *w, tn_search_part *parts, size_t first, size_t *asked, bool *found, tn_error *error)
+{
+    *asked = 1;
+    tn_search_part part = parts[first];
+    parts[first] = parts[0];
+    parts[0] = part;
+    for (;;) {
+        tn_key word = {0};
+        tn_status status = search(w, parts, *asked, true, &word, found, error);
+        bool more = status == TN_OK && *found && ask_one_more(parts, w->count, asked, &word);
+        free(word.data);
+        if (!more)
+            return status;
+    }
+}
+
 /* ---- empty libraries */
 
 /* Leaves out clause by clause what is not needed for there to be no plan. What is left is irreducible, unless a search
@@ -151,6 +185,7 @@ static tn_status list_reasons(const work *w, const bool *in, tn_plan_analysis_fi
     return TN_OK;
 }
 
+/* `in`: clauses that leave no plan together. */
 static tn_status explain_empty(const work *w, bool *in, tn_error *error)
 {
     tn_plan_analysis_finding *finding = tn_plan_analysis_add(w->analysis, TN_FOUND_EMPTY, w->count);
@@ -158,8 +193,6 @@ static tn_status explain_empty(const work *w, bool *in, tn_error *error)
         return tn_fail_memory(error);
     finding->library = w->index;
     tn_key word = {0};
-    for (size_t i = 0; i < w->count; i++)
-        in[i] = true;
     tn_status status = search_some(w, in, w->count, false, &word, &finding->with_lengths, error);
     free(word.data);
     if (status == TN_LIMIT)
@@ -176,14 +209,13 @@ static tn_status explain_empty(const work *w, bool *in, tn_error *error)
 static tn_status drops_alone(const work *w, size_t i, bool *alone, tn_error *error)
 {
     tn_search_part *parts = malloc(w->count * sizeof *parts);
-    tn_key word = {0};
     if (!parts)
         return tn_fail_memory(error);
     memcpy(parts, w->parts, w->count * sizeof *parts);
     parts[i].accepts = !parts[i].accepts;
-    tn_status status = search(w, parts, w->count, true, &word, alone, error);
+    size_t asked;
+    tn_status status = exists(w, parts, i, &asked, alone, error);
     free(parts);
-    free(word.data);
     return status;
 }
 
@@ -275,12 +307,17 @@ static tn_status find_idle(const work *w, tn_error *error)
 
 static tn_status analyse(work *w, bool *in, tn_error *error)
 {
-    tn_key word = {0};
-    bool found;
-    for (size_t i = 0; i < w->count; i++)
-        in[i] = true;
-    tn_status status = search_some(w, in, w->count, true, &word, &found, error);
-    free(word.data);
+    bool found = false;
+    tn_search_part *parts = malloc(w->count * sizeof *parts);
+    if (!parts)
+        return tn_fail_memory(error);
+    memcpy(parts, w->parts, w->count * sizeof *parts);
+    size_t asked;
+    tn_status status = exists(w, parts, 0, &asked, &found, error);
+    for (size_t p = 0; p < asked; p++)
+        for (size_t i = 0; i < w->count; i++)
+            in[i] |= parts[p].dfa == w->dfas[i] && parts[p].accepts == w->parts[i].accepts;
+    free(parts);
     if (status != TN_OK)
         return status;
     return found ? find_idle(w, error) : explain_empty(w, in, error);
