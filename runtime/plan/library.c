@@ -339,6 +339,34 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     return TN_OK;
 }
 
+tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
+                        tn_library **out, tn_error *error)
+{
+    tn_library *library = calloc(1, sizeof *library);
+    if (!library) {
+        tn_classes_free(classes);
+        return tn_fail_memory(error);
+    }
+    library->schema = classes->schema;
+    library->classes = classes;
+    library->max_table = max_table;
+    library->min = min;
+    library->max = max;
+    tn_status status = add_late(library, error);
+    if (status == TN_OK)
+        status = tn_sparse_minimise(sparse, &library->generator, error); /* a copy */
+    if (status == TN_OK)
+        status = tn_sparse_complete(sparse, &library->kept, error);
+    if (status == TN_OK)
+        status = tn_library_tables(library, error);
+    if (status != TN_OK) {
+        tn_library_free(library);
+        return status;
+    }
+    *out = library;
+    return TN_OK;
+}
+
 static void free_late(tn_library *library)
 {
     tn_library_late *late = library->late;
