@@ -18,9 +18,12 @@ static bool make(test_library *made, uint64_t seed, const test_schema *schema, u
     uint32_t count = test_random_below(&random, TEST_CLAUSES_MAX + 1);
     tn_clause_record clauses[TEST_CLAUSES_MAX] = {{0}};
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t whole;
+        const char name[] = {(char)('a' + i), '\0'};
+        tn_rule_record rule = {.name = tn_builder_string(builder, name)};
         made->rules[i] = test_rule_random(&random, schema, 2, true);
-        test_rule_emit(builder, made->rules[i], &whole, &clauses[i].holds);
+        test_rule_emit(builder, made->rules[i], &rule.whole, &rule.holds);
+        tn_builder_add_RULE(builder, &rule);
+        clauses[i].holds = rule.holds;
         clauses[i].kind = test_random_below(&random, 4) ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
     }
     tn_library_record record = {.name = tn_builder_string(builder, "some"),

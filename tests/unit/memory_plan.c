@@ -1,5 +1,6 @@
-/* Out of memory in the plan engines: each allocation of lowering, of opening a library and of its late counts fails
- * once. What fails must say so, leave nothing behind (the sanitized build would see it) and work again afterwards. */
+/* Out of memory in the plan engines: each allocation of lowering, of opening a library, of its late counts, of
+ * analysing and comparing fails once. What fails must say so, leave nothing behind (the sanitized build would see it)
+ * and work again afterwards. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -8,6 +9,8 @@
 #include <cmocka.h>
 #include <omp.h>
 
+#include "runtime/plan/analysis.h"
+#include "runtime/plan/diff.h"
 #include "runtime/plan/rules.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_library.h"
@@ -91,6 +94,43 @@ static tn_status open_library(void *context, tn_error *error)
     return status;
 }
 
+static tn_status analyse(void *context, tn_error *error)
+{
+    const test_library *made = context;
+    tn_plan_analysis *analysis = NULL;
+    tn_shown_plan examples[3] = {{0}};
+    tn_status status = tn_plan_analysis_new(made->schema, 2000, &analysis, error);
+    if (status == TN_OK && tn_plan_analysis_rule_count(analysis) > 1)
+        status = tn_plan_analysis_examples(analysis, 0, 1, examples, error);
+    for (int e = 0; e < 3; e++)
+        tn_shown_plan_clear(&examples[e]);
+    tn_plan_analysis_free(analysis);
+    return status;
+}
+
+static tn_status compare(void *context, tn_error *error)
+{
+    const test_library *sides = context;
+    tn_library_diff *diff = NULL;
+    tn_status status = tn_library_diff_new(sides[0].library, sides[1].library, 0, &diff, error);
+    tn_library_diff_free(diff);
+    return status;
+}
+
+static void comparing_runs_out_of_memory(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 3; seed < 6; seed++) {
+        test_library sides[2];
+        bool made = test_library_make(&sides[0], seed, &test_schema_tiny, 1, 3);
+        made &= test_library_make(&sides[1], seed + 20, &test_schema_tiny, 1, seed == 3 ? 3 : 4);
+        if (made)
+            expect_robust(compare, sides);
+        test_library_clear(&sides[0]);
+        test_library_clear(&sides[1]);
+    }
+}
+
 static void memory_runs_out(void **state)
 {
     (void)state;
@@ -99,6 +139,7 @@ static void memory_runs_out(void **state)
         if (test_library_make(&made, seed, &test_schema_tiny, 1, 3) && made.module->CLAUSE_count > 0) {
             expect_robust(open_rules, &made);
             expect_robust(open_library, &made);
+            expect_robust(analyse, &made);
         }
         test_library_clear(&made);
     }
@@ -109,6 +150,7 @@ int main(void)
     omp_set_num_threads(1); /* allocations are numbered */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(comparing_runs_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
