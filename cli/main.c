@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/job.h"
 #include "cli/manual.h"
@@ -62,6 +63,22 @@ static int help(const char *name, bool manual)
     return written();
 }
 
+/* Completion for a shell (the build installs them). */
+static int completion(const char *name)
+{
+    const tn_shell *shell = name ? tn_shell_find(name) : NULL;
+    if (shell) {
+        shell->write(stdout);
+        return written();
+    }
+    const tn_settings settings = {0};
+    tn_error error;
+    tn_fail(&error, TN_INVALID, E_USAGE, "there is completion for bash, zsh and fish%s%.60s", name ? ", not for " : "",
+            name ? name : "");
+    tn_error_help(&error, "tartan help --completion bash");
+    return refuse(&settings, &error);
+}
+
 static int run(const tn_command *command, int count, char **words)
 {
     tn_settings settings = {0};
@@ -88,6 +105,8 @@ int main(int argc, char **argv)
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         return help(NULL, false);
     if (strcmp(name, "help") == 0) {
+        if (argc > 2 && strcmp(argv[2], "--completion") == 0)
+            return completion(argc > 3 ? argv[3] : NULL);
         bool manual = argc > 2 && strcmp(argv[2], "--man") == 0;
         return help(argc > 2 + manual ? argv[2 + manual] : NULL, manual);
     }

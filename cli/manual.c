@@ -60,6 +60,22 @@ static void write_option(const tn_option *option, FILE *out)
     fputc('\n', out);
 }
 
+/* What is to be read beside a page: tartan(1) where it is not that one, and the notations. */
+static void write_see_also(bool overview, FILE *out)
+{
+    static const char *const notations[] = {
+#define NOTATION(NAME, PAGE, SUMMARY) #NAME,
+#include "cli/notations.def"
+#undef NOTATION
+    };
+    const size_t count = sizeof notations / sizeof *notations;
+    fputs(".SH SEE ALSO\n", out);
+    if (!overview)
+        fputs(".BR tartan (1),\n", out);
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, ".BR tartan\\-%s (5)%s\n", notations[i], i + 1 < count ? "," : "");
+}
+
 void tn_manual_overview(FILE *out)
 {
     write_head("TARTAN", "tartan", "rules for plans, compiled and run", out);
@@ -77,6 +93,7 @@ void tn_manual_overview(FILE *out)
           "70 an internal "
           "error.\n",
           out);
+    write_see_also(true, out);
 }
 
 void tn_manual_command(const tn_command *command, FILE *out)
@@ -95,5 +112,6 @@ void tn_manual_command(const tn_command *command, FILE *out)
         write_option(&tn_common_options[i], out);
     fputs(".SH EXAMPLE\n.nf\n", out);
     write_all(command->example, out);
-    fputs("\n.fi\n.SH SEE ALSO\n.BR tartan (1)\n", out);
+    fputs("\n.fi\n", out);
+    write_see_also(false, out);
 }

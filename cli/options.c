@@ -44,20 +44,20 @@ typedef struct parse {
     tn_error *error;
 } parse;
 
-static size_t option_total(const tn_command *command)
+size_t tn_option_total(const tn_command *command)
 {
     return command->option_count + tn_common_option_count;
 }
 
-static const tn_option *option_at(const tn_command *command, size_t i)
+const tn_option *tn_option_at(const tn_command *command, size_t i)
 {
     return i < command->option_count ? &command->options[i] : &tn_common_options[i - command->option_count];
 }
 
 static const tn_option *find_long(const tn_command *command, const char *name, size_t length)
 {
-    for (size_t i = 0; i < option_total(command); i++) {
-        const tn_option *option = option_at(command, i);
+    for (size_t i = 0; i < tn_option_total(command); i++) {
+        const tn_option *option = tn_option_at(command, i);
         if (strlen(option->name) == length && strncmp(option->name, name, length) == 0)
             return option;
     }
@@ -66,9 +66,9 @@ static const tn_option *find_long(const tn_command *command, const char *name, s
 
 static const tn_option *find_letter(const tn_command *command, char letter)
 {
-    for (size_t i = 0; i < option_total(command); i++)
-        if (option_at(command, i)->letter == letter)
-            return option_at(command, i);
+    for (size_t i = 0; i < tn_option_total(command); i++)
+        if (tn_option_at(command, i)->letter == letter)
+            return tn_option_at(command, i);
     return NULL;
 }
 
@@ -85,8 +85,8 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
                                (int)(length < 80 ? length : 80), name);
     const char *names[64];
     size_t count = 0;
-    for (size_t i = 0; i < option_total(p->command) && count < 64; i++)
-        names[count++] = option_at(p->command, i)->name;
+    for (size_t i = 0; i < tn_option_total(p->command) && count < 64; i++)
+        names[count++] = tn_option_at(p->command, i)->name;
     char word[81];
     snprintf(word, sizeof word, "%.*s", (int)(length < 80 ? length : 80), name);
     const char *near = tn_nearest(word, names, count);

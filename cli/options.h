@@ -1,5 +1,5 @@
 /* The command line: each command is a row of data (tn_command) with a table of its options, from which parsing,
- * `--help` and the manual pages all come.
+ * `--help`, the manual pages and the shells' completion all come.
  *
  * Parsing writes into a tn_settings at the offset that the option's row names. Texts are borrowed from argv.
  */
@@ -110,6 +110,10 @@ const tn_command *tn_command_find(const char *name);
 /* Options that every command has; parsing and help add them to the command's own. */
 extern const tn_option tn_common_options[];
 extern const size_t tn_common_option_count;
+
+/* A command's options, its own first, then those. */
+size_t tn_option_total(const tn_command *command);
+const tn_option *tn_option_at(const tn_command *command, size_t i);
 
 /* Reads the words after the command's name. TN_INVALID (E0904) says what is wrong and what was probably meant; what was
  * read before stays in the settings. Clear the settings in any case. */

@@ -1,4 +1,4 @@
-# What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib, the manual pages.
+# What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib; manual.cmake adds what is to be read.
 #
 # libtartan-runtime loads and runs modules; libtartan can compile too and holds the runtime whole: a program links the one or the other.
 include(CMakePackageConfigHelpers)
@@ -55,18 +55,4 @@ configure_package_config_file(cmake/tartanConfig.cmake.in ${PROJECT_BINARY_DIR}/
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tartanConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tartanConfig.cmake ${PROJECT_BINARY_DIR}/tartanConfigVersion.cmake DESTINATION ${TARTAN_PACKAGE_DIR})
 
-# Manual pages, written by the binary from its own option tables.
-file(STRINGS cli/commands.def TARTAN_COMMANDS REGEX "^COMMAND")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def)
-set(TARTAN_MANUAL ${PROJECT_BINARY_DIR}/man/tartan.1)
-add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/man/tartan.1 DEPENDS tartan COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
-  COMMAND tartan help --man > ${PROJECT_BINARY_DIR}/man/tartan.1 VERBATIM)
-foreach(row ${TARTAN_COMMANDS})
-  string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
-  set(page ${PROJECT_BINARY_DIR}/man/tartan-${command}.1)
-  add_custom_command(OUTPUT ${page} DEPENDS tartan COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
-    COMMAND tartan help --man ${command} > ${page} VERBATIM)
-  list(APPEND TARTAN_MANUAL ${page})
-endforeach()
-add_custom_target(manual ALL DEPENDS ${TARTAN_MANUAL})
-install(FILES ${TARTAN_MANUAL} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+include(cmake/manual.cmake)

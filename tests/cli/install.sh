@@ -17,6 +17,8 @@ fail() {
 }
 
 prefix=$scratch/prefix
+mkdir -p "$prefix/share/man/man1" # what was there before stays
+touch "$prefix/share/man/man1/other.1"
 cmake --install "$build" --prefix "$prefix" >/dev/null
 libdir=$(dirname "$(find "$prefix" -name libtartan.a)")
 export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir TARTAN_PATH=$prefix/share/tartan/stdlib
@@ -33,6 +35,28 @@ grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/tartan.h" |
 for library in libtartan libtartan-runtime; do
     other=$(nm -D --defined-only "$libdir/$library.so" | awk '{print $3}' | grep -vE '^tartan_|^_(init|fini)$|^__' || true)
     [ -z "$other" ] || fail "$library.so exports more than tartan_*: $other"
+done
+
+# Both export exactly what the header declares, the runtime all but compiling; an addition or a loss shows in the list.
+grep -oE 'tartan_[a-z_]+\(' <<<"$(sed -n '/^TARTAN_API/,/;/p' "$prefix/include/tartan/tartan.h")" | tr -d '(' | sort >"$scratch/declared"
+exported() {
+    nm -D --defined-only "$1" | awk '$3 ~ /^tartan_/ {print $3}' | sort
+}
+exported "$libdir/libtartan.so" >"$scratch/exported"
+cmp "$scratch/declared" "$scratch/exported" || fail "the header and libtartan differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
+diff -u tests/cli/install/exported "$scratch/exported" || fail 'libtartan exports other functions than tests/cli/install/exported says'
+grep -v '^tartan_compile_' "$scratch/exported" >"$scratch/running"
+exported "$libdir/libtartan-runtime.so" | cmp - "$scratch/running" || fail 'libtartan-runtime lacks a function, or has one too many'
+
+# Manual pages and completion stand where man and the shells look.
+for command in $("$prefix/bin/tartan" help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+    [ -s "$prefix/share/man/man1/tartan-$command.1" ] || fail "no manual page of $command"
+done
+for notation in $(sed -n 's/^NOTATION(\([a-z]*\),.*/\1/p' cli/notations.def); do
+    [ -s "$prefix/share/man/man5/tartan-$notation.5" ] || fail "no manual page of the notation $notation"
+done
+for file in man/man1/tartan.1 bash-completion/completions/tartan zsh/site-functions/_tartan fish/vendor_completions.d/tartan.fish; do
+    [ -s "$prefix/share/$file" ] || fail "no share/$file"
 done
 
 # The header stands alone, also for C++.
@@ -100,5 +124,5 @@ read -ra runtime <<<"$(pkg-config --cflags --libs tartan-runtime)"
 # The installed binary finds the stdlib by itself; what was installed goes again.
 env -u TARTAN_PATH "$prefix/bin/tartan" check "$scratch/narrow.plan"
 cmake -DMANIFEST="$manifest" -P cmake/uninstall.cmake
-left=$(find "$prefix" -type f -o -type l)
-[ -z "$left" ] || fail "uninstalling left: $left"
+left=$(cd "$prefix" && find . -type f -o -type l -o -name '*tartan*')
+[ "$left" = ./share/man/man1/other.1 ] || fail "uninstalling left: $left"

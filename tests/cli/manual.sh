@@ -25,3 +25,28 @@ done
 if "$TARTAN" help --man nonsense 2>/dev/null; then
     fail 'a page for a command that there is not'
 fi
+
+# Each notation has one too, made of its page of docs; the overview names it, and every grammar of the compiler has one.
+version=$("$TARTAN" --version | sed 's/^tartan //')
+names=$(sed -n 's/^NOTATION(\([a-z]*\),.*/\1/p' cli/notations.def)
+for name in plan bnf study plans; do
+    grep -qx "$name" <<<"$names" || fail "no notation $name"
+done
+while IFS='|' read -r name source summary; do
+    page=$(tools/manual-page "docs/$source" "$name" "$summary" "$version")
+    for text in '.SH NAME' '.SH DESCRIPTION' '.SH SEE ALSO'; do
+        grep -qxF "$text" <<<"$page" || fail "tartan-$name(5) has no line $text"
+    done
+    grep -q "tartan.-$name (5)" <<<"$overview" || fail "tartan(1) does not name tartan-$name(5)"
+    while read -r title; do
+        title=${title//-/\\-}
+        grep -qF ".SH ${title//\'/\\(aq}" <<<"$page" || fail "tartan-$name(5) lacks the section $title"
+    done < <(sed -n '/^```/,/^```/d;s/^## \([^`(]*\).*/\1/p' "docs/$source")
+    if grep -qF '](' <<<"$page"; then
+        fail "tartan-$name(5) has a link left"
+    fi
+    if command -v man >/dev/null && command -v troff >/dev/null; then
+        warnings=$(LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l - <<<"$page" 2>&1 >/dev/null | grep -v "can't break line" || true)
+        [ -z "$warnings" ] || fail "tartan-$name(5): $warnings"
+    fi
+done < <(sed -n 's/^NOTATION(\([a-z]*\), "\(.*\)", "\(.*\)")$/\1|\2|\3/p' cli/notations.def)

@@ -1,0 +1,41 @@
+# Manual pages and completion for shells. The binary writes tartan(1), a page a command and the completion from its own tables;
+# tools/manual-page makes a page a notation of that notation's page of docs.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
+file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def cli/notations.def)
+set(TARTAN_WRITTEN_FILES "")
+
+# The binary prints it: tartan help WORDS...
+function(tartan_writes name folder)
+  set(file ${TARTAN_WRITTEN}/${name})
+  add_custom_command(OUTPUT ${file} DEPENDS tartan COMMAND tartan help ${ARGN} > ${file} VERBATIM)
+  install(FILES ${file} DESTINATION ${folder})
+  set(TARTAN_WRITTEN_FILES ${TARTAN_WRITTEN_FILES} ${file} PARENT_SCOPE)
+endfunction()
+
+tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
+file(STRINGS cli/commands.def rows REGEX "^COMMAND")
+foreach(row ${rows})
+  string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
+  tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
+endforeach()
+
+file(STRINGS cli/notations.def rows REGEX "^NOTATION")
+foreach(row ${rows})
+  string(REGEX MATCH "NOTATION\\(([a-z]+), \"(.*)\", \"(.*)\"\\)" row "${row}")
+  set(file ${TARTAN_WRITTEN}/tartan-${CMAKE_MATCH_1}.5)
+  set(page ${PROJECT_SOURCE_DIR}/docs/${CMAKE_MATCH_2})
+  add_custom_command(OUTPUT ${file} DEPENDS ${page} ${PROJECT_SOURCE_DIR}/tools/manual-page cli/notations.def
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${page} ${CMAKE_MATCH_1} ${CMAKE_MATCH_3} ${PROJECT_VERSION} > ${file} VERBATIM)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
+  list(APPEND TARTAN_WRITTEN_FILES ${file})
+endforeach()
+
+# Each shell looks in a folder of its own, and under a name of its own.
+tartan_writes(bash/tartan ${CMAKE_INSTALL_DATADIR}/bash-completion/completions --completion bash)
+tartan_writes(zsh/_tartan ${CMAKE_INSTALL_DATADIR}/zsh/site-functions --completion zsh)
+tartan_writes(fish/tartan.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d --completion fish)
+file(MAKE_DIRECTORY ${TARTAN_WRITTEN}/bash ${TARTAN_WRITTEN}/zsh ${TARTAN_WRITTEN}/fish)
+
+add_custom_target(manual ALL DEPENDS ${TARTAN_WRITTEN_FILES})
