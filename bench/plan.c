@@ -17,7 +17,7 @@
 #include "runtime/plan/text.h"
 #include "runtime/vm/random.h"
 
-enum { TRAYS_LOW = 4, TRAYS_HIGH = 10, RUNS = 7, BYTE_FIRST = 33 };
+enum { TRAYS_LOW = 4, TRAYS_HIGH = 10, RUNS = 15, BYTE_FIRST = 33 };
 
 typedef struct plans {
     tn_tray *trays; /* one plan after another */

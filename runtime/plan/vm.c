@@ -167,6 +167,11 @@ TN_RELATION_INLINE void keep_counts(tn_plan_vm *vm, uint64_t *relation, uint32_t
     memset(relation, 0, (trays + 1) * words * sizeof *relation);
     for (size_t i = 0; i <= trays; i++) {
         uint64_t *row = relation + i * words;
+        if (i > 0 && vm->sums[i] == vm->sums[i - 1]) { /* the tray before does not count: the row before, from i on */
+            for (size_t w = 0; w < words; w++)
+                row[w] = relation[(i - 1) * words + w] & tn_bits_from(i, w);
+            continue;
+        }
         for (size_t j = i; j <= trays; j++)
             row[j / 64] |= (uint64_t)vm->truths[vm->sums[j] - vm->sums[i]] << (j % 64);
     }
