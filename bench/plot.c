@@ -99,7 +99,11 @@ static void draw_axis(cairo_t *cairo, const frame *f, bool vertical)
             if (s && high - low > 2)
                 continue;
             cairo_set_source_rgb(cairo, 0.3, 0.3, 0.3);
-            snprintf(label, sizeof label, "%g", steps[s] * pow(10, decade));
+            double number = steps[s] * pow(10, decade);
+            if (number > 999999)
+                snprintf(label, sizeof label, "%gM", number / 1e6);
+            else
+                snprintf(label, sizeof label, number > 999 ? "%gk" : "%g", number > 999 ? number / 1e3 : number);
             text(cairo, vertical ? f->x - 4 : at, vertical ? at + 3 : f->y + f->height + 11, vertical ? 1 : 0.5, label);
         }
     }
@@ -121,6 +125,7 @@ static void draw_panel(cairo_t *cairo, const panel *p, double left, double top)
     text(cairo, f.x + f.width / 2, f.y - 8, 0.5, p->title);
     cairo_set_source_rgb(cairo, 0.1, 0.35, 0.6);
     cairo_set_line_width(cairo, 1.5);
+    cairo_new_path(cairo);
     for (size_t i = 0; i < p->count; i++)
         cairo_line_to(cairo, place_x(&f, p->x[i]), place_y(&f, p->y[i]));
     cairo_stroke(cairo);
