@@ -1,4 +1,4 @@
-/* tartan draw: plans as a picture sheet. */
+/* tartan draw: plans as a picture sheet, rules as a picture. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +9,7 @@
 #include "cli/sampled.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/plan/draw.h"
+#include "runtime/plan/draw_rule.h"
 
 enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
 
@@ -233,6 +234,39 @@ static void draw_file(tn_job *job, const char *path)
     tn_schema_free(schema);
 }
 
+/* Rules rather than plans: one picture of those asked for, which are about the same trays. */
+static void draw_rules(tn_job *job)
+{
+    const tn_option_list *asked = &job->settings->rules;
+    tn_schema *schema = NULL;
+    tn_error error;
+    if (!tn_job_open(job, job->settings->operands.items[0]))
+        return;
+    const tn_module *module = job->opened.module;
+    uint32_t *rules = malloc(sizeof *rules * (asked->count + 1));
+    tn_status status = rules ? TN_OK : tn_fail_memory(&error);
+    for (size_t i = 0; status == TN_OK && i < asked->count; i++) {
+        status = tn_rule_choose(&job->opened, asked->items[i], &rules[i]);
+        tn_job_status(job, status);
+        if (status == TN_OK && module->RULE_records[rules[i]].schema != module->RULE_records[rules[0]].schema) {
+            tn_job_usage(job, "the rules of one picture are about the same trays");
+            status = TN_INVALID;
+        }
+    }
+    if (status == TN_OK) {
+        status = tn_schema_new(module, module->RULE_records[rules[0]].schema, 0, &schema, &error);
+        if (status == TN_OK)
+            status = tn_rules_draw(schema, rules, asked->count, job->settings->output,
+                                   (uint32_t)job->settings->dpi.value, &error);
+        if (status != TN_OK)
+            tn_job_fail(job, &error);
+    }
+    if (!rules)
+        tn_job_fail(job, &error);
+    tn_schema_free(schema);
+    free(rules);
+}
+
 static bool is_sampled(const tn_settings *settings)
 {
     return settings->sample.given || settings->per_length.given;
@@ -247,6 +281,8 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
     else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
         tn_job_fail(job, &error);
+    else if (settings->rules.count && (is_sampled(settings) || settings->operands.count > 1))
+        tn_job_usage(job, "draw either rules or plans, not both");
     else if (is_sampled(settings) && settings->operands.count > 1)
         tn_job_usage(job, "draw either a file of plans or a --sample, not both");
     else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->trays.given))
@@ -261,7 +297,11 @@ static int run(const tn_command *command, const tn_settings *settings)
     (void)command;
     tn_job job;
     tn_job_begin(&job, settings);
-    if (check_options(&job)) {
+    if (!check_options(&job))
+        return tn_job_end(&job);
+    if (settings->rules.count) {
+        draw_rules(&job);
+    } else {
         const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
         if (path)
             draw_file(&job, path);
@@ -273,6 +313,7 @@ static int run(const tn_command *command, const tn_settings *settings)
 
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
+    LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTION_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
@@ -296,13 +337,15 @@ static const tn_option options[] = {
 const tn_command tn_command_draw = {
     .name = "draw",
     .summary = "draw plans on a sheet, to scale",
-    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg",
     .description =
         "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
         "zones, marks and "
         "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
         "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
-        "are one sheet.",
+        "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
+        "of "
+        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.",
     .example = "$ tartan draw lahave-houses.plan --sample 24 --seed 7 -o sheet.svg\n"
                "$ tartan enumerate terrace.plan --limit 50 | tartan draw terrace.plan - -o rows.pdf",
     .options = options,

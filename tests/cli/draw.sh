@@ -46,4 +46,25 @@ golden does_not_fit "tartan draw rows.plan --sample 6 --paper a4 --scale 2 -o $s
 golden no_scale_for_tables "tartan draw sheds.plan --library sheds --sample 5 --scale 100 -o $scratch/x.svg"
 golden bad_plan "printf '9m -\n' | tartan draw sheds.plan - -o $scratch/x.svg"
 golden bad_plan_skipped "printf '9m -\n3m -\n' | tartan draw sheds.plan - --on-error skip -o $scratch/x.svg"
+# Rules as pictures: of every rule of the stdlib, of every kind of part, in each format, the same each time.
+for file in stdlib/lahave.plan stdlib/lahave-houses.plan stdlib/terrace.plan "$files/parts.plan"; do
+    rules=$(sed -n 's/^rule \([^ ]*\).*/--rule \1/p' "$file")
+    for format in svg png pdf; do
+        "$TARTAN" draw "$file" $rules -o "$scratch/rules.$format"
+        "$TARTAN" draw "$file" $rules -o "$scratch/again.$format"
+        cmp "$scratch/rules.$format" "$scratch/again.$format" || fail "the rules of $file differ in $format"
+    done
+done
+"$TARTAN" build "$files/parts.plan" -o "$scratch/parts.tnb"
+"$TARTAN" draw "$scratch/parts.tnb" --rule far -o "$scratch/module.svg"
+"$TARTAN" draw "$files/parts.plan" --rule far -o "$scratch/source.svg"
+cmp "$scratch/module.svg" "$scratch/source.svg" || fail 'the rule of a module is drawn otherwise'
+golden no_such_rule "tartan draw parts.plan --rule fra -o $scratch/x.svg"
+golden rules_and_plans "tartan draw parts.plan --rule far --sample 3 -o $scratch/x.svg"
+{
+    printf 'use "lahave"\nrule deep = symmetric neighbour(any, '
+    for i in 1 2 3 4 5 6 7 8 9; do printf 'symmetric neighbour(any, '; done
+    echo 'any))))))))))'
+} >"$scratch/deep.plan"
+golden rule_too_large "tartan draw $scratch/deep.plan --rule deep -o $scratch/x.svg"
 finish
