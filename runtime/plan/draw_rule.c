@@ -305,10 +305,10 @@ static void draw_symmetric(const picture *p, uint32_t part, double x, double y, 
     double left = x + (room.width - one.width) / 2, middle = y + room.height / 2;
     draw_part(p, child, left, y, mirrored);
     dashed(p, x - PADDING, middle, x + room.width + PADDING, middle);
-    cairo_push_group(p->context);
     draw_part(p, child, left, middle + PADDING, !mirrored);
-    cairo_pop_group_to_source(p->context);
-    cairo_paint_with_alpha(p->context, GREY);
+    cairo_rectangle(p->context, x - 1, middle + 1, room.width + 2, y + room.height - middle);
+    cairo_set_source_rgba(p->context, 1, 1, 1, 1 - GREY); /* a veil */
+    cairo_fill(p->context);
     cairo_set_source_rgb(p->context, 0, 0, 0);
 }
 
