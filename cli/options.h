@@ -82,7 +82,7 @@ typedef struct tn_settings {
     bool durable, figures;
 
     /* explaining */
-    bool full;
+    bool full, coverage;
     const char *plan_file;
     tn_option_number nearest;
 } tn_settings;

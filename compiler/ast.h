@@ -211,15 +211,16 @@ typedef struct tn_ast_tray {
 
 typedef struct tn_ast_case {
     tn_ast_node node;
-    tn_expectation expectation;
-    tn_ast_list trays; /* tn_ast_tray */
+    tn_ast_list expectations; /* tn_ast_word, a value of tn_expectation each: one for each subject */
+    bool todo;                /* expected to fail */
+    tn_ast_list trays;        /* tn_ast_tray */
     const tn_ast_word *doc;
     tn_ast_list by; /* tn_ast_word */
 } tn_ast_case;
 
 typedef struct tn_ast_test {
     tn_ast_top top;
-    const tn_ast_word *subject;
+    tn_ast_list subjects; /* tn_ast_word */
     tn_ast_list cases;
 } tn_ast_test;
 
@@ -300,8 +301,10 @@ tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, 
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
                             const tn_ast_word *doc);
 tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes);
-void *tn_ast_test_new(tn_parse *parse, tn_span span, const tn_ast_word *subject, tn_ast_list cases);
-void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_expectation expectation, tn_ast_list trays,
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases);
+tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation);
+void *tn_ast_case_todo(void *test_case);
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
                       const tn_ast_word *doc, tn_ast_list by);
 void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words);
 

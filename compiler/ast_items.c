@@ -198,22 +198,35 @@ tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes)
 
 /* ---- tests */
 
-void *tn_ast_test_new(tn_parse *parse, tn_span span, const tn_ast_word *subject, tn_ast_list cases)
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases)
 {
     tn_ast_test *test = TN_NEW(parse->arena, tn_ast_test);
-    if (!test || !subject)
+    if (!test || !subjects.count)
         return NULL;
-    *test = (tn_ast_test){.top = {.node.span = span, .kind = TN_ITEM_TEST}, .subject = subject, .cases = cases};
+    *test = (tn_ast_test){.top = {.node.span = span, .kind = TN_ITEM_TEST}, .subjects = subjects, .cases = cases};
     return test;
 }
 
-void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_expectation expectation, tn_ast_list trays,
+tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation)
+{
+    return tn_ast_word_new(parse, TN_WORD_NAME, span, text, expectation);
+}
+
+void *tn_ast_case_todo(void *test_case)
+{
+    tn_ast_case *made = test_case;
+    if (made)
+        made->todo = true;
+    return made;
+}
+
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
                       const tn_ast_word *doc, tn_ast_list by)
 {
     tn_ast_case *made = TN_NEW(parse->arena, tn_ast_case);
     if (!made)
         return NULL;
-    *made = (tn_ast_case){.node.span = span, .expectation = expectation, .trays = trays, .doc = doc, .by = by};
+    *made = (tn_ast_case){.node.span = span, .expectations = expectations, .trays = trays, .doc = doc, .by = by};
     return made;
 }
 

@@ -129,7 +129,7 @@ bool tn_format_clause_names(tn_arena *arena, const tn_source *source, const tn_a
     bool renamed = false;
     for (TN_EACH(const tn_ast_top, item, tree->items)) {
         const tn_ast_test *test = (const tn_ast_test *)item;
-        if (item->kind != TN_ITEM_TEST || !find_chain(&r, test->subject->text))
+        if (item->kind != TN_ITEM_TEST || !find_chain(&r, ((const tn_ast_word *)test->subjects.first)->text))
             continue;
         for (TN_EACH(const tn_ast_case, test_case, test->cases))
             for (TN_EACH(const tn_ast_word, name, test_case->by))

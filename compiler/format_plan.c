@@ -37,10 +37,16 @@ static bool starts_clause(const tn_format *format, size_t i)
            tn_format_is(format, i, "prune") || tn_format_is(format, i, "allow");
 }
 
-static bool starts_case(const tn_format *format, size_t i)
+static bool is_expectation(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "match") || tn_format_is(format, i, "reject") || tn_format_is(format, i, "keep") ||
-           tn_format_is(format, i, "drop");
+           tn_format_is(format, i, "drop") || tn_format_is(format, i, "todo");
+}
+
+/* The first of the words before a plan. */
+static bool starts_case(const tn_format *format, size_t i)
+{
+    return is_expectation(format, i) && !(i > 0 && is_expectation(format, i - 1));
 }
 
 static size_t next_start(const tn_format *format, size_t first, size_t last, tn_format_split *starts)

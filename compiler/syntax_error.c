@@ -36,6 +36,7 @@ static const struct {
     {"the next `rule`, `schema`, `library`, `test` or `use`",
      {"`rule`", "`schema`", "`library`", "`test`", "`use`", "the end of the file"}},
     {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
+    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`"}},
     {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
     {"a field (`name = values`)", {"a field", "`forbid`", "`zone`"}},
 };
@@ -122,7 +123,7 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
                "`forbid tray(...)`";
     if (expects(e, "`)`") && (strcmp(found, "the end of the file") == 0 || (is_word(found) && !expects(e, "a name"))))
         return "close the `(` before this";
-    if (e->count == 1 && expects(e, "`[`"))
+    if (expects(e, "`[`"))
         return "a plan stands in brackets: [4' | 8' double]";
     if (strcmp(found, "a text in quotes") == 0)
         return "a text comes directly after the name that it describes";

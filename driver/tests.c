@@ -4,8 +4,11 @@
 #include <string.h>
 
 #include "driver/clauses.h"
+#include "driver/explain.h"
 #include "driver/library.h"
 #include "runtime/plan/text.h"
+
+#define EXPLAINED_LINES 12 /* of one rule, in a failure */
 
 /* One engine's rules and matcher, and what they said of the plan at hand. */
 typedef struct engine {
@@ -217,6 +220,48 @@ static void note_rule(const block *b, const tn_test_case *test, tn_diagnostic *d
     }
 }
 
+/* The lines of one rule's explanation, each a note. */
+static void note_lines(const block *b, tn_diagnostic *diagnostic, char *text)
+{
+    size_t lines = 0;
+    for (char *line = text, *end; *line && lines < EXPLAINED_LINES; line = end, lines++) {
+        end = line + strcspn(line, "\n");
+        if (*end)
+            *end++ = '\0';
+        tn_note(&b->opened->compilation.diagnostics, diagnostic, NULL, "%s", line);
+    }
+}
+
+/* Why it came out so: the rule, or the clauses that drop the plan, or those that were expected to and did not. */
+static void note_why(const block *b, const tn_test_case *test, tn_diagnostic *diagnostic)
+{
+    tn_explained explained;
+    tn_error error;
+    tn_status status = tn_explained_make(&explained, b->opened, b->schema, b->library, &b->tests->index, 1, b->trays,
+                                         test->length, test->length + 1, &error);
+    for (size_t i = 0; status == TN_OK && i < explained.count; i++) {
+        bool named = false;
+        for (size_t k = 0; k < test->by_count; k++)
+            named |= strcmp(test->by[k], explained.rules[i].name) == 0;
+        if (b->library && !named && !explained.rules[i].drops)
+            continue;
+        tn_buffer text = {0};
+        if (tn_explained_rule_text(&explained, &explained.rules[i], false, &text))
+            note_lines(b, diagnostic, text.data);
+        free(text.data);
+    }
+    tn_explained_clear(&explained);
+}
+
+/* A case marked `todo` that comes out: the mark has served. */
+static void report_done(const block *b, const tn_test_case *test)
+{
+    tn_diagnostics *list = &b->opened->compilation.diagnostics;
+    tn_diagnostic *d =
+        tn_report(list, E_TEST_FAILED, test->span, "this test of `%s` is marked `todo` and passes", b->tests->subject);
+    tn_help(list, d, "take `todo` away: it is done");
+}
+
 static void report_failure(const block *b, const tn_test_case *test)
 {
     tn_diagnostics *list = &b->opened->compilation.diagnostics;
@@ -229,6 +274,7 @@ static void report_failure(const block *b, const tn_test_case *test)
     if (tn_plan_write_line(b->schema, b->trays, test->length, &plan))
         tn_note(list, diagnostic, NULL, "plan: %s", plan.data ? plan.data : "");
     note_rule(b, test, diagnostic);
+    note_why(b, test, diagnostic);
     free(sentence.data);
     free(plan.data);
 }
@@ -241,8 +287,14 @@ static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts
         status = match(b, test, error);
         if (status != TN_OK)
             break;
-        if (comes_out(b, test)) {
+        bool good = comes_out(b, test);
+        if (good && !test->todo) {
             counts->passed++;
+        } else if (!good && test->todo) {
+            counts->todo++;
+        } else if (good) {
+            counts->failed++;
+            report_done(b, test);
         } else {
             counts->failed++;
             report_failure(b, test);

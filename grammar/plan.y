@@ -38,7 +38,6 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_list list;
     tn_ast_range range;
     tn_operator op;
-    tn_expectation expectation;
     tn_ast_cond *cond;
     tn_ast_expr *expr;
     tn_ast_body body;
@@ -55,7 +54,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
 %token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`"
-%token MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
+%token TODO "`todo`" MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
@@ -64,17 +63,16 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token EQUAL "`=`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`"
 %token BAR "`|`" COMMA "`,`" DASH "`-`"
 
-%type <node> item field value forbid case spec_item spec_alternative literal_tray prune require
+%type <node> item field value forbid case any_case spec_item spec_alternative literal_tray prune require
 %type <body> body
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using constant operand spec_word literal_word clause_name
-%type <list> items values depths allow names clauses clause prunes requires cases clause_names plan trays words
+%type <word> doc role using constant operand spec_word literal_word clause_name expectation
+%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names plan trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts sum_field total_field
 %type <range> range
 %type <op> comparison
-%type <expectation> expectation
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <expr> expression ors and ands not primary
 
@@ -98,7 +96,7 @@ item
     | rule_head EQUAL error                     { $$ = tn_ast_rule_new(parse, @1, $1, NULL); }
     | library_head OPEN_BRACE clauses CLOSE_BRACE
                                                 { $$ = tn_ast_library_new(parse, @$, $1, $3); }
-    | test NAME OPEN_BRACE cases CLOSE_BRACE    { $$ = tn_ast_test_new(parse, @$, $2, $4); }
+    | test names OPEN_BRACE cases CLOSE_BRACE   { $$ = tn_ast_test_new(parse, @$, $2, $4); }
     ;
 
 use: USE                                        { yyerrok; };
@@ -399,21 +397,33 @@ prune
 
 cases
     : %empty                                    { $$ = tn_ast_empty(); }
-    | cases case                                { $$ = tn_ast_append($1, $2); }
+    | cases any_case                            { $$ = tn_ast_append($1, $2); }
     | cases error                               { $$ = $1; }
     ;
 
+any_case
+    : case
+    | todo_word case                            { $$ = tn_ast_case_todo($2); }
+    ;
+
+todo_word: TODO                                 { yyerrok; };
+
 case
-    : expectation plan doc                      { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, tn_ast_empty()); }
-    | expectation plan STRING BY clause_names   { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $5); }
-    | expectation plan BY clause_names doc      { $$ = tn_ast_case_new(parse, @$, $1, $2, $5, $4); }
+    : expectations plan doc                     { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, tn_ast_empty()); }
+    | expectations plan STRING BY clause_names  { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $5); }
+    | expectations plan BY clause_names doc     { $$ = tn_ast_case_new(parse, @$, $1, $2, $5, $4); }
+    ;
+
+expectations
+    : expectation                               { $$ = tn_ast_one($1); }
+    | expectations expectation                  { $$ = tn_ast_append($1, $2); }
     ;
 
 expectation
-    : MATCH                                     { $$ = TN_EXPECT_MATCH; yyerrok; }
-    | REJECT                                    { $$ = TN_EXPECT_REJECT; yyerrok; }
-    | KEEP                                      { $$ = TN_EXPECT_KEEP; yyerrok; }
-    | DROP                                      { $$ = TN_EXPECT_DROP; yyerrok; }
+    : MATCH                                     { $$ = tn_ast_expect(parse, @$, "match", TN_EXPECT_MATCH); yyerrok; }
+    | REJECT                                    { $$ = tn_ast_expect(parse, @$, "reject", TN_EXPECT_REJECT); yyerrok; }
+    | KEEP                                      { $$ = tn_ast_expect(parse, @$, "keep", TN_EXPECT_KEEP); yyerrok; }
+    | DROP                                      { $$ = tn_ast_expect(parse, @$, "drop", TN_EXPECT_DROP); yyerrok; }
     ;
 
 plan

@@ -24,7 +24,9 @@ struct tn_lowering {
     const tn_classes *classes;
     tn_bounds bounds;
     tn_marked marked;
-    uint64_t spent;      /* work on the rules before */
+    uint64_t spent;           /* work on the rules before */
+    const uint32_t *disabled; /* code offsets of instructions that give nothing */
+    size_t disabled_count;
     tn_lowered *lowered; /* [functions][FORM_COUNT] */
 };
 
@@ -72,6 +74,20 @@ void tn_lowering_free(tn_lowering *lowering)
     free(lowering->lowered);
     tn_marked_clear(&lowering->marked);
     free(lowering);
+}
+
+void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count)
+{
+    lowering->disabled = offsets;
+    lowering->disabled_count = count;
+}
+
+static bool is_disabled(const tn_lowering *lowering, uint32_t offset)
+{
+    for (size_t i = 0; i < lowering->disabled_count; i++)
+        if (lowering->disabled[i] == offset)
+            return true;
+    return false;
 }
 
 /* ---- reading a function */
@@ -212,6 +228,8 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
                             tn_error *error)
 {
     uint32_t wanted;
+    if (is_disabled(lowering, node->offset))
+        return tn_dfa_constant(lowering->classes->count + !node->plain, false, out, error);
     switch (node->code.opcode) {
     case TN_OP_CALL:
     case TN_OP_MIRROR:

@@ -17,6 +17,10 @@ typedef struct tn_lowering tn_lowering;
 tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_lowering **lowering, tn_error *error);
 void tn_lowering_free(tn_lowering *lowering);
 
+/* Makes what the instructions at these code offsets give the empty relation, for coverage. Only before the first
+ * function is lowered; the offsets are borrowed. */
+void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count);
+
 /* The minimal automaton, over the classes, of the plans whose whole stretch [0, N) is in the function's relation. The
  * caller frees *out. TN_LIMIT (E0802) where an intermediate automaton passes the bounds; the error's code_offset is the
  * instruction in whose construction that was. */
