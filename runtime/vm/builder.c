@@ -223,6 +223,7 @@ static const size_t stored_sizes[TN_SECTION_COUNT] = {
 #define TN_WRITE_STR(value) (tn_put_u32(to, (value)), to += 4)
 #define TN_WRITE_U32(value) (tn_put_u32(to, (value)), to += 4)
 #define TN_WRITE_I64(value) (tn_put_u64(to, (uint64_t)(value)), to += 8)
+#define TN_WRITE_F64(value) (tn_put_u64(to, tn_bits_of(value)), to += 8)
 #define F(KIND, FIELD) TN_WRITE_##KIND(record->FIELD);
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     static uint8_t *write_##NAME(const tn_run *run, uint8_t *to)                                                       \

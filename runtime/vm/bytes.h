@@ -20,6 +20,25 @@ static inline int64_t tn_get_i64(const uint8_t *bytes)
     return value <= INT64_MAX ? (int64_t)value : -(int64_t)~value - 1;
 }
 
+/* A double's IEEE 754 bits, and back. */
+static inline uint64_t tn_bits_of(double value)
+{
+    union {
+        double value;
+        uint64_t bits;
+    } both = {.value = value};
+    return both.bits;
+}
+
+static inline double tn_double_of(uint64_t bits)
+{
+    union {
+        uint64_t bits;
+        double value;
+    } both = {.bits = bits};
+    return both.value;
+}
+
 static inline void tn_put_u32(uint8_t *bytes, uint32_t value)
 {
     for (int i = 0; i < 4; i++)

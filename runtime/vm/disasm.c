@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "runtime/vm/code.h"
+#include "runtime/vm/disasm_growth.h"
 #include "runtime/vm/condition_text.h"
 #include "runtime/vm/utf8.h"
 
@@ -442,6 +443,7 @@ static void list_module(tn_lister *lister)
         list_function(lister, i);
     for (size_t i = 0; i < module->GRAMMAR_count && !ferror(lister->out); i++)
         list_grammar(lister, i);
+    tn_disassemble_growth(module, lister->out);
 }
 
 /* Marks the functions that a function's code names. They are numbered below it. */

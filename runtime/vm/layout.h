@@ -26,6 +26,7 @@ enum {
 #define TN_BYTES_STR 4
 #define TN_BYTES_U32 4
 #define TN_BYTES_I64 8
+#define TN_BYTES_F64 8
 #define F(KIND, FIELD) +TN_BYTES_##KIND
 #define SECTION(NAME, NUMBER, TYPE, FIELDS) TN_STORED_##NAME = 0 FIELDS,
 #include "runtime/vm/records.def"

@@ -95,6 +95,7 @@ static tn_status check_counts(const tn_stored *sections, const tn_module_limits 
 #define TN_READ_STR (from += 4, tn_get_u32(from - 4))
 #define TN_READ_U32 (from += 4, tn_get_u32(from - 4))
 #define TN_READ_I64 (from += 8, tn_get_i64(from - 8))
+#define TN_READ_F64 (from += 8, tn_double_of((uint64_t)tn_get_i64(from - 8)))
 #define F(KIND, FIELD) records[i].FIELD = TN_READ_##KIND;
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     static void read_##NAME(TYPE *records, size_t count, const uint8_t *from)                                          \

@@ -82,6 +82,7 @@ typedef uint32_t tn_string; /* an offset into the strings */
 #define TN_TYPE_STR tn_string
 #define TN_TYPE_U32 uint32_t
 #define TN_TYPE_I64 int64_t
+#define TN_TYPE_F64 double
 #define F(KIND, FIELD) TN_TYPE_##KIND FIELD;
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     typedef struct TYPE {                                                                                              \

@@ -11,6 +11,8 @@
  * operands name a record of the right kind and schema, calls a lower function; the stack never runs empty and never
  * passes stack_max, which never passes the limit rules, libraries and clauses name functions of the right kind and
  * schema places    lie in their source's text; the map ascends and names instructions
+ *   growth    one rewrite system and one study at most; labels, points and templates that are there; numbers within the
+ *             limits of growth.h
  *
  *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that ends
  *             with its one DONE, whose bodies nest, and whose operands are the grammar's own
@@ -27,6 +29,7 @@ tn_status tn_module_verify(const tn_module *module, const tn_module_limits *limi
 
 /* Its parts. Code relies on the tables having been verified before. */
 tn_status tn_verify_tables(const tn_module *module, const tn_module_limits *limits, tn_error *error);
+tn_status tn_verify_growth(const tn_module *module, tn_error *error);
 tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error);
 
 /* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved past

@@ -1,4 +1,5 @@
 /* The tables: strings, places, schemas, specifiers, and what rules and libraries name. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,10 +42,11 @@ static bool is_string(const tn_module *module, tn_string string)
     return string < module->strings_size && (string == 0 || module->strings[string - 1] == '\0');
 }
 
-/* The first record of a section that has a string that is none, or the number of records. */
+/* The first record of a section that has a string that is none or a number that is not finite, or the number of records. */
 #define FITS_STR(value) is_string(module, (value))
 #define FITS_U32(value) true
 #define FITS_I64(value) true
+#define FITS_F64(value) isfinite(value)
 #define F(KIND, FIELD) &&FITS_##KIND(record->FIELD)
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     static size_t bad_string_##NAME(const tn_module *module)                                                           \
@@ -69,7 +71,7 @@ static tn_status check_strings(tn_checker *checker)
         return refuse(checker, "its strings are not UTF-8 text");
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     if (bad_string_##NAME(module) < module->NAME##_count)                                                              \
-        return refuse(checker, "record %zu of " #NAME " has a string that is none", bad_string_##NAME(module));
+        return refuse(checker, "record %zu of " #NAME " has a string that is none, or a number that is not finite", bad_string_##NAME(module));
 #include "runtime/vm/records.def"
 #undef SECTION
     return TN_OK;
@@ -144,6 +146,13 @@ static tn_status check_places(const tn_checker *checker)
     CHECK_PLACES(RULE)
     CHECK_PLACES(LIBRARY)
     CHECK_PLACES(CLAUSE)
+    CHECK_PLACES(GROWTH)
+    CHECK_PLACES(REWRITE_RULE)
+    CHECK_PLACES(TEMPLATE)
+    CHECK_PLACES(STUDY)
+    CHECK_PLACES(FORCE)
+    CHECK_PLACES(BOUNDARY)
+    CHECK_PLACES(GOAL)
     CHECK_PLACES(MAP)
     CHECK_PLACES(GRAMMAR)
     CHECK_PLACES(NONTERMINAL)

@@ -73,6 +73,7 @@ static void assert_same_modules(const tn_module *a, const tn_module *b)
 #define COMPARE_I64(FIELD)                                                                                             \
     if (strcmp(#FIELD, "sources_hash") != 0)                                                                           \
         assert_int_equal(one->FIELD, other->FIELD);
+#define COMPARE_F64(FIELD) assert_true(one->FIELD == other->FIELD);
 #define COMPARE_STR(FIELD)                                                                                             \
     if (strcmp(#FIELD, "text") != 0)                                                                                   \
         assert_true(same_text(tn_text(a, one->FIELD), tn_text(b, other->FIELD)));
