@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(TARTAN_RUNTIME_OBJECTS $<TARGET_OBJECTS:tartan-runtime-core>)
 set(TARTAN_OBJECTS ${TARTAN_RUNTIME_OBJECTS} $<TARGET_OBJECTS:tartan-grammar> $<TARGET_OBJECTS:tartan-compiler-core>
     $<TARGET_OBJECTS:tartan-driver-core>)
-set(TARTAN_LIBRARY_NEEDS PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
+set(TARTAN_LIBRARY_NEEDS ${TARTAN_OPENMESH} PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
     Threads::Threads m)
 set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")
 file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
@@ -16,6 +16,8 @@ else()
   list(JOIN OpenMP_C_LIBRARIES " " TARTAN_PC_LIBS)
   string(APPEND TARTAN_PC_LIBS " -pthread -lm")
 endif()
+list(JOIN TARTAN_OPENMESH " " TARTAN_PC_OPENMESH)
+string(PREPEND TARTAN_PC_LIBS "${TARTAN_PC_OPENMESH} ")
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.
 set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -32,6 +34,7 @@ function(tartan_library name objects)
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endforeach()
   set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${TARTAN_SOVERSION})
+  target_link_options(lib${name}-shared PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
   # clang leaves the sanitizers' names in a shared library to the program
   if(NOT CMAKE_C_FLAGS MATCHES "-fsanitize=")
     target_link_options(lib${name}-shared PRIVATE -Wl,--no-undefined)

@@ -1,0 +1,284 @@
+#include "runtime/mesh/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EAR_CORNERS_MAX 2000u /* cutting ears takes the square of the corners; larger faces become fans */
+
+void tn_mesh_clear(tn_mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->face_first);
+    free(mesh->corners);
+    free(mesh->face_group);
+    free(mesh->group_names);
+    free(mesh->lines);
+    free(mesh->line_group);
+    *mesh = (tn_mesh){0};
+}
+
+tn_status tn_mesh_new(size_t vertices, size_t faces, size_t corners, tn_mesh *mesh, tn_error *error)
+{
+    *mesh = (tn_mesh){.vertex_count = vertices, .face_count = faces};
+    mesh->positions = malloc((3 * vertices + 1) * sizeof *mesh->positions);
+    mesh->face_first = malloc((faces + 1) * sizeof *mesh->face_first);
+    mesh->corners = malloc((corners + 1) * sizeof *mesh->corners);
+    if (mesh->positions && mesh->face_first && mesh->corners)
+        return TN_OK;
+    tn_mesh_clear(mesh);
+    return tn_fail_memory(error);
+}
+
+static const double *place(const tn_mesh *mesh, uint32_t vertex)
+{
+    return mesh->positions + 3 * (size_t)vertex;
+}
+
+/* Newell's normal of a face: twice its area long. */
+static void face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, double n[3])
+{
+    const double *first = place(mesh, corners[0]);
+    n[0] = n[1] = n[2] = 0;
+    for (uint32_t i = 1; i + 1 < count; i++) {
+        const double *p = place(mesh, corners[i]), *q = place(mesh, corners[i + 1]);
+        double a[3], b[3];
+        for (int k = 0; k < 3; k++) {
+            a[k] = p[k] - first[k];
+            b[k] = q[k] - first[k];
+        }
+        n[0] += a[1] * b[2] - a[2] * b[1];
+        n[1] += a[2] * b[0] - a[0] * b[2];
+        n[2] += a[0] * b[1] - a[1] * b[0];
+    }
+}
+
+/* ---- triangles */
+
+/* Twice the area of a triangle as seen along the normal. */
+static double area(const tn_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, const double n[3])
+{
+    uint32_t corners[3] = {a, b, c};
+    double m[3];
+    face_normal(mesh, corners, 3, m);
+    return m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+}
+
+static bool is_ear(const tn_mesh *mesh, const uint32_t *ring, uint32_t count, uint32_t i, const double n[3])
+{
+    uint32_t a = ring[(i + count - 1) % count], b = ring[i], c = ring[(i + 1) % count];
+    if (area(mesh, a, b, c, n) <= 0)
+        return false;
+    for (uint32_t j = 0; j < count; j++) {
+        uint32_t p = ring[j];
+        if (p == a || p == b || p == c)
+            continue;
+        if (area(mesh, a, b, p, n) >= 0 && area(mesh, b, c, p, n) >= 0 && area(mesh, c, a, p, n) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/* Writes count - 2 triangles. `ring` is used up. */
+static void cut_ears(const tn_mesh *mesh, uint32_t *ring, uint32_t count, uint32_t *out)
+{
+    double n[3];
+    face_normal(mesh, ring, count, n);
+    while (count > 3) {
+        uint32_t ear = 0;
+        while (ear < count && !is_ear(mesh, ring, count, ear, n))
+            ear++;
+        if (ear == count) /* folded over itself: any corner will do */
+            ear = 0;
+        *out++ = ring[(ear + count - 1) % count];
+        *out++ = ring[ear];
+        *out++ = ring[(ear + 1) % count];
+        memmove(ring + ear, ring + ear + 1, (count - ear - 1) * sizeof *ring);
+        count--;
+    }
+    memcpy(out, ring, 3 * sizeof *out);
+}
+
+static void cut_face(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, uint32_t *ring, uint32_t *out)
+{
+    if (count <= EAR_CORNERS_MAX) {
+        memcpy(ring, corners, count * sizeof *ring);
+        cut_ears(mesh, ring, count, out);
+        return;
+    }
+    for (uint32_t i = 1; i + 1 < count; i++) {
+        *out++ = corners[0];
+        *out++ = corners[i];
+        *out++ = corners[i + 1];
+    }
+}
+
+tn_status tn_mesh_triangulate(tn_mesh *mesh, tn_error *error)
+{
+    size_t triangles = 0;
+    for (size_t f = 0; f < mesh->face_count; f++)
+        triangles += mesh->face_first[f + 1] - mesh->face_first[f] - 2;
+    if (triangles == mesh->face_count)
+        return TN_OK;
+    if (triangles > UINT32_MAX / 3)
+        return tn_fail(error, TN_LIMIT, 844, "the mesh would have %zu triangles; the limit is %u", triangles,
+                       UINT32_MAX / 3);
+    uint32_t ring[EAR_CORNERS_MAX];
+    uint32_t *first = malloc((triangles + 1) * sizeof *first), *corners = malloc((3 * triangles + 1) * sizeof *corners);
+    uint32_t *group = mesh->face_group ? malloc((triangles + 1) * sizeof *group) : NULL;
+    if (!first || !corners || (mesh->face_group && !group)) {
+        free(first);
+        free(corners);
+        free(group);
+        return tn_fail_memory(error);
+    }
+    size_t t = 0;
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        uint32_t count = mesh->face_first[f + 1] - mesh->face_first[f];
+        cut_face(mesh, mesh->corners + mesh->face_first[f], count, ring, corners + 3 * t);
+        for (uint32_t i = 0; i + 2 < count; i++, t++) {
+            first[t] = (uint32_t)(3 * t);
+            if (group)
+                group[t] = mesh->face_group[f];
+        }
+    }
+    first[t] = (uint32_t)(3 * t);
+    free(mesh->face_first);
+    free(mesh->corners);
+    free(mesh->face_group);
+    mesh->face_first = first;
+    mesh->corners = corners;
+    mesh->face_group = group;
+    mesh->face_count = triangles;
+    return TN_OK;
+}
+
+/* ---- normals */
+
+tn_status tn_mesh_normals(const tn_mesh *mesh, double **normals, tn_error *error)
+{
+    double *sums = calloc(3 * mesh->vertex_count + 1, sizeof *sums);
+    if (!sums)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        double n[3];
+        uint32_t first = mesh->face_first[f], end = mesh->face_first[f + 1];
+        face_normal(mesh, mesh->corners + first, end - first, n);
+        for (uint32_t c = first; c < end; c++)
+            for (int k = 0; k < 3; k++)
+                sums[3 * (size_t)mesh->corners[c] + (size_t)k] += n[k];
+    }
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        double *n = sums + 3 * v, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int k = 0; k < 3; k++)
+            n[k] = length > 1e-300 ? n[k] / length : 0;
+    }
+    *normals = sums;
+    return TN_OK;
+}
+
+/* ---- welding */
+
+static uint64_t hash_place(const double *p)
+{
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; k++) {
+        double c = p[k] == 0 ? 0 : p[k]; /* the two zeros are one place */
+        uint64_t bits;
+        memcpy(&bits, &c, sizeof bits);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+/* For each vertex the first one at its place. */
+static tn_status find_first(const tn_mesh *mesh, uint32_t *first, tn_error *error)
+{
+    size_t capacity = 64;
+    while (capacity < 2 * mesh->vertex_count)
+        capacity *= 2;
+    uint32_t *slots = malloc(capacity * sizeof *slots);
+    if (!slots)
+        return tn_fail_memory(error);
+    memset(slots, 0xff, capacity * sizeof *slots);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        const double *p = place(mesh, v);
+        size_t i = (size_t)hash_place(p) & (capacity - 1);
+        while (slots[i] != UINT32_MAX) {
+            const double *q = place(mesh, slots[i]);
+            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2])
+                break;
+            i = (i + 1) & (capacity - 1);
+        }
+        if (slots[i] == UINT32_MAX)
+            slots[i] = v;
+        first[v] = slots[i];
+    }
+    free(slots);
+    return TN_OK;
+}
+
+/* Without corners that repeat the one before; false where fewer than three remain. */
+static bool weld_face(tn_mesh *mesh, uint32_t first, uint32_t end, const uint32_t *number, uint32_t *at)
+{
+    uint32_t begin = *at;
+    for (uint32_t c = first; c < end; c++) {
+        uint32_t v = number[mesh->corners[c]];
+        if (*at == begin || mesh->corners[*at - 1] != v)
+            mesh->corners[(*at)++] = v;
+    }
+    while (*at > begin + 1 && mesh->corners[*at - 1] == mesh->corners[begin])
+        (*at)--;
+    if (*at - begin >= 3)
+        return true;
+    *at = begin;
+    return false;
+}
+
+tn_status tn_mesh_weld(tn_mesh *mesh, tn_error *error)
+{
+    uint32_t *first = malloc((mesh->vertex_count + 1) * sizeof *first);
+    if (!first)
+        return tn_fail_memory(error);
+    tn_status status = find_first(mesh, first, error);
+    if (status != TN_OK) {
+        free(first);
+        return status;
+    }
+    uint32_t kept = 0;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        if (first[v] != v) {
+            first[v] = first[first[v]]; /* an earlier vertex: it has its new number */
+            continue;
+        }
+        memmove(mesh->positions + 3 * (size_t)kept, place(mesh, v), 3 * sizeof(double));
+        first[v] = kept++;
+    }
+    mesh->vertex_count = kept;
+    uint32_t at = 0, begin = 0, next = mesh->face_first[0];
+    size_t faces = 0;
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        uint32_t start = next;
+        next = mesh->face_first[f + 1]; /* before its slot is written */
+        if (!weld_face(mesh, start, next, first, &at))
+            continue;
+        if (mesh->face_group)
+            mesh->face_group[faces] = mesh->face_group[f];
+        mesh->face_first[faces++] = begin;
+        begin = at;
+    }
+    mesh->face_first[faces] = at;
+    mesh->face_count = faces;
+    free(first);
+    return TN_OK;
+}
+
+void tn_group_colour(uint32_t group, unsigned char rgb[3])
+{
+    /* Okabe and Ito's colours, which all readers can tell apart, without black and yellow */
+    static const unsigned char colours[][3] = {{0, 114, 178},  {213, 94, 0},  {0, 158, 115}, {204, 121, 167},
+                                               {86, 180, 233}, {230, 159, 0}, {120, 94, 60}};
+    const unsigned char *c = colours[group % (sizeof colours / sizeof *colours)];
+    memcpy(rgb, c, 3);
+}

@@ -1,0 +1,257 @@
+extern "C" {
+#include "runtime/mesh/openmesh.h"
+}
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/System/omstream.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
+
+namespace {
+
+struct traits : OpenMesh::DefaultTraits {
+    typedef OpenMesh::Vec3d Point;
+    typedef OpenMesh::Vec3d Normal;
+};
+typedef OpenMesh::PolyMesh_ArrayKernelT<traits> poly_mesh;
+typedef OpenMesh::TriMesh_ArrayKernelT<traits> tri_mesh;
+
+/* OpenMesh reports on a stream of its own; while this lives, nobody sees it. */
+class silence {
+public:
+    silence()
+    {
+        omerr().disable();
+        omout().disable();
+        omlog().disable();
+    }
+    ~silence()
+    {
+        omerr().enable();
+        omout().enable();
+        omlog().enable();
+    }
+};
+
+template <class mesh_type> bool into(const tn_mesh *from, bool y_up, mesh_type &to)
+{
+    std::vector<typename mesh_type::VertexHandle> vertices, face;
+    vertices.reserve(from->vertex_count);
+    to.reserve(from->vertex_count, from->face_first[from->face_count], from->face_count);
+    for (size_t v = 0; v < from->vertex_count; v++) {
+        const double *p = from->positions + 3 * v;
+        vertices.push_back(to.add_vertex(y_up ? OpenMesh::Vec3d(p[0], p[2], -p[1]) : OpenMesh::Vec3d(p[0], p[1], p[2])));
+    }
+    for (size_t f = 0; f < from->face_count; f++) {
+        face.clear();
+        for (uint32_t c = from->face_first[f]; c < from->face_first[f + 1]; c++)
+            face.push_back(vertices[from->corners[c]]);
+        if (!to.add_face(face).is_valid())
+            return false; /* not a surface there: an edge with a third face, or a face turned the wrong way */
+    }
+    return true;
+}
+
+template <class mesh_type> tn_status out_of(const mesh_type &from, tn_mesh *to, tn_error *error)
+{
+    size_t corners = 0, v = 0, f = 0;
+    for (auto face : from.faces())
+        corners += from.valence(face);
+    tn_status status = tn_mesh_new(from.n_vertices(), from.n_faces(), corners, to, error);
+    if (status != TN_OK)
+        return status;
+    for (auto vertex : from.vertices()) {
+        const auto &p = from.point(vertex);
+        for (int k = 0; k < 3; k++)
+            to->positions[3 * v + k] = p[k];
+        v++;
+    }
+    uint32_t c = 0;
+    for (auto face : from.faces()) {
+        to->face_first[f++] = c;
+        for (auto corner : from.fv_range(face))
+            to->corners[c++] = static_cast<uint32_t>(corner.idx());
+    }
+    to->face_first[f] = c;
+    return TN_OK;
+}
+
+bool all_triangles(const tn_mesh *mesh)
+{
+    for (size_t f = 0; f < mesh->face_count; f++)
+        if (mesh->face_first[f + 1] - mesh->face_first[f] != 3)
+            return false;
+    return true;
+}
+
+tn_status no_surface(tn_error *error)
+{
+    return tn_fail(error, TN_INVALID, 0, "the mesh is not a surface: some edge has more than two faces");
+}
+
+/* Runs what may throw; C code gets a status instead. */
+template <class action> tn_status guarded(tn_error *error, action what)
+{
+    try {
+        silence quiet;
+        return what();
+    } catch (const std::bad_alloc &) {
+        return tn_fail_memory(error);
+    } catch (const std::exception &problem) {
+        return tn_fail(error, TN_INVALID, 0, "the mesh library gives up: %s", problem.what());
+    }
+}
+
+/* Puts a result in the place of what it was made from. */
+template <class mesh_type> tn_status replace(const mesh_type &from, tn_mesh *mesh, tn_error *error)
+{
+    tn_mesh made = {};
+    tn_status status = out_of(from, &made, error);
+    if (status != TN_OK)
+        return status;
+    tn_mesh_clear(mesh);
+    *mesh = made;
+    return TN_OK;
+}
+
+template <class mesh_type, class subdivider> tn_status subdivide(tn_mesh *mesh, unsigned rounds, tn_error *error)
+{
+    mesh_type m;
+    if (!into(mesh, false, m))
+        return no_surface(error);
+    subdivider tool;
+    if (!tool.attach(m))
+        return tn_fail(error, TN_INVALID, 0, "the mesh cannot be subdivided");
+    tool(rounds);
+    tool.detach();
+    return replace(m, mesh, error);
+}
+
+} // namespace
+
+extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error)
+{
+    *mesh = tn_mesh{};
+    return guarded(error, [&] {
+        poly_mesh m;
+        OpenMesh::IO::Options options;
+        if (!OpenMesh::IO::read_mesh(m, path, options)) {
+            tn_fail(error, TN_IO, 901, "cannot read a mesh from %s", path);
+            tn_error_help(error, "OBJ, PLY, STL, OFF and OM files can be read; see that it is there and is one of these");
+            return TN_IO;
+        }
+        tn_status status = out_of(m, mesh, error);
+        if (status == TN_OK)
+            status = tn_mesh_weld(mesh, error);
+        if (status == TN_OK && mesh->face_count == 0) {
+            tn_fail(error, TN_INVALID, 0, "there are no faces in %s", path);
+            status = TN_INVALID;
+        }
+        if (status != TN_OK)
+            tn_mesh_clear(mesh);
+        return status;
+    });
+}
+
+extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes, size_t *size,
+                                       tn_error *error)
+{
+    static const char *const extensions[] = {".off", ".stl", ".om"};
+    *bytes = nullptr;
+    *size = 0;
+    return guarded(error, [&] {
+        poly_mesh m;
+        if (!into(mesh, y_up, m))
+            return no_surface(error);
+        OpenMesh::IO::Options options;
+        if (format != TN_OPENMESH_OFF)
+            options += OpenMesh::IO::Options::Binary;
+        std::ostringstream out(std::ios::binary);
+        if (format == TN_OPENMESH_OFF)
+            out.precision(17);
+        if (format == TN_OPENMESH_STL)
+            m.triangulate();
+        if (!OpenMesh::IO::write_mesh(m, out, extensions[format], options, 17))
+            return tn_fail(error, TN_INVALID, 0, "the mesh library cannot write this mesh");
+        const std::string text = out.str();
+        *bytes = static_cast<unsigned char *>(std::malloc(text.size() + 1));
+        if (!*bytes)
+            return tn_fail_memory(error);
+        std::memcpy(*bytes, text.data(), text.size());
+        *size = text.size();
+        return TN_OK;
+    });
+}
+
+extern "C" tn_status tn_openmesh_smooth(tn_mesh *mesh, unsigned iterations, tn_error *error)
+{
+    return guarded(error, [&] {
+        tri_mesh m;
+        tn_mesh triangles = {};
+        tn_status status = tn_mesh_new(mesh->vertex_count, mesh->face_count, mesh->face_first[mesh->face_count], &triangles, error);
+        if (status != TN_OK)
+            return status;
+        std::memcpy(triangles.positions, mesh->positions, 3 * mesh->vertex_count * sizeof *mesh->positions);
+        std::memcpy(triangles.face_first, mesh->face_first, (mesh->face_count + 1) * sizeof *mesh->face_first);
+        std::memcpy(triangles.corners, mesh->corners, mesh->face_first[mesh->face_count] * sizeof *mesh->corners);
+        status = tn_mesh_triangulate(&triangles, error);
+        bool surface = status == TN_OK && into(&triangles, false, m);
+        tn_mesh_clear(&triangles);
+        if (status != TN_OK)
+            return status;
+        if (!surface)
+            return no_surface(error);
+        typedef OpenMesh::Smoother::JacobiLaplaceSmootherT<tri_mesh> smoother;
+        smoother tool(m);
+        tool.initialize(smoother::Tangential_and_Normal, smoother::C1);
+        tool.smooth(iterations);
+        for (auto vertex : m.vertices()) {
+            const auto &p = m.point(vertex);
+            for (int k = 0; k < 3; k++)
+                mesh->positions[3 * static_cast<size_t>(vertex.idx()) + k] = p[k];
+        }
+        return TN_OK;
+    });
+}
+
+extern "C" tn_status tn_openmesh_subdivide(tn_mesh *mesh, unsigned rounds, tn_error *error)
+{
+    return guarded(error, [&] {
+        if (all_triangles(mesh))
+            return subdivide<tri_mesh, OpenMesh::Subdivider::Uniform::LoopT<tri_mesh, double>>(mesh, rounds, error);
+        return subdivide<poly_mesh, OpenMesh::Subdivider::Uniform::CatmullClarkT<poly_mesh, double>>(mesh, rounds, error);
+    });
+}
+
+extern "C" tn_status tn_openmesh_decimate(tn_mesh *mesh, size_t faces, tn_error *error)
+{
+    tn_status status = tn_mesh_triangulate(mesh, error);
+    if (status != TN_OK)
+        return status;
+    return guarded(error, [&] {
+        tri_mesh m;
+        if (!into(mesh, false, m))
+            return no_surface(error);
+        OpenMesh::Decimater::DecimaterT<tri_mesh> tool(m);
+        OpenMesh::Decimater::ModQuadricT<tri_mesh>::Handle quadric;
+        tool.add(quadric);
+        tool.module(quadric).unset_max_err();
+        if (!tool.initialize())
+            return tn_fail(error, TN_INVALID, 0, "the mesh cannot be decimated");
+        tool.decimate_to_faces(0, faces);
+        m.garbage_collection();
+        return replace(m, mesh, error);
+    });
+}
