@@ -1,0 +1,282 @@
+#include "runtime/map/draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "runtime/draw/type.h"
+#include "runtime/map/vector.h"
+#include "runtime/mesh/mesh.h"
+#include "runtime/vm/numeric.h"
+
+/* A face as seen: what is needed to paint it. */
+typedef struct seen_face {
+    uint32_t first, size; /* corners */
+    float depth;          /* towards the eye */
+    float light;          /* 0 dark .. 1 */
+} seen_face;
+
+struct tn_view {
+    seen_face *faces; /* the farthest first */
+    size_t face_count;
+    float (*points)[2]; /* [corner] in the picture's plane, y up */
+    uint16_t *labels;   /* [corner] of the edge that starts there */
+    double low[2], high[2];
+    double width;
+    uint32_t step;
+    uint32_t label_count;
+};
+
+tn_camera tn_camera_default(void)
+{
+    return (tn_camera){-60, 30, 480};
+}
+
+void tn_view_free(tn_view *view)
+{
+    if (!view)
+        return;
+    free(view->faces);
+    free(view->points);
+    free(view->labels);
+    free(view);
+}
+
+/* ---- taking */
+
+typedef struct viewpoint {
+    tn_vector right, up, towards;
+} viewpoint;
+
+static viewpoint place_eye(const tn_camera *camera)
+{
+    double ca = tn_cos_degrees(camera->azimuth), sa = tn_sin_degrees(camera->azimuth);
+    double ce = tn_cos_degrees(camera->elevation), se = tn_sin_degrees(camera->elevation);
+    return (viewpoint){{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
+}
+
+/* Light from over the eye's left shoulder; both sides of a surface are lit. */
+static float light_on(const viewpoint *eye, tn_vector normal)
+{
+    tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
+    double facing = tn_dot(normal, eye->towards) < 0 ? -1 : 1;
+    return (float)(0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp)));
+}
+
+static void see_face(const tn_map *map, const viewpoint *eye, uint32_t face, tn_view *view, uint32_t *corner)
+{
+    uint32_t first = map->face_first[face], size = tn_face_size(map, face);
+    seen_face *seen = &view->faces[view->face_count++];
+    tn_vector sum = {0, 0, 0}, normal = {0, 0, 0},
+              origin = tn_vector_at(map->positions + 3 * (size_t)map->origin[first]), before = {0, 0, 0};
+    *seen = (seen_face){.first = *corner, .size = size};
+    for (uint32_t d = first; d < first + size; d++) {
+        tn_vector p = tn_vector_at(map->positions + 3 * (size_t)map->origin[d]), r = tn_sub(p, origin);
+        double at[2] = {tn_dot(p, eye->right), tn_dot(p, eye->up)};
+        for (int k = 0; k < 2; k++) {
+            view->points[*corner][k] = (float)at[k];
+            view->low[k] = fmin(view->low[k], at[k]);
+            view->high[k] = fmax(view->high[k], at[k]);
+        }
+        view->labels[(*corner)++] = (uint16_t)tn_state_label(map->states[map->side[d] / 2]);
+        sum = tn_add(sum, p);
+        normal = tn_add(normal, tn_cross(before, r));
+        before = r;
+    }
+    seen->depth = (float)(tn_dot(sum, eye->towards) / size);
+    seen->light = light_on(eye, tn_normalised(normal));
+}
+
+static int farther_first(const void *a, const void *b)
+{
+    const seen_face *x = a, *y = b;
+    if (x->depth != y->depth)
+        return x->depth < y->depth ? -1 : 1;
+    return x->first < y->first ? -1 : x->first > y->first;
+}
+
+tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view **result, tn_error *error)
+{
+    const tn_map *map = tn_growth_map(growth);
+    *result = NULL;
+    if (map->face_count - 1 > TN_DRAWN_FACES_MAX) {
+        tn_fail(error, TN_LIMIT, 820, "a picture of %u faces would be too large; the limit is %u", map->face_count - 1,
+                TN_DRAWN_FACES_MAX);
+        tn_error_help(error, "draw an earlier step, or write a mesh instead");
+        return TN_LIMIT;
+    }
+    size_t corners = 2 * (size_t)map->edge_count;
+    tn_view *view = calloc(1, sizeof *view);
+    if (!view)
+        return tn_fail_memory(error);
+    view->faces = malloc(map->face_count * sizeof *view->faces);
+    view->points = malloc(corners * sizeof *view->points);
+    view->labels = malloc(corners * sizeof *view->labels);
+    if (!view->faces || !view->points || !view->labels) {
+        tn_view_free(view);
+        return tn_fail_memory(error);
+    }
+    for (int k = 0; k < 2; k++) {
+        view->low[k] = INFINITY;
+        view->high[k] = -INFINITY;
+    }
+    view->width = camera->width > 0 ? camera->width : 480;
+    view->step = tn_growth_steps(growth);
+    view->label_count = tn_growth_rules(growth)->label_count;
+    viewpoint eye = place_eye(camera);
+    uint32_t corner = 0;
+    for (uint32_t f = TN_OUTER_FACE + 1; f < map->face_count; f++)
+        see_face(map, &eye, f, view, &corner);
+    qsort(view->faces, view->face_count, sizeof *view->faces, farther_first);
+    *result = view;
+    return TN_OK;
+}
+
+/* ---- drawing */
+
+#define MARGIN 14.0
+#define TITLE_HEIGHT 26.0
+#define FOOT_HEIGHT 30.0
+#define LABEL_HEIGHT 16.0
+
+typedef struct sheet {
+    double scale; /* points per model unit */
+    double cell[2];
+    size_t columns, rows;
+    double size[2];
+} sheet;
+
+static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
+{
+    sheet s = {.columns = options->columns};
+    double extent[2] = {1e-9, 1e-9};
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 2; k++)
+            extent[k] = fmax(extent[k], views[i]->high[k] - views[i]->low[k]);
+    if (s.columns == 0)
+        for (s.columns = 1; s.columns * s.columns < count;)
+            s.columns++;
+    s.columns = s.columns < count ? s.columns : count;
+    s.rows = (count + s.columns - 1) / s.columns;
+    double width = views[0]->width / (count > 1 ? 2 : 1);
+    s.scale = (width - 2 * MARGIN) / fmax(extent[0], extent[1]);
+    s.cell[0] = extent[0] * s.scale + 2 * MARGIN;
+    s.cell[1] = extent[1] * s.scale + 2 * MARGIN + (count > 1 ? LABEL_HEIGHT : 0);
+    s.size[0] = fmax(s.cell[0] * (double)s.columns, 300);
+    s.size[1] = s.cell[1] * (double)s.rows + FOOT_HEIGHT + (options->title && options->title[0] ? TITLE_HEIGHT : 0);
+    return s;
+}
+
+static void set_label_colour(cairo_t *cr, uint32_t label)
+{
+    unsigned char rgb[3];
+    tn_group_colour(label, rgb);
+    cairo_set_source_rgb(cr, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+}
+
+static void outline(cairo_t *cr, const tn_view *view, const seen_face *face)
+{
+    cairo_new_path(cr); /* text leaves a point behind */
+    for (uint32_t c = face->first; c < face->first + face->size; c++)
+        cairo_line_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
+    cairo_close_path(cr);
+}
+
+/* Fills a face and draws its edges, runs of one colour at a time. */
+static void paint_face(cairo_t *cr, const tn_view *view, const seen_face *face, double line)
+{
+    double light = (double)face->light;
+    outline(cr, view, face);
+    cairo_set_source_rgb(cr, 0.98 * light, 0.97 * light, 0.93 * light);
+    cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_fill(cr);
+    cairo_set_line_width(cr, line);
+    for (uint32_t i = 0; i < face->size;) {
+        uint32_t c = face->first + i;
+        uint16_t label = view->labels[c];
+        cairo_move_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
+        for (; i < face->size && view->labels[face->first + i] == label; i++) {
+            uint32_t next = face->first + (i + 1 == face->size ? 0 : i + 1);
+            cairo_line_to(cr, (double)view->points[next][0], (double)view->points[next][1]);
+        }
+        set_label_colour(cr, label);
+        cairo_stroke(cr);
+    }
+}
+
+static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double x, double y, bool numbered)
+{
+    double wide = (view->high[0] - view->low[0]) * s->scale, high = (view->high[1] - view->low[1]) * s->scale;
+    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (numbered ? LABEL_HEIGHT : 0) - high) / 2;
+    double line = 0.8;
+    if (view->face_count > 300)
+        line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
+    cairo_save(cr);
+    cairo_translate(cr, left, top + high);
+    cairo_scale(cr, s->scale, -s->scale);
+    cairo_translate(cr, -view->low[0], -view->low[1]);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    for (size_t f = 0; f < view->face_count; f++)
+        paint_face(cr, view, &view->faces[f], line / s->scale);
+    cairo_restore(cr);
+    if (numbered) {
+        char text[32];
+        snprintf(text, sizeof text, "step %u", view->step);
+        cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+        tn_type_face(cr, 9, false);
+        tn_type_line(cr, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, text);
+    }
+}
+
+static void write_foot(cairo_t *cr, const tn_view *view, const sheet *s, const tn_view_options *options)
+{
+    double x = MARGIN, y = s->size[1] - FOOT_HEIGHT + 10;
+    tn_type_face(cr, 8, false);
+    for (uint32_t label = 0; options->system && label < view->label_count && x < s->size[0] - 60; label++) {
+        set_label_colour(cr, label);
+        cairo_set_line_width(cr, 2);
+        cairo_move_to(cr, x, y - 2.5);
+        cairo_line_to(cr, x + 12, y - 2.5);
+        cairo_stroke(cr);
+        cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+        tn_type_line(cr, x + 15, y, TN_ALIGN_LEFT, options->system->labels[label].name);
+        x += 26 + tn_type_width(cr, options->system->labels[label].name);
+    }
+    if (options->caption) {
+        cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
+        tn_type_face(cr, 6.5, false);
+        tn_type_line(cr, MARGIN, s->size[1] - 8, TN_ALIGN_LEFT, options->caption);
+    }
+}
+
+static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const sheet *s,
+                        const tn_view_options *options)
+{
+    double top = 0;
+    if (options->title && options->title[0]) {
+        tn_type_face(cr, 12, false);
+        tn_type_line(cr, MARGIN, 18, TN_ALIGN_LEFT, options->title);
+        top = TITLE_HEIGHT;
+    }
+    for (size_t i = 0; i < count; i++)
+        paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
+                   count > 1);
+    write_foot(cr, views[count - 1], s, options);
+}
+
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
+                        tn_canvas_format format, tn_error *error)
+{
+    sheet s = lay_out(views, count, options);
+    tn_canvas_options canvas_options = {
+        .width = s.size[0], .height = s.size[1], .dpi = options->dpi, .title = options->title};
+    tn_canvas *canvas;
+    tn_status status = tn_canvas_new(path, format, &canvas_options, &canvas, error);
+    if (status != TN_OK)
+        return status;
+    paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
+    status = tn_canvas_commit(canvas, error);
+    tn_canvas_free(canvas);
+    return status;
+}

@@ -1,0 +1,38 @@
+/* Pictures of grown surfaces: shaded, nearer faces over farther ones, edges coloured by label. */
+#ifndef TARTAN_MAP_DRAW_H
+#define TARTAN_MAP_DRAW_H
+
+#include "runtime/draw/canvas.h"
+#include "runtime/map/growth.h"
+
+#define TN_DRAWN_FACES_MAX 2000000u
+
+typedef struct tn_camera {
+    double azimuth;   /* degrees about z, from the x axis; the camera looks from there */
+    double elevation; /* degrees above the ground: 90 looks straight down */
+    double width;     /* of a view, in points */
+} tn_camera;
+
+/* Azimuth -60, elevation 30, 480 points wide. */
+tn_camera tn_camera_default(void);
+
+/* One view: what is drawn may be thrown away afterwards. */
+typedef struct tn_view tn_view;
+
+/* Takes a picture of the growth as it stands. E0820 where it has more than TN_DRAWN_FACES_MAX faces. */
+tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error);
+void tn_view_free(tn_view *view);
+
+typedef struct tn_view_options {
+    const char *title;   /* or NULL */
+    const char *caption; /* a line at the foot: how it was made; or NULL */
+    uint32_t columns;    /* of a sheet; 0: about as many as rows */
+    uint32_t dpi;
+    const tn_growth_system *system; /* names of labels, for the legend */
+} tn_view_options;
+
+/* Draws views side by side, all to one scale, to .svg, .png or .pdf. */
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
+                        tn_canvas_format format, tn_error *error);
+
+#endif

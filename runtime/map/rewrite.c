@@ -1,0 +1,307 @@
+/* What replaces each edge: numbers of its pieces, vertices and branches, its frame, the new vertices' positions and the
+ * pieces' states. New edges are numbered: kept ones in their order, then pieces in the order of replacement. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/map/pass.h"
+
+#define AHEAD 12u /* edges */
+
+/* How many of each, so far or in a chunk. */
+typedef struct tally_counts {
+    uint64_t records, kept, pieces, vertices, branches;
+} tally_counts;
+
+/* The turtle's frame of a (possibly chained) edge. U is the sum of the unit normals of its faces made normal to H;
+ * where they cancel or are along H, the left face's, z, then x. */
+static tn_vector frame_up(const tn_pass *pass, uint32_t left, uint32_t right, tn_vector heading)
+{
+    tn_vector l = tn_vector_at(pass->normal + 3 * (size_t)left), r = tn_vector_at(pass->normal + 3 * (size_t)right);
+    tn_vector candidates[] = {tn_add(l, r), l, {0, 0, 1}, {1, 0, 0}};
+    for (int i = 0; i < 4; i++) {
+        tn_vector up = tn_along(candidates[i], heading, -tn_dot(candidates[i], heading));
+        double length2 = tn_dot(up, up);
+        if (length2 > 1e-18)
+            return tn_scale(up, 1 / sqrt(length2));
+    }
+    return (tn_vector){0, 0, 1};
+}
+
+static int32_t changed_age(uint8_t change, int32_t age)
+{
+    switch (change) {
+    case TN_AGE_KEEP:
+        return age;
+    case TN_AGE_MORE:
+        return age + 1;
+    case TN_AGE_LESS:
+        return age - 1;
+    default:
+        return 0;
+    }
+}
+
+static bool place_vertices(const tn_pass *pass, const tn_template *template, uint32_t first, tn_vector from,
+                           double length, tn_vector h, tn_vector u)
+{
+    const tn_growth *growth = pass->growth;
+    tn_vector l = tn_cross(u, h);
+    bool finite = true;
+    for (uint32_t j = 0; j + 1 < template->segment_count; j++) {
+        const double *c = template->segments[j].end;
+        tn_vector p = tn_along(tn_along(tn_scale(h, c[0]), l, c[1]), u, c[2]);
+        p = tn_along(from, p, length);
+        if (growth->hard)
+            p = tn_environment_project(growth->environment, p);
+        tn_vector_put(pass->new->positions + 3 * (size_t)(first + j), p);
+        finite = finite && isfinite(p.x + p.y + p.z);
+    }
+    return finite;
+}
+
+/* Replaces the edges first .. last; `at` holds the numbers that come next. False where an age or a coordinate leaves
+ * its range. */
+static bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tally_counts *at)
+{
+    const tn_template *template = &pass->growth->system->templates[chosen];
+    tn_record *record = &pass->records[at->records];
+    uint32_t from = pass->end[2 * (size_t)first], to = pass->end[2 * (size_t)last + 1];
+    int32_t age = tn_state_age(pass->old->states[first]);
+    record->left = pass->face[2 * (size_t)first];
+    record->right = pass->face[2 * (size_t)last + 1];
+    record->child = (uint32_t)at->pieces;
+    record->vertex = (uint32_t)at->vertices;
+    record->branch = (uint32_t)at->branches;
+    record->template = chosen;
+    record->age = (int16_t)age;
+    if (pass->runs)
+        pass->runs[at->records] = (tn_run){first, last};
+
+    tn_vector a = tn_vector_at(pass->old->positions + 3 * (size_t)from);
+    tn_vector h = tn_sub(tn_vector_at(pass->old->positions + 3 * (size_t)to), a);
+    double length = tn_norm(h);
+    h = length > 1e-300 ? tn_scale(h, 1 / length) : (tn_vector){1, 0, 0};
+    tn_vector u = frame_up(pass, record->left, record->right, h);
+    tn_vector_put(record->heading, h);
+    tn_vector_put(record->up, u);
+    if (!place_vertices(pass, template, record->vertex, a, length, h, u))
+        return false;
+
+    bool fresh = !pass->growth->system->sync;
+    for (uint32_t j = 0; j < template->segment_count; j++) {
+        int32_t now = changed_age(template->segments[j].age, age);
+        if (now > TN_AGE_MAX || now < -TN_AGE_MAX)
+            return false;
+        pass->new->states[at->pieces + j] = tn_state(template->segments[j].label, now, fresh);
+    }
+    at->records++;
+    at->pieces += template->segment_count;
+    at->vertices += template->segment_count - 1;
+    at->branches += template->branch_count;
+    return true;
+}
+
+static void count(const tn_pass *pass, uint16_t chosen, tally_counts *so_far)
+{
+    const tn_template *template = &pass->growth->system->templates[chosen];
+    so_far->records++;
+    so_far->pieces += template->segment_count;
+    so_far->vertices += template->segment_count - 1;
+    so_far->branches += template->branch_count;
+}
+
+/* Memory for what the counts say, and the first numbers of each kind. */
+static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *error)
+{
+    tn_growth *growth = pass->growth;
+    const tn_map *old = pass->old;
+    uint64_t edges = total->kept + total->pieces;
+    uint64_t limit = growth->options.edge_limit && growth->options.edge_limit < TN_EDGES_MAX
+                         ? growth->options.edge_limit
+                         : TN_EDGES_MAX;
+    if (edges > limit || total->branches > TN_EDGES_MAX) {
+        tn_fail(error, TN_LIMIT, 840, "step %u would make more than %llu edges", growth->steps + 1,
+                (unsigned long long)limit);
+        tn_error_help(error, "take fewer steps, or raise the limit with --edge-limit (at most %u)", TN_EDGES_MAX);
+        return TN_LIMIT;
+    }
+    uint64_t vertices = (uint64_t)old->vertex_count + total->vertices;
+    uint64_t most = edges + (total->branches + growth->pending.count) / 2;
+    uint64_t bytes = 24 * vertices + 4 * most + (8 * (uint64_t)sizeof(uint32_t) / 2) * most +
+                     sizeof(tn_record) * total->records + sizeof(tn_joint) * total->branches +
+                     40 * (uint64_t)old->edge_count;
+    if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
+        tn_fail(error, TN_LIMIT, 841, "step %u would need about %llu MB of memory; the limit is %llu MB",
+                growth->steps + 1, (unsigned long long)(bytes >> 20),
+                (unsigned long long)(growth->options.memory_limit >> 20));
+        tn_error_help(error, "take fewer steps, or raise the limit with --memory-limit");
+        return TN_LIMIT;
+    }
+    pass->vertices = (uint32_t)vertices;
+    pass->edges = (uint32_t)edges;
+    pass->record_count = (uint32_t)total->records;
+    pass->branch_count = (uint32_t)total->branches;
+    tn_workspace *space = &growth->space;
+    if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
+        !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
+        !tn_pages_reserve(&space->records, (size_t)total->records * sizeof *pass->records) ||
+        !tn_pages_reserve(&space->slots, (size_t)old->edge_count * sizeof *pass->slot))
+        return tn_fail_memory(error);
+    growth->map.positions = space->positions.data; /* vertices stay where they are; new ones follow them */
+    pass->new->positions = space->positions.data;
+    pass->new->states = space->states[!space->current].data;
+    pass->records = space->records.data;
+    pass->slot = space->slots.data;
+    return TN_OK;
+}
+
+static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
+{
+    pass->slot[edge] = TN_KEPT | number;
+    pass->new->states[number] = pass->old->states[edge];
+}
+
+/* ---- each edge on its own */
+
+static uint32_t group_at(const tn_pass *pass, uint32_t edge)
+{
+    return pass->growth->group_of[tn_state_label(pass->old->states[edge])] - pass->group_first;
+}
+
+static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
+{
+    for (uint32_t e = begin; e < end; e++) {
+        if (pass->choice[e] == TN_NO_TEMPLATE)
+            by_group[0].kept++;
+        else
+            count(pass, pass->choice[e], &by_group[group_at(pass, e)]);
+    }
+}
+
+/* What an edge's frame needs lies all over memory: asked for some edges ahead, it is there in time. */
+static void prefetch(const tn_pass *pass, uint32_t edge)
+{
+    for (size_t side = 2 * (size_t)edge; side < 2 * (size_t)edge + 2; side++) {
+        __builtin_prefetch(pass->old->positions + 3 * (size_t)pass->end[side]);
+        __builtin_prefetch(pass->normal + 3 * (size_t)pass->face[side]);
+    }
+}
+
+static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
+{
+    bool fine = true;
+    for (uint32_t e = begin; e < end && fine; e++) {
+        if (e + AHEAD < end && pass->choice[e + AHEAD] != TN_NO_TEMPLATE)
+            prefetch(pass, e + AHEAD);
+        if (pass->choice[e] == TN_NO_TEMPLATE) {
+            keep(pass, e, (uint32_t)by_group[0].kept++);
+            continue;
+        }
+        tally_counts *at = &by_group[group_at(pass, e)];
+        pass->slot[e] = (uint32_t)at->records;
+        fine = replace(pass, e, e, pass->choice[e], at);
+    }
+    return fine;
+}
+
+/* Counts become first numbers: groups in order, chunks of edges in order within each. Returns the totals. */
+static tally_counts number(tn_pass *pass, tally_counts *counts, uint32_t chunks, uint32_t groups)
+{
+    tally_counts next = {0};
+    for (uint32_t g = 0; g < groups; g++) {
+        for (uint32_t c = 0; c < chunks; c++) {
+            tally_counts *one = &counts[(size_t)c * groups + g], here = *one;
+            *one = next;
+            next.records += here.records;
+            next.kept += here.kept;
+            next.pieces += here.pieces;
+            next.vertices += here.vertices;
+            next.branches += here.branches;
+        }
+    }
+    for (size_t i = 0; i < (size_t)chunks * groups; i++) {
+        counts[i].pieces += next.kept;
+        counts[i].vertices += pass->old->vertex_count;
+        counts[i].branches += pass->branch_first;
+    }
+    return next;
+}
+
+static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
+{
+    uint32_t edges = pass->old->edge_count, chunks = (edges + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
+    uint32_t groups = pass->group_last - pass->group_first;
+    tally_counts *counts = calloc((size_t)chunks * groups, sizeof *counts);
+    if (!counts)
+        return tn_fail_memory(error);
+#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
+    for (uint32_t c = 0; c < chunks; c++) {
+        uint32_t begin = c * TN_CHUNK_EDGES, end = edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
+        count_chunk(pass, begin, end, counts + (size_t)c * groups);
+    }
+    tally_counts total = number(pass, counts, chunks, groups);
+    tn_status status = make_room(pass, &total, error);
+    bool fine = true;
+    if (status == TN_OK) {
+#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) reduction(&& : fine) if (chunks > 1)
+        for (uint32_t c = 0; c < chunks; c++) {
+            uint32_t begin = c * TN_CHUNK_EDGES, end = edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
+            fine = rewrite_chunk(pass, begin, end, counts + (size_t)c * groups) && fine;
+        }
+    }
+    pass->out_of_range = !fine;
+    free(counts);
+    return status;
+}
+
+/* ---- chains */
+
+static tn_status rewrite_list(tn_pass *pass, tn_error *error)
+{
+    tally_counts total = {0};
+    uint32_t edges = pass->old->edge_count, replaced = 0;
+    for (size_t i = 0; i < pass->list_count; i++) {
+        count(pass, pass->list[i].template, &total);
+        replaced += pass->list[i].length;
+    }
+    total.kept = edges - replaced;
+    tn_status status = make_room(pass, &total, error);
+    if (status != TN_OK)
+        return status;
+    pass->runs = malloc((total.records ? total.records : 1) * sizeof *pass->runs);
+    if (!pass->runs)
+        return tn_fail_memory(error);
+    memset(pass->slot, 0xff, edges * sizeof *pass->slot);
+    tally_counts at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
+    for (size_t i = 0; i < pass->list_count; i++) {
+        const tn_replacement *one = &pass->list[i];
+        uint32_t d = pass->dart[2 * (size_t)one->first], f = pass->face[2 * (size_t)one->first];
+        uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
+        for (uint32_t j = 0; j < one->length; j++)
+            pass->slot[pass->old->side[first + (d - first + j) % size] / 2] = (uint32_t)at.records;
+        if (!replace(pass, one->first, one->last, one->template, &at)) {
+            pass->out_of_range = true;
+            return TN_OK;
+        }
+    }
+    uint32_t kept = 0;
+    for (uint32_t e = 0; e < edges; e++)
+        if (pass->slot[e] == TN_NONE)
+            keep(pass, e, kept++);
+    return TN_OK;
+}
+
+tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error)
+{
+    tn_status status = pass->list ? rewrite_list(pass, error) : rewrite_singly(pass, error);
+    if (status != TN_OK)
+        return status;
+    if (pass->out_of_range) {
+        tn_fail(error, TN_LIMIT, 843,
+                "in step %u an edge's age leaves the range of -%d to %d, or a coordinate that of numbers",
+                pass->growth->steps + 1, TN_AGE_MAX, TN_AGE_MAX);
+        return TN_LIMIT;
+    }
+    pass->growth->counts.rewrites += pass->record_count;
+    return TN_OK;
+}

@@ -1,0 +1,104 @@
+#include "runtime/map/study.h"
+
+#include <stdlib.h>
+
+#include "runtime/mesh/openmesh.h"
+
+void tn_study_clear(tn_study *study)
+{
+    for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
+        tn_boundary_mesh_free(study->meshes[i]);
+    free(study->meshes);
+    free(study->forces);
+    free(study->boundaries);
+    *study = (tn_study){0};
+}
+
+static void read_settings(const tn_study_record *record, tn_study *study)
+{
+    tn_growth_options *o = &study->options;
+    study->steps = record->steps;
+    o->scale[0] = record->scale_x;
+    o->scale[1] = record->scale_y;
+    o->scale[2] = record->scale_z;
+    o->start[0] = record->start_x;
+    o->start[1] = record->start_y;
+    o->start[2] = record->start_z;
+    o->start_length = record->start_length;
+    o->branch_angle = record->branch_angle;
+    o->branch_length = record->branch_length;
+    o->seed = (uint64_t)record->seed;
+    o->edge_limit = (uint64_t)record->edge_limit;
+    o->fixed_centre = record->flags & TN_STUDY_FIXED_CENTRE;
+    o->fixed_perimeter = record->flags & TN_STUDY_FIXED_PERIMETER;
+    o->facing = record->flags & TN_STUDY_FACING;
+    o->mirror = record->flags & TN_STUDY_MIRROR;
+    study->goal.raw = record->flags & TN_STUDY_RAW_FITNESS;
+}
+
+static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error *error)
+{
+    tn_mesh mesh;
+    tn_status status = tn_openmesh_read(path, &mesh, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_mesh_triangulate(&mesh, error);
+    if (status == TN_OK)
+        status = tn_boundary_mesh_new(mesh.positions, mesh.vertex_count, mesh.corners, mesh.face_count, result, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+static tn_status read_boundary(const tn_module *module, const tn_boundary_record *record, tn_study *study,
+                               uint32_t index, tn_error *error)
+{
+    tn_boundary *boundary = &study->boundaries[index];
+    *boundary = (tn_boundary){.kind = record->kind,
+                              .mode = record->mode,
+                              .inside = record->inside != 0,
+                              .a = {record->a_x, record->a_y, record->a_z},
+                              .b = {record->b_x, record->b_y, record->b_z},
+                              .radius = record->radius};
+    if (record->kind != TN_BOUNDARY_MESH)
+        return TN_OK;
+    tn_status status = read_mesh(tn_text(module, record->mesh), &study->meshes[index], error);
+    boundary->mesh = study->meshes[index];
+    return status;
+}
+
+static void read_goals(const tn_module *module, tn_study *study)
+{
+    for (size_t i = 0; i < module->GOAL_count; i++) {
+        const tn_goal_record *record = &module->GOAL_records[i];
+        study->goal.wanted[record->term] = true;
+        study->goal.target[record->term] = record->target;
+        study->goal.weight[record->term] = record->weight;
+        study->has_goal = true;
+    }
+}
+
+tn_status tn_study_read(const tn_module *module, tn_study *study, tn_error *error)
+{
+    *study =
+        (tn_study){.title = "", .steps = 4, .options = tn_growth_options_default()}; /* Genr8's own number of steps */
+    if (module->STUDY_count) {
+        read_settings(&module->STUDY_records[0], study);
+        study->title = tn_text(module, module->STUDY_records[0].name);
+    }
+    study->forces = calloc(module->FORCE_count + 1, sizeof *study->forces);
+    study->boundaries = calloc(module->BOUNDARY_count + 1, sizeof *study->boundaries);
+    study->meshes = calloc(module->BOUNDARY_count + 1, sizeof *study->meshes);
+    if (!study->forces || !study->boundaries || !study->meshes)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < module->FORCE_count; i++) {
+        const tn_force_record *f = &module->FORCE_records[i];
+        study->forces[i] = (tn_force){f->kind, {f->x, f->y, f->z}, f->strength, f->exponent};
+    }
+    study->environment = (tn_environment){study->forces, (uint32_t)module->FORCE_count, study->boundaries,
+                                          (uint32_t)module->BOUNDARY_count};
+    read_goals(module, study);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
+        status = read_boundary(module, &module->BOUNDARY_records[i], study, i, error);
+    return status;
+}

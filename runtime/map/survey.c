@@ -1,0 +1,61 @@
+#include "runtime/map/pass.h"
+
+#define FLAT 1e-12 /* of the squares of a face's extent */
+
+/* Newell's normal of a loop, unit. Points are taken relative to the first, so that a face far from the origin keeps its
+ * precision. */
+static tn_vector face_normal(const tn_map *map, uint32_t face)
+{
+    const uint32_t *origin = map->origin + map->face_first[face];
+    uint32_t size = tn_face_size(map, face);
+    tn_vector first = tn_vector_at(map->positions + 3 * (size_t)origin[0]), n = {0, 0, 0};
+    tn_vector before = {0, 0, 0};
+    double span = 0;
+    for (uint32_t i = 1; i < size; i++) {
+        tn_vector p = tn_sub(tn_vector_at(map->positions + 3 * (size_t)origin[i]), first);
+        n = tn_add(n, tn_cross(before, p));
+        span += tn_dot(p, p);
+        before = p;
+    }
+    /* A face that is flat to rounding has no normal, rather than one that rounding chose. */
+    return tn_dot(n, n) > FLAT * FLAT * span * span ? tn_normalised(n) : (tn_vector){0, 0, 0};
+}
+
+static void survey_face(tn_pass *pass, uint32_t face)
+{
+    const tn_map *map = pass->old;
+    for (uint32_t d = map->face_first[face]; d < map->face_first[face + 1]; d++) {
+        uint32_t side = map->side[d];
+        pass->end[side] = map->origin[d];
+        pass->face[side] = face;
+        if (pass->dart)
+            pass->dart[side] = d;
+    }
+    tn_vector n = {0, 0, 0};
+    if (face != TN_OUTER_FACE)
+        n = face_normal(map, face);
+    tn_vector_put(pass->normal + 3 * (size_t)face, n);
+}
+
+tn_status tn_pass_survey(tn_pass *pass, tn_error *error)
+{
+    const tn_map *map = pass->old;
+    size_t sides = 2 * (size_t)map->edge_count;
+    tn_workspace *space = &pass->growth->space;
+    /* Only rewriting reads these, so they lie where the new map's darts will be - except where joining asks who is
+     * around a vertex: then ends, faces and darts outlive it. */
+    tn_pages *ends = pass->walks_vertices ? &space->ends : &space->darts[!space->current];
+    size_t normals = 3 * (size_t)map->face_count * sizeof *pass->normal;
+    if (!tn_pages_reserve(ends, normals + 3 * sides * sizeof *pass->end))
+        return tn_fail_memory(error);
+    pass->normal = ends->data;
+    pass->end = (uint32_t *)(pass->normal + 3 * (size_t)map->face_count);
+    pass->face = pass->end + sides;
+    if (pass->walks_vertices)
+        pass->dart = pass->face + sides;
+#pragma omp parallel for num_threads(pass->threads)                                                                    \
+    schedule(static, TN_CHUNK_FACES) if (map->face_count > TN_CHUNK_FACES)
+    for (uint32_t f = 0; f < map->face_count; f++)
+        survey_face(pass, f);
+    return TN_OK;
+}
