@@ -5,6 +5,7 @@
 
 #include "compiler/bnf.h"
 #include "compiler/emit.h"
+#include "compiler/study.h"
 #include "compiler/evolution.h"
 #include "runtime/vm/file.h"
 
@@ -27,7 +28,7 @@ static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
     for (TN_EACH(const tn_ast_top, item, tree->items)) {
         const tn_ast_use *use = (const tn_ast_use *)item;
         if (item->kind == TN_ITEM_USE && !use->path->broken)
-            found[(*use_count)++] = (tn_use){use->path->text, use->path->node.span};
+            found[(*use_count)++] = (tn_use){.path = use->path->text, .span = use->path->node.span};
     }
     return true;
 }
@@ -42,6 +43,9 @@ static tn_status compile(const tn_compile_options *options, tn_compilation *comp
         return tn_bnf_compile_module(options, compilation, error);
     if (tn_is_evolution(compilation->sources.files[0].path, compilation->sources.files[0].text))
         return tn_evolution_compile(options, compilation, error);
+    if (tn_is_hemls(compilation->sources.files[0].path) || tn_is_study(compilation->sources.files[0].path))
+        return tn_compile_growth(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
+                                 options->warnings_are_errors, &compilation->module, &compilation->module_size, error);
     tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
                                      ".plan", parse_plan, 0, &imports);
     if (status == TN_OK)

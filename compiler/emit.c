@@ -39,23 +39,21 @@ uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind)
 
 /* The sources' texts and paths, and a hash over the texts: paths of the standard library are recorded as they are
  * everywhere. */
-static void emit_sources(tn_emit *emit, const tn_sources *sources)
+void tn_emit_sources(tn_builder *builder, const tn_imports *imports, const tn_sources *sources)
 {
     uint64_t hash = 0;
     for (size_t i = 0; i < sources->count; i++) {
         const tn_source *source = &sources->files[i];
         const char *path = source->path;
-        for (size_t u = 0; u < emit->imports->count; u++)
-            if (emit->imports->units[u]->file == i)
-                path = emit->imports->units[u]->recorded;
-        tn_builder_add_SOURCE(emit->builder,
-                              &(tn_source_record){tn_builder_string(emit->builder, path),
-                                                  tn_builder_string_n(emit->builder, source->text, source->size)});
+        for (size_t u = 0; u < imports->count; u++)
+            if (imports->units[u]->file == i)
+                path = imports->units[u]->recorded;
+        tn_builder_add_SOURCE(builder, &(tn_source_record){tn_builder_string(builder, path),
+                                                           tn_builder_string_n(builder, source->text, source->size)});
         hash = XXH3_64bits_withSeed(source->text, source->size, hash);
     }
-    tn_builder_add_PRODUCER(
-        emit->builder,
-        &(tn_producer_record){tn_builder_string(emit->builder, "tartan " TARTAN_VERSION), (int64_t)hash});
+    tn_builder_add_PRODUCER(builder,
+                            &(tn_producer_record){tn_builder_string(builder, "tartan " TARTAN_VERSION), (int64_t)hash});
 }
 
 tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
@@ -64,7 +62,7 @@ tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, t
     tn_emit emit = {.builder = tn_builder_new(), .checked = checked, .imports = imports};
     if (!emit.builder)
         return tn_fail_memory(error);
-    emit_sources(&emit, diagnostics->sources);
+    tn_emit_sources(emit.builder, imports, diagnostics->sources);
     tn_emit_schemas(&emit);
     tn_emit_rules(&emit);
     tn_emit_libraries(&emit);

@@ -24,6 +24,7 @@ tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, t
                          uint8_t **bytes, size_t *size, tn_error *error);
 
 /* ---- emit.c */
+void tn_emit_sources(tn_builder *builder, const tn_imports *imports, const tn_sources *sources);
 void tn_emit_begin(tn_emit *emit, uint32_t schema); /* a function's code begins */
 void tn_emit_op(tn_emit *emit, tn_span span, tn_opcode opcode, int64_t first, int64_t second);
 uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind); /* its index */

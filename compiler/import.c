@@ -17,7 +17,8 @@ typedef struct tn_importer {
     tn_diagnostics *diagnostics;
     const char *const *stdlib_dirs;
     size_t stdlib_dir_count;
-    const char *extension;
+    const char *notation;  /* extension of the notation's files */
+    const char *extension; /* of what is being followed */
     tn_parse_unit *parse;
     tn_unit *all[TN_FILES_MAX];   /* in the order they were met */
     tn_unit *chain[TN_FILES_MAX]; /* whose uses are being followed, outermost first */
@@ -203,10 +204,11 @@ static tn_unit *known(const tn_importer *importer, const char *identity)
 }
 
 /* Follows one `use` of a unit. */
-static tn_status follow(tn_importer *importer, tn_unit *unit, const tn_use *use)
+static tn_status follow(tn_importer *importer, tn_unit *unit, tn_use *use)
 {
     const char *user = importer->diagnostics->sources->files[unit->file].path;
     bool is_stdlib;
+    importer->extension = use->extension ? use->extension : importer->notation;
     const char *path = find(importer, user, use->path, &is_stdlib);
     if (!path) {
         report_missing(importer, use, user);
@@ -225,6 +227,7 @@ static tn_status follow(tn_importer *importer, tn_unit *unit, const tn_use *use)
     tn_status status = used ? TN_OK : read_unit(importer, use, path, identity, is_stdlib, &used);
     if (status != TN_OK)
         return status;
+    use->unit = used;
     unit->incomplete |= !used || used->incomplete;
     for (size_t i = 0; used && i < REACH_WORDS; i++)
         unit->reach[i] |= used->reach[i];
@@ -273,6 +276,7 @@ tn_status tn_import_all(tn_arena *arena, tn_diagnostics *diagnostics, const char
                            .diagnostics = diagnostics,
                            .stdlib_dirs = stdlib_dirs,
                            .stdlib_dir_count = stdlib_dir_count,
+                           .notation = extension,
                            .extension = extension,
                            .parse = parse,
                            .imports = imports};

@@ -15,7 +15,9 @@
 /* One `use` of a file, as parsed. */
 typedef struct tn_use {
     const char *path;
-    tn_span span; /* of the path in its file */
+    tn_span span;          /* of the path in its file */
+    const char *extension; /* of what is used; NULL: that of the notation */
+    struct tn_unit *unit;  /* set by importing: what it led to; NULL where that could not be read */
 } tn_use;
 
 /* Parses source `file`: gives its syntax tree, and its uses in an array of the arena. False where out of memory. */

@@ -1,0 +1,60 @@
+#include <string.h>
+
+#include "compiler/study.h"
+
+tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span)
+{
+    tn_study_item *item = TN_NEW(parse->arena, tn_study_item);
+    if (item) {
+        item->kind = kind;
+        item->span = span;
+    }
+    return item;
+}
+
+tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
+                                 tn_study_part *before)
+{
+    tn_study_part *part = TN_NEW(parse->arena, tn_study_part);
+    if (part) {
+        part->kind = kind;
+        part->span = span;
+        part->value = value;
+        part->next = before;
+    }
+    return part;
+}
+
+void tn_study_add(tn_growth_parse *parse, tn_study_item *item)
+{
+    tn_study_file *file = parse->result;
+    if (!item)
+        return;
+    if (file->last)
+        file->last->next = item;
+    else
+        file->first = item;
+    file->last = item;
+}
+
+void tn_study_lost(tn_growth_parse *parse)
+{
+    tn_study_file *file = parse->result;
+    file->damaged = true;
+}
+
+static bool ends_in(const char *path, const char *extension)
+{
+    size_t size = strlen(path), tail = strlen(extension);
+    return size > tail && strcmp(path + size - tail, extension) == 0;
+}
+
+bool tn_is_study(const char *path)
+{
+    return ends_in(path, ".study");
+}
+
+bool tn_is_hemls(const char *path)
+{
+    return ends_in(path, ".hemls");
+}

@@ -1,0 +1,288 @@
+/* The grammar of .study files (docs/growth.md): a list of statements, each headed by a word. Line ends mean nothing. After an
+ * error the parser goes on at the next word that heads a statement. */
+%require "3.8"
+%define api.pure full
+%define api.prefix {tn_study_}
+%define api.token.prefix {TN_STUDY_T_}
+%define api.location.type {tn_span}
+%define parse.error custom
+%define parse.lac full
+%locations
+%expect 0
+
+%code requires {
+#include "compiler/study.h"
+}
+
+%parse-param {tn_growth_parse *parse} {void *scanner}
+%lex-param {void *scanner}
+
+%code {
+#include "study_lexer.h"
+
+#define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \
+    ((CURRENT) = (N) ? tn_span_join(YYRHSLOC(RHS, 1), YYRHSLOC(RHS, N))                                                \
+                     : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
+
+int tn_study_lex(TN_STUDY_STYPE *value, tn_span *span, void *scanner);
+static void tn_study_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
+static tn_study_item *with_text(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_text text);
+static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_decimal number);
+static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b);
+static tn_study_item *with_which(tn_study_item *item, uint32_t which);
+static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_span span);
+static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z);
+static tn_study_vector same(tn_decimal n);
+}
+
+%union {
+    tn_decimal number;
+    tn_study_text text;
+    tn_study_vector vector;
+    tn_study_item *item;
+    tn_study_part *part;
+    uint32_t which;
+}
+
+%token END_OF_FILE 0 "the end of the file"
+%token <number> NUMBER "a number"
+%token <text> STRING "a text in quotes" NAME "a name"
+%token USE "`use`" TITLE "`title`" RULES "`rules`" STEPS "`steps`" SCALE "`scale`" START "`start`" START_LENGTH "`start-length`"
+%token SEED "`seed`" BRANCH_ANGLE "`branch-angle`" BRANCH_LENGTH "`branch-length`" EDGE_LIMIT "`edge-limit`"
+%token FIXED_CENTRE "`fixed-centre`" FIXED_PERIMETER "`fixed-perimeter`" FACING "`facing`" MIRROR "`mirror`"
+%token GRAVITY "`gravity`" ATTRACTOR "`attractor`" REPELLER "`repeller`" BOUNDARY "`boundary`" FITNESS "`fitness`" RAW "`raw`"
+%token PLANE "`plane`" BOX "`box`" SPHERE "`sphere`" MESH "`mesh`"
+%token AT "`at`" NORMAL "`normal`" FROM "`from`" TO "`to`" RADIUS "`radius`" STRENGTH "`strength`" EXPONENT "`exponent`"
+%token INSIDE "`inside`" OUTSIDE "`outside`" SLIDE "`slide`" STOP "`stop`" SOFT "`soft`" TARGET "`target`" WEIGHT "`weight`"
+%token COMMA "`,`" OPEN "`(`" CLOSE "`)`"
+
+%type <item> statement shape
+%type <part> force_parts force_part boundary_parts boundary_part goal_parts goal_part
+%type <vector> vector three
+%type <which> force
+
+%%
+
+file
+    : %empty
+    | file statement                        { tn_study_add(parse, $2); }
+    | file error                            { tn_study_lost(parse); }
+    ;
+
+statement
+    : use STRING                            { $$ = with_text(parse, TN_STUDY_USE, @$, $2); }
+    | title STRING                          { $$ = with_text(parse, TN_STUDY_TITLE, @$, $2); }
+    | rules STRING                          { $$ = with_text(parse, TN_STUDY_RULES, @$, $2); }
+    | steps NUMBER                          { $$ = with_number(parse, TN_STUDY_STEPS, @$, $2); }
+    | scale NUMBER                          { $$ = with_vectors(parse, TN_STUDY_SCALE, @$, same($2), same($2)); }
+    | scale vector                          { $$ = with_vectors(parse, TN_STUDY_SCALE, @$, $2, $2); }
+    | start vector                          { $$ = with_vectors(parse, TN_STUDY_START, @$, $2, $2); }
+    | start_length NUMBER                   { $$ = with_number(parse, TN_STUDY_START_LENGTH, @$, $2); }
+    | seed NUMBER                           { $$ = with_number(parse, TN_STUDY_SEED, @$, $2); }
+    | branch_angle NUMBER                   { $$ = with_number(parse, TN_STUDY_BRANCH_ANGLE, @$, $2); }
+    | branch_length NUMBER                  { $$ = with_number(parse, TN_STUDY_BRANCH_LENGTH, @$, $2); }
+    | edge_limit NUMBER                     { $$ = with_number(parse, TN_STUDY_EDGE_LIMIT, @$, $2); }
+    | fixed_centre                          { $$ = tn_study_item_new(parse, TN_STUDY_SETS_FIXED_CENTRE, @$); }
+    | fixed_perimeter                       { $$ = tn_study_item_new(parse, TN_STUDY_SETS_FIXED_PERIMETER, @$); }
+    | facing                                { $$ = tn_study_item_new(parse, TN_STUDY_SETS_FACING, @$); }
+    | mirror                                { $$ = tn_study_item_new(parse, TN_STUDY_SETS_MIRROR, @$); }
+    | gravity vector                        { $$ = with_which(with_vectors(parse, TN_STUDY_FORCE, @$, $2, $2), TN_GRAVITY); }
+    | force AT vector force_parts           { $$ = with_parts(with_which(with_vectors(parse, TN_STUDY_FORCE, @$, $3, $3), $1), $4, @$); }
+    | boundary shape boundary_parts         { $$ = with_parts($2, $3, @$); }
+    | fitness NAME goal_parts               { $$ = with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $3, @$); }
+    | fitness RAW                           { $$ = tn_study_item_new(parse, TN_STUDY_SETS_RAW, @$); }
+    ;
+
+use: USE                                    { yyerrok; };
+title: TITLE                                { yyerrok; };
+rules: RULES                                { yyerrok; };
+steps: STEPS                                { yyerrok; };
+scale: SCALE                                { yyerrok; };
+start: START                                { yyerrok; };
+start_length: START_LENGTH                  { yyerrok; };
+seed: SEED                                  { yyerrok; };
+branch_angle: BRANCH_ANGLE                  { yyerrok; };
+branch_length: BRANCH_LENGTH                { yyerrok; };
+edge_limit: EDGE_LIMIT                      { yyerrok; };
+fixed_centre: FIXED_CENTRE                  { yyerrok; };
+fixed_perimeter: FIXED_PERIMETER            { yyerrok; };
+facing: FACING                              { yyerrok; };
+mirror: MIRROR                              { yyerrok; };
+gravity: GRAVITY                            { yyerrok; };
+boundary: BOUNDARY                          { yyerrok; };
+fitness: FITNESS                            { yyerrok; };
+force
+    : ATTRACTOR                             { yyerrok; $$ = TN_ATTRACTOR; }
+    | REPELLER                              { yyerrok; $$ = TN_REPELLER; }
+    ;
+
+force_parts
+    : %empty                                { $$ = NULL; }
+    | force_parts force_part                { $2->next = $1; $$ = $2; }
+    ;
+
+force_part
+    : STRENGTH NUMBER                       { $$ = tn_study_part_new(parse, TN_PART_STRENGTH, @$, $2.value, NULL); if (!$$) YYNOMEM; }
+    | EXPONENT NUMBER                       { $$ = tn_study_part_new(parse, TN_PART_EXPONENT, @$, $2.value, NULL); if (!$$) YYNOMEM; }
+    ;
+
+shape
+    : PLANE AT vector NORMAL vector         { $$ = with_which(with_vectors(parse, TN_STUDY_BOUNDARY, @$, $3, $5), TN_BOUNDARY_PLANE); }
+    | BOX FROM vector TO vector             { $$ = with_which(with_vectors(parse, TN_STUDY_BOUNDARY, @$, $3, $5), TN_BOUNDARY_BOX); }
+    | SPHERE AT vector RADIUS NUMBER        { $$ = with_which(with_vectors(parse, TN_STUDY_BOUNDARY, @$, $3, same($5)), TN_BOUNDARY_SPHERE); }
+    | MESH STRING                           { $$ = with_which(with_text(parse, TN_STUDY_BOUNDARY, @$, $2), TN_BOUNDARY_MESH); }
+    ;
+
+boundary_parts
+    : %empty                                { $$ = NULL; }
+    | boundary_parts boundary_part          { $2->next = $1; $$ = $2; }
+    ;
+
+boundary_part
+    : INSIDE                                { $$ = tn_study_part_new(parse, TN_PART_SIDE, @$, 1, NULL); if (!$$) YYNOMEM; }
+    | OUTSIDE                               { $$ = tn_study_part_new(parse, TN_PART_SIDE, @$, 0, NULL); if (!$$) YYNOMEM; }
+    | SLIDE                                 { $$ = tn_study_part_new(parse, TN_PART_MODE, @$, TN_SLIDE, NULL); if (!$$) YYNOMEM; }
+    | STOP                                  { $$ = tn_study_part_new(parse, TN_PART_MODE, @$, TN_STOP, NULL); if (!$$) YYNOMEM; }
+    | SOFT                                  { $$ = tn_study_part_new(parse, TN_PART_MODE, @$, TN_SOFT, NULL); if (!$$) YYNOMEM; }
+    ;
+
+goal_parts
+    : %empty                                { $$ = NULL; }
+    | goal_parts goal_part                  { $2->next = $1; $$ = $2; }
+    ;
+
+goal_part
+    : TARGET NUMBER                         { $$ = tn_study_part_new(parse, TN_PART_TARGET, @$, $2.value, NULL); if (!$$) YYNOMEM; }
+    | WEIGHT NUMBER                         { $$ = tn_study_part_new(parse, TN_PART_WEIGHT, @$, $2.value, NULL); if (!$$) YYNOMEM; }
+    ;
+
+vector
+    : three
+    | OPEN three CLOSE                      { $$ = $2; $$.span = @$; }
+    ;
+
+three
+    : NUMBER NUMBER NUMBER                  { $$ = vector(@$, $1, $2, $3); }
+    | NUMBER COMMA NUMBER COMMA NUMBER      { $$ = vector(@$, $1, $3, $5); }
+    ;
+
+%%
+
+static tn_study_item *with_text(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_text text)
+{
+    tn_study_item *item = tn_study_item_new(parse, kind, span);
+    if (item) {
+        item->text = text.text;
+        item->text_span = text.span;
+    }
+    return item;
+}
+
+static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_decimal number)
+{
+    tn_study_item *item = tn_study_item_new(parse, kind, span);
+    if (item)
+        item->number = number;
+    return item;
+}
+
+static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b)
+{
+    tn_study_item *item = tn_study_item_new(parse, kind, span);
+    if (item) {
+        item->a = a;
+        item->b = b;
+    }
+    return item;
+}
+
+static tn_study_item *with_which(tn_study_item *item, uint32_t which)
+{
+    if (item)
+        item->which = which;
+    return item;
+}
+
+static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_span span)
+{
+    if (item) {
+        item->parts = parts;
+        item->span = span;
+    }
+    return item;
+}
+
+static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z)
+{
+    return (tn_study_vector){x.value, y.value, z.value, span};
+}
+
+static tn_study_vector same(tn_decimal n)
+{
+    return (tn_study_vector){n.value, n.value, n.value, n.span};
+}
+
+static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
+{
+    switch (before) {
+    case YYSYMBOL_USE:
+    case YYSYMBOL_RULES:
+    case YYSYMBOL_MESH:
+    case YYSYMBOL_TITLE: return "a text stands in double quotes, as in `rules \"square\"`";
+    case YYSYMBOL_GRAVITY: return "gravity is a displacement in x, y and z: `gravity 0 0 -0.3`";
+    case YYSYMBOL_ATTRACTOR:
+    case YYSYMBOL_REPELLER: return "write `attractor at 4 4 3 strength 2`";
+    case YYSYMBOL_BOUNDARY:
+        return "a boundary is `plane at 0 0 0 normal 0 0 1`, `box from 0 0 0 to 1 1 1`, `sphere at 0 0 0 radius 2` or `mesh \"hull.stl\"`";
+    case YYSYMBOL_FITNESS: return "write `fitness size target 10 weight 2`";
+    default: break;
+    }
+    if (found == YYSYMBOL_NAME)
+        return "this is no word of studies; see the list in docs/growth.md";
+    if (found == YYSYMBOL_NUMBER)
+        return "a place has three numbers: x, y and z";
+    return "a statement starts with a word such as `rules`, `steps`, `scale`, `attractor`, `boundary` or `fitness`";
+}
+
+static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+{
+    (void)scanner;
+    enum { MOST = 64 };
+    yysymbol_kind_t kinds[MOST], found = yypcontext_token(context);
+    const char *expected[MOST];
+    int count = yypcontext_expected_tokens(context, kinds, MOST);
+    if (count < 0)
+        return count;
+    for (int i = 0; i < count; i++)
+        expected[i] = yysymbol_name(kinds[i]);
+    tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
+                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before)));
+    return 0;
+}
+
+static void tn_study_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+{
+    (void)scanner;
+    (void)message;
+    tn_report(parse->diagnostics, E_TOO_DEEP, *span, "the file cannot be read further");
+}
+
+tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file)
+{
+    tn_study_file *result = TN_NEW(arena, tn_study_file);
+    const tn_source *source = &diagnostics->sources->files[file];
+    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result};
+    if (!result)
+        return NULL;
+    if (!tn_growth_readable(&parse)) {
+        result->damaged = true;
+        return result;
+    }
+    void *scanner = tn_study_lexer_new(&parse);
+    if (!scanner)
+        return NULL;
+    int outcome = tn_study_parse(&parse, scanner);
+    tn_study_lexer_free(scanner);
+    result->damaged |= outcome != 0;
+    return outcome == 2 || tn_arena_failed(arena) ? NULL : result;
+}
