@@ -42,6 +42,15 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_CHOICE, HELP), .choices = CHOICES                          \
     }
 
+#define MAYBE(NAME, LETTER, ARGUMENT, FIELD, CHOICES, HELP)                                                           \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_MAYBE, HELP), .choices = CHOICES                           \
+    }
+#define REAL(NAME, LETTER, ARGUMENT, FIELD, HELP)                                                                      \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_REAL, HELP)                                                \
+    }
+
 #define OPTION_WERROR FLAG("werror", 0, werror, "treat warnings as errors")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")

@@ -195,6 +195,24 @@ static tn_status set_choice(parse *p, const tn_option *option, const char *text)
     return TN_OK;
 }
 
+static tn_status set_maybe(parse *p, const tn_option *option, const char *text)
+{
+    tn_status status = text ? set_choice(p, option, text) : TN_OK;
+    *(int *)place_of(p, option) += 1;
+    return status;
+}
+
+static tn_status set_real(parse *p, const tn_option *option, const char *text)
+{
+    tn_option_real *real = place_of(p, option);
+    char *end;
+    real->value = strtod(text, &end);
+    if (end == text || *end || !(real->value > -1e9 && real->value < 1e9))
+        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes a number, not `%.60s`", option->name, text);
+    real->given = true;
+    return TN_OK;
+}
+
 /* Lists have room for every word of the command line. */
 static tn_status list_add(parse *p, tn_option_list *list, const char *text)
 {
@@ -225,6 +243,10 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
         return set_rank(p, option, text);
     case TN_OPTION_CHOICE:
         return set_choice(p, option, text);
+    case TN_OPTION_MAYBE:
+        return set_maybe(p, option, text);
+    case TN_OPTION_REAL:
+        return set_real(p, option, text);
     }
     return tn_fail(p->error, TN_INTERNAL, 0, "option --%s has a kind that is not known", option->name);
 }
@@ -234,7 +256,11 @@ static tn_status set_from_words(parse *p, const tn_option *option, const char *i
 {
     if (!option->argument && inline_text)
         return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes no argument", option->name);
-    if (option->argument && !inline_text) {
+    bool may_lack = option->kind == TN_OPTION_MAYBE;
+    if (may_lack && !inline_text) { /* the next word only where it is one of the choices */
+        if (p->next < p->count && choice_index(option->choices, p->words[p->next]) >= 0)
+            inline_text = p->words[p->next++];
+    } else if (option->argument && !inline_text) {
         if (p->next >= p->count)
             return tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s", option->name, option->argument);
         inline_text = p->words[p->next++];
@@ -317,5 +343,10 @@ void tn_settings_clear(tn_settings *settings)
     free(settings->operands.items);
     free(settings->rules.items);
     free(settings->changes.items);
+    free(settings->attractors.items);
+    free(settings->repellers.items);
+    free(settings->gravity.items);
+    free(settings->boundaries.items);
+    free(settings->fitness.items);
     *settings = (tn_settings){0};
 }

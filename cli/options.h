@@ -20,6 +20,11 @@ typedef struct tn_option_number {
     uint64_t value;
 } tn_option_number;
 
+typedef struct tn_option_real {
+    bool given;
+    double value;
+} tn_option_real;
+
 typedef struct tn_option_range {
     bool given;
     uint64_t low, high;
@@ -34,6 +39,8 @@ typedef enum tn_option_kind {
     TN_OPTION_RANGE,  /* tn_option_range, written a..b or a, from `low` to `high` */
     TN_OPTION_RANK,   /* const char *: decimal digits, as many as one likes */
     TN_OPTION_CHOICE, /* int: index of the word among `choices` */
+    TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the first */
+    TN_OPTION_REAL,   /* tn_option_real */
 } tn_option_kind;
 
 typedef struct tn_option {
@@ -70,6 +77,15 @@ typedef struct tn_settings {
 
     tn_option_number columns, scale, dpi, max_plans;
     const char *paper, *title;
+
+    /* grow: what a study can say too is kept as the words of its statement */
+    const char *steps, *growth_scale, *start, *start_length, *growth_seed, *branch_angle, *branch_length, *edge_limit, *until;
+    tn_option_list attractors, repellers, gravity, boundaries, fitness;
+    bool fixed_centre, fixed_perimeter, facing, grow_mirror;
+    bool each_step, sheet, groups, normals, triangulate, lines, explain;
+    int stats, up, mesh_format;
+    tn_option_number smooth, subdivide, decimate, memory_limit, width;
+    tn_option_real azimuth, elevation;
 
     /* genomes */
     const char *genome, *genomes, *tree, *invert;
