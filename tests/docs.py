@@ -2,8 +2,8 @@
 """Runs the examples of Markdown pages: docs.py [--update] PAGE...
 
 A ```console block holds commands (lines that start with "$ ") and under each what it prints, standard output and errors
-together; a line "..." stands for any number of lines. A ```plan, ```bnf or ```study block is a rule file: it must pass `tartan
-check`, and one whose first line is "# NAME.plan" is there under that name for the commands below it. Each page runs in a copy of its own
+together; a line "..." stands for any number of lines. A ```plan, ```bnf, ```hemls or ```study block is a rule file: it must pass
+`tartan check`, and one whose first line is "# NAME.plan" ("// NAME.hemls") is there under that name for the commands below it. Each page runs in a copy of its own
 folder. TARTAN is the binary. --update writes what is printed now into the pages.
 """
 import os, re, shutil, subprocess, sys, tempfile
@@ -57,7 +57,7 @@ def console(page, block, folder, update):
 
 
 def rules(page, kind, block, folder):
-    named = re.match(r"# (\S+\.%s)\n" % kind, block)
+    named = re.match(r"(?:#|//) (\S+\.%s)\n" % kind, block)
     name = named.group(1) if named else "block." + kind
     with open(os.path.join(folder, name), "w") as file:
         file.write(block)
@@ -83,7 +83,7 @@ def check(page, update):
             if kind == "console":
                 block, failed = console(page, block, folder, update)
                 failures += failed
-            elif kind in ("plan", "bnf", "study"):
+            elif kind in ("plan", "bnf", "hemls", "study"):
                 failures += rules(page, kind, block, folder)
             return "```%s\n%s```" % (kind, block)
 

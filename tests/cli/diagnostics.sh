@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# What the front end says about wrong rule files: tests/diagnostics/NAME.plan is checked, and what is then on stderr is
-# NAME.expect. `--update` writes the expectations anew: read the difference before you keep it.
+# What the front ends say about wrong rule files: tests/diagnostics/NAME.plan (.hemls, .study) is checked, and what is then
+# on stderr is NAME.expect. `--update` writes the expectations anew: read the difference before you keep it.
 set -euo pipefail
 : "${TARTAN:?the binary to test}"
 cd "$(dirname "$0")/../diagnostics"
 failed=0
 seen=$(mktemp)
 trap 'rm -f "$seen"' EXIT
-for plan in *.plan *.bnf *.study; do
+for plan in *.plan *.bnf *.hemls *.study; do
     name=${plan%.*}
     status=0
     said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
@@ -28,8 +28,9 @@ for plan in *.plan *.bnf *.study; do
     fi
 done
 [ "${1-}" != --update ] || exit 0
-# Every code that the front end of .plan files reports is among them.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/plan.[ly] ../../compiler/{ast*,check*,import,lexical,syntax_error}.c ../../driver/analysis.c | sort -u)
+# Every code that the front ends report is among them.
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study}.[ly] \
+    ../../compiler/{ast*,check*,import,lexical,syntax_error,hemls_*,study_*,growth_compile}.c ../../driver/analysis.c | sort -u)
 codes=$(while read -r name; do
     case $name in
     E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'error[E%04d]\n' ;;

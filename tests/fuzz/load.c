@@ -12,6 +12,7 @@
 #include "runtime/vm/layout.h"
 #include "runtime/vm/random.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/grow.h"
 
 enum { PLANS = 8, PLAN_TRAYS = 6, STATES = 200, RULES = 32, CODES = 4096, LENGTH = 12 };
 
@@ -96,6 +97,8 @@ static tn_status load_and_run(uint8_t *bytes, size_t size)
     tn_status status = tn_module_load(bytes, size, &limits, &module, &error);
     if (status == TN_OK)
         run(module);
+    if (status == TN_OK)
+        grow_module(module);
     tn_module_free(module);
     return status;
 }

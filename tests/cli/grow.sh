@@ -1,0 +1,134 @@
+#!/usr/bin/env bash
+# tartan grow: every format read back, options in the words of studies, limits, rest, sheets, the same bytes at any number of threads.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+source=$PWD
+cd "$scratch"
+fail() {
+    echo "$1"
+    exit 1
+}
+run() {
+    "$TARTAN" "$@" 2>stderr || { cat stderr; fail "tartan $*"; }
+}
+
+cp "$source/stdlib/square.hemls" "$source/examples/growing-surfaces/draped.study" .
+
+# Each format holds the same surface: 256 faces of a square after four steps (512 triangles).
+for format in obj ply stl off om glb; do
+    run grow square.hemls -n 4 -o "four.$format"
+    run grow square.hemls -n 4 -f "$format" -o - >"piped"
+    cmp "four.$format" piped
+    [ ! -s stderr ] || fail "writing $format says something"
+done
+if command -v assimp >/dev/null; then
+    for format in obj ply stl off glb; do
+        assimp info "four.$format" >info || fail "assimp cannot read $format"
+        grep -qE '^Faces: +512' info || { cat info; fail "assimp finds other faces in $format"; }
+    done
+fi
+
+# OpenMesh reads each back as a boundary: a closed box of it would be a solid, this sheet is a membrane that stops a fall.
+for format in obj ply stl off om; do
+    run grow square.hemls -n 3 --start '0 0 1' --gravity '0 0 -0.4' --boundary "mesh \"four.$format\" stop" --stats json >stats
+    python3 - <<'CHECK' || fail "the boundary read from $format does not stop what falls"
+import json
+last = json.load(open("stats"))[-1]
+assert last["F"] == 64 and last["fitness"]["undulation"] < 1.3, last
+CHECK
+done
+
+# A mesh as it is read: closed face loops, one orientation, Euler's number 1.
+run grow draped.study --lines --normals --groups -o cloth.obj
+python3 - <<'CHECK'
+vertices, normals, faces, lines = [], [], [], []
+for row in open("cloth.obj"):
+    word, *rest = row.split()
+    {"v": vertices, "vn": normals, "f": faces, "l": lines}.get(word, []).append(rest)
+faces = [[int(c.split("/")[0]) for c in f] for f in faces]
+darts = {(a, b) for f in faces for a, b in zip(f, f[1:] + f[:1])}
+assert len(darts) == sum(map(len, faces)), "an edge twice in one direction"
+assert len(vertices) == len(normals) == 4225 and len(faces) == 4096 and len(lines) == 8320
+assert len(vertices) - len(lines) + len(faces) == 1
+assert max(darts)[0] <= len(vertices)
+CHECK
+
+# Threads change nothing.
+for threads in 1 2 3 4; do
+    run grow draped.study --threads "$threads" -o "cloth-$threads.ply"
+    cmp cloth-1.ply "cloth-$threads.ply"
+done
+
+# What a study says can be said by options.
+cat >said.study <<'STUDY'
+rules "square.hemls"
+steps 3
+scale 1.2 1.3 1
+seed 4
+attractor at 2 2 2 strength 0.5 exponent 1
+boundary plane at 0 0 -0.1 normal 0 0 1 stop
+fixed-centre
+STUDY
+run grow said.study -o by-study.ply
+run grow square.hemls -n 3 --scale '1.2 1.3 1' --seed 4 --attractor 'at 2 2 2 strength 0.5 exponent 1' \
+    --boundary 'plane at 0 0 -0.1 normal 0 0 1 stop' --fixed-centre -o by-options.ply
+cmp <(tail -c 1000 by-study.ply) <(tail -c 1000 by-options.ply)
+if "$TARTAN" grow square.hemls --scale 0 -o no.obj 2>stderr; then fail 'a scale of 0 is accepted'; fi
+grep -q 'E1103' stderr || fail 'a scale of 0 is not explained'
+
+# A module grows as its source does.
+run build said.study -o said.tnb
+run grow said.tnb -o by-module.ply
+cmp by-study.ply by-module.ply
+
+# Each step, and a sheet of all; the same bytes twice.
+run grow square.hemls -n 2 --each-step -o step.obj
+[ -e step-000.obj ] && [ -e step-001.obj ] && [ -e step-002.obj ] && [ ! -e step.obj ] || fail 'not every step is there'
+for picture in svg png pdf; do
+    run grow draped.study --sheet -o "one.$picture" --azimuth=-20 --elevation 50
+    run grow draped.study --sheet -o "two.$picture" --azimuth=-20 --elevation 50
+    cmp "one.$picture" "two.$picture"
+    run grow square.hemls -n 3 -o "view.$picture"
+    [ "$(wc -c <"view.$picture")" -gt 1000 ] || fail "nothing is drawn in $picture"
+done
+
+# OpenMesh's own algorithms.
+run grow square.hemls -n 2 --subdivide 1 -o finer.ply
+grep -qa 'element face 64' finer.ply || fail 'subdividing does not make four faces of one'
+run grow square.hemls -n 4 --gravity '0 0 -0.3' --attractor 'at 3 0 3' --smooth 5 -o smooth.ply
+grep -qa 'element face 256' smooth.ply || fail 'smoothing changes the faces'
+run grow square.hemls -n 4 --decimate 100 -o coarse.ply
+faces=$(grep -a 'element face' coarse.ply | cut -d' ' -f3)
+[ "$faces" -le 110 ] && [ "$faces" -ge 50 ] || fail "decimating to 100 leaves $faces"
+
+# Limits end at the last complete step, which is written; exit 4.
+code=0
+"$TARTAN" grow square.hemls -n 9 --edge-limit 1000 -o limited.ply 2>stderr || code=$?
+[ "$code" = 4 ] || fail "the edge limit exits with $code"
+grep -q 'E0840' stderr && grep -q 'step 4' stderr || fail 'the edge limit is not explained'
+grep -qa 'element face 256' limited.ply || fail 'the last complete step is not written'
+
+# Until so many faces; rest.
+[ "$(run grow square.hemls --until faces=1000 | tail -1 | awk '{print $4}')" = 1024 ] || fail '--until stops elsewhere'
+printf 'A + A + A; A -> B; Angle 60\n' >rest.hemls
+run grow rest.hemls -n 50 --scale 1 >/dev/null
+grep -q 'changes nothing any more' stderr || fail 'rest is not noticed'
+
+# The statistics' form.
+run grow square.hemls -n 1 --stats json >stats
+cat >expected <<'JSON'
+[{"step": 0, "V": 4, "E": 4, "F": 1, "labels": {"Edge0": 2, "Edge1": 2}, "ages": {"Edge0_0": 2, "Edge1_0": 2}, "face_sides": {"4": 1}, "fitness": {"size": 2, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 1, "symmetry": 1, "undulation": 0}},
+{"step": 1, "V": 9, "E": 12, "F": 4, "labels": {"Edge0": 6, "Edge1": 6}, "ages": {"Edge0_0": 6, "Edge1_0": 6}, "face_sides": {"4": 4}, "fitness": {"size": 3, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 0.75, "symmetry": 1, "undulation": 0}}]
+JSON
+diff -u expected stats
+run grow square.hemls -n 1 --explain -o x.obj
+grep -q '4 branches point out of the surface' stderr || fail '--explain does not say why'
+
+# Wrong usage.
+for words in '-o x' '-o x.txt' '--until sides=3' '-o - --stats' '--sheet -o x.obj' '--azimuth north -o x.svg' 'said.tnb --scale 2'; do
+    code=0
+    case $words in said*) file=() ;; *) file=(square.hemls) ;; esac
+    eval "\"\$TARTAN\" grow \"\${file[@]}\" $words" >/dev/null 2>stderr || code=$?
+    [ "$code" = 2 ] || { cat stderr; fail "grow $words exits with $code"; }
+done

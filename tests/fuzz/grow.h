@@ -1,0 +1,64 @@
+/* Grows a module's rewrite system a few steps, within narrow limits; the map's promises hold after each. */
+#ifndef TARTAN_TESTS_FUZZ_GROW_H
+#define TARTAN_TESTS_FUZZ_GROW_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "runtime/map/stats.h"
+#include "runtime/map/study.h"
+
+enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_TEMPLATES = 200 };
+
+/* Boundary meshes are files of this machine, and crowded templates take long: such modules are left alone. */
+static inline bool is_modest(const tn_module *module)
+{
+    for (size_t i = 0; i < module->BOUNDARY_count; i++)
+        if (module->BOUNDARY_records[i].kind == TN_BOUNDARY_MESH)
+            return false;
+    return module->GROWTH_count == 1 && module->BRANCH_count <= GROW_TEMPLATES && module->AXIOM_count <= GROW_EDGES &&
+           module->FORCE_count <= GROW_EDGES && module->BOUNDARY_count <= GROW_EDGES;
+}
+
+static inline void grow_some(tn_growth *growth)
+{
+    tn_error error;
+    for (int i = 0; i < GROW_STEPS; i++) {
+        tn_status status = tn_growth_step(growth, &error);
+        if (status == TN_LIMIT)
+            return;
+        tn_stats stats;
+        if (status != TN_OK || tn_map_validate(tn_growth_map(growth), &error) != TN_OK) {
+            fprintf(stderr, "growing breaks the map: %s\n", error.message);
+            abort();
+        }
+        if (tn_stats_measure(growth, &stats, &error) != TN_OK)
+            abort();
+        tn_stats_clear(&stats);
+    }
+}
+
+static inline void grow_module(const tn_module *module)
+{
+    if (!is_modest(module))
+        return;
+    tn_growth_system *system = NULL;
+    tn_study study = {0};
+    tn_growth *growth = NULL;
+    tn_error error;
+    tn_status status = tn_growth_system_read(module, &system, &error);
+    if (status == TN_OK)
+        status = tn_study_read(module, &study, &error);
+    study.options.edge_limit = GROW_EDGES;
+    study.options.threads = 1;
+    study.options.explain = true;
+    if (status == TN_OK)
+        status = tn_growth_new(system, &study.environment, &study.options, &growth, &error);
+    if (status == TN_OK)
+        grow_some(growth);
+    tn_growth_free(growth);
+    tn_growth_system_free(system);
+    tn_study_clear(&study);
+}
+
+#endif
