@@ -139,8 +139,8 @@ static uint64_t bytes_hash(const grown *g)
 static void test_any_number_of_threads_gives_the_same_bytes(void **state)
 {
     (void)state;
-    static const char *const studies[] = {"rules \"square\" attractor at 3 2 2 strength 1 exponent 1.5 gravity 0 0 "
-                                          "-0.2 boundary sphere at 0 0 -1 radius 0.9",
+    static const char *const studies[] = {("rules \"square\" attractor at 3 2 2 strength 1 exponent 1.5 gravity 0 0 "
+                                           "-0.2 boundary sphere at 0 0 -1 radius 0.9"),
                                           "rules \"triangle\"", "rules \"probabilistic\" seed 5", "rules \"ruffle\"",
                                           "rules \"context\""};
     for (size_t i = 0; i < sizeof studies / sizeof *studies; i++) {
