@@ -2,7 +2,7 @@
  *
  *   evolution {
  *     grammar "words"            # of the standard library, or a path
- *     match "hello world"        # the problem: match, fit or learn
+ *     match "hello world"        # the problem: match, fit, grow, or keep and drop
  *     population 500
  *     selection tournament 3
  *   }
@@ -17,7 +17,7 @@
 
 /* ---- the checked study: names are as the engine's own lists have them */
 
-typedef enum tn_evolution_problem { TN_EVOLVE_NOTHING, TN_EVOLVE_MATCH, TN_EVOLVE_FIT, TN_EVOLVE_LEARN } tn_evolution_problem;
+typedef enum tn_evolution_problem { TN_EVOLVE_NOTHING, TN_EVOLVE_MATCH, TN_EVOLVE_FIT, TN_EVOLVE_LEARN, TN_EVOLVE_GROW } tn_evolution_problem;
 
 typedef struct tn_evolution_study {
     const char *grammar; /* as written */
@@ -26,6 +26,7 @@ typedef struct tn_evolution_study {
     const char *match;       /* the text */
     const char *fit;         /* path of the data */
     const char *keep, *drop; /* learn: paths of plans */
+    const char *grow;        /* path of a growth study */
     const char *schema;      /* of those plans, as `use` names it */
     uint64_t seed, population, generations;
     const char *initialise;

@@ -30,6 +30,7 @@ static const setting_row rows[] = {
     {"grammar", TEXT, AT(grammar), 0, 0, 0, 0, NULL},
     {"match", TEXT, AT(match), 0, 0, 0, 0, NULL},
     {"fit", TEXT, AT(fit), 0, 0, 0, 0, NULL},
+    {"grow", TEXT, AT(grow), 0, 0, 0, 0, NULL},
     {"keep", TEXT, AT(keep), 0, 0, 0, 0, NULL},
     {"drop", TEXT, AT(drop), 0, 0, 0, 0, NULL},
     {"schema", TEXT, AT(schema), 0, 0, 0, 0, NULL},
@@ -225,19 +226,19 @@ static void whole_error(check *c, const char *message, const char *help)
 static void check_whole(check *c)
 {
     tn_evolution_study *s = c->study;
-    int problems = (s->match != NULL) + (s->fit != NULL) + (s->keep || s->drop);
+    int problems = (s->match != NULL) + (s->fit != NULL) + (s->grow != NULL) + (s->keep || s->drop);
     if (!s->grammar)
         whole_error(c, "the study does not say which grammar genomes are mapped through", "add a line such as `grammar \"words\"`");
     if (problems != 1)
         whole_error(c, problems ? "the study has more than one problem" : "the study does not say what is wanted",
-                    "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
+                    "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
     if ((s->keep != NULL) != (s->drop != NULL))
         whole_error(c, "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
-    s->problem = s->match ? TN_EVOLVE_MATCH : s->fit ? TN_EVOLVE_FIT : TN_EVOLVE_LEARN;
+    s->problem = s->match ? TN_EVOLVE_MATCH : s->fit ? TN_EVOLVE_FIT : s->grow ? TN_EVOLVE_GROW : TN_EVOLVE_LEARN;
     if (s->elites >= s->population)
         whole_error(c, "there are as many elites as individuals", "an elite or two are usual");
     bool nsga2 = strcmp(s->selection, "nsga2") == 0;
-    if (nsga2 && s->problem != TN_EVOLVE_LEARN)
+    if (nsga2 && s->problem != TN_EVOLVE_LEARN && s->problem != TN_EVOLVE_GROW)
         whole_error(c, "`selection nsga2` weighs several objectives, and this problem has one", "write `selection tournament 3`");
     if (nsga2 && strcmp(s->replacement, "generational") != 0)
         whole_error(c, "`selection nsga2` chooses among parents and children together", "leave `replacement` out");

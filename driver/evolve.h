@@ -10,6 +10,7 @@
 #define TARTAN_DRIVER_EVOLVE_H
 
 #include "compiler/evolution.h"
+#include "driver/grower.h"
 #include "driver/learn.h"
 #include "driver/open.h"
 #include "runtime/gene/problem.h"
@@ -23,6 +24,7 @@ typedef struct tn_evolution_job {
     tn_evaluator evaluator;
     tn_problem *problem;
     tn_learner *learner;
+    tn_grower *grower;
     tn_genome *seeds;
     size_t seed_count;
     char *identity;            /* all that decides what the run does, in words */

@@ -12,6 +12,7 @@ void tn_evolution_job_clear(tn_evolution_job *job)
 {
     tn_problem_free(job->problem);
     tn_learner_free(job->learner);
+    tn_grower_free(job->grower);
     tn_grammar_free(job->grammar);
     for (size_t i = 0; i < job->seed_count; i++)
         tn_genome_clear(&job->seeds[i]);
@@ -87,10 +88,10 @@ static char *identity_of(const tn_evolution_job *job)
     char *text = NULL;
     int length = asprintf(
         &text,
-        "problem %d match \"%s\" fit \"%s\" keep \"%s\" drop \"%s\" schema \"%s\" seed %llu population %u initialise %s codons %u "
+        "problem %d grow \"%s\" match \"%s\" fit \"%s\" keep \"%s\" drop \"%s\" schema \"%s\" seed %llu population %u initialise %s codons %u "
         "codon-limit %llu max-codons %zu depth %u..%u tail %.17g seeds %zu selection %s %u %.17g crossover %s %.17g mutation %s %.17g "
         "points %s elites %u replacement %s max-depth %u wraps %u tree-depth %u max-steps %llu length-weight %.17g",
-        (int)s->problem, s->match ? s->match : "", s->fit ? s->fit : "", s->keep ? s->keep : "", s->drop ? s->drop : "", s->schema,
+        (int)s->problem, s->grow ? s->grow : "", s->match ? s->match : "", s->fit ? s->fit : "", s->keep ? s->keep : "", s->drop ? s->drop : "", s->schema,
         (unsigned long long)t->seed, t->population, s->initialise, t->codons, (unsigned long long)t->vary.codon_limit,
         t->vary.max_codons, t->depth_low, t->depth_high, t->tail, job->seed_count, s->selection, t->select.tournament,
         t->select.truncation, s->crossover, t->vary.crossover_rate, s->mutation, t->vary.mutation_rate, s->points, t->elites,
@@ -133,6 +134,15 @@ static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error 
     return status;
 }
 
+static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    char *study = beside(path, job->study.grow);
+    bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
+    tn_status status = study ? tn_grower_new(study, separately, &job->grower, error) : tn_fail_memory(error);
+    free(study);
+    return status;
+}
+
 static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
                                 tn_error *error)
 {
@@ -144,7 +154,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
 {
     tn_status status = TN_OK;
     size_t objectives = job->settings.select.selection == TN_SELECT_NSGA2 ? 2 : 1;
-    job->extension = job->study.problem == TN_EVOLVE_LEARN ? "plan" : "txt";
+    job->extension = job->study.problem == TN_EVOLVE_LEARN ? "plan" : job->study.problem == TN_EVOLVE_GROW ? "hemls" : "txt";
     if (only_replay) {
         job->evaluator = (tn_evaluator){NULL, objectives, never_evaluate, NULL};
         return TN_OK;
@@ -153,10 +163,12 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
         status = tn_problem_match(job->study.match, &job->problem, error);
     else if (job->study.problem == TN_EVOLVE_FIT)
         status = make_fit(job, path, error);
+    else if (job->study.problem == TN_EVOLVE_GROW)
+        status = make_grower(job, path, error);
     else
         status = make_learner(job, path, error);
     if (status == TN_OK)
-        job->evaluator = job->learner ? tn_learner_evaluator(job->learner) : tn_problem_evaluator(job->problem);
+        job->evaluator = job->grower ? tn_grower_evaluator(job->grower) : job->learner ? tn_learner_evaluator(job->learner) : tn_problem_evaluator(job->problem);
     return status;
 }
 

@@ -76,7 +76,10 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = write_sentence(sentence, individual, error);
-    if (status == TN_OK)
+    const char *const text[] = {individual->sentence};
+    if (status == TN_OK && run->job->grower)
+        status = tn_grower_draw(run->job->grower, text, 1, sentence, picture, error);
+    else if (status == TN_OK)
         status = draw_derivation(run, picture, individual, error);
     free(sentence);
     free(picture);

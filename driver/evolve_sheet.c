@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
@@ -37,6 +38,25 @@ static void draw_cell(cairo_t *t, double x, double y, size_t number, const tn_in
     tn_type_paragraph(t, x + INSET, y + 34, CELL_WIDTH - 3 * INSET, 10, 9, sentence);
 }
 
+/* Surfaces are drawn as they are, in the members' order; those without a score come last and are not drawn. */
+static tn_status draw_surfaces(tn_run *run, const char *path, tn_error *error)
+{
+    size_t count, scored = 0;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    const char **sentences = calloc(count + 1, sizeof *sentences);
+    char title[80];
+    if (!sentences)
+        return tn_fail_memory(error);
+    while (scored < count && members[scored]->score.state == TN_SCORED) {
+        sentences[scored] = members[scored]->sentence;
+        scored++;
+    }
+    snprintf(title, sizeof title, "generation %u: 1 to %zu, row by row", run->generations ? run->generations - 1 : 0, scored);
+    tn_status status = tn_grower_draw(run->job->grower, sentences, scored, title, path, error);
+    free(sentences);
+    return status;
+}
+
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
 {
     size_t count;
@@ -49,6 +69,8 @@ tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
                                  .title = run->job->grammar->name};
     tn_canvas *canvas = NULL;
     snprintf(path, size, "%s/sheet-%04u.svg", run->dir, run->generations ? run->generations - 1 : 0);
+    if (run->job->grower)
+        return draw_surfaces(run, path, error);
     tn_status status = tn_canvas_new(path, TN_CANVAS_SVG, &options, &canvas, error);
     if (status == TN_OK) {
         for (size_t i = 0; i < count; i++)

@@ -1,0 +1,174 @@
+#include "driver/grower.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open.h"
+#include "runtime/map/draw.h"
+#include "runtime/map/study.h"
+
+struct tn_grower {
+    tn_opened opened; /* of the study */
+    tn_study study;
+    bool separately;
+    tn_fitness_term terms[TN_FITNESS_TERM_COUNT]; /* that are wanted */
+    size_t term_count;
+};
+
+void tn_grower_free(tn_grower *g)
+{
+    if (!g)
+        return;
+    tn_study_clear(&g->study);
+    tn_close(&g->opened);
+    free(g);
+}
+
+static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
+{
+    if (tn_open(path, false, &g->opened) != TN_OK) {
+        tn_fail(error, TN_INVALID, 1245, "the growth study %.200s cannot be used", path);
+        tn_error_help(error, "`tartan check %.200s` says why", path);
+        return TN_INVALID;
+    }
+    tn_status status = tn_study_read(g->opened.module, &g->study, error);
+    for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
+        if (g->study.goal.wanted[term])
+            g->terms[g->term_count++] = term;
+    if (status == TN_OK && g->term_count == 0) {
+        status = tn_fail(error, TN_INVALID, 1245, "the growth study %.200s wants nothing of a surface", path);
+        tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
+    }
+    g->study.options.threads = 1;
+    if (g->study.options.edge_limit == 0)
+        g->study.options.edge_limit = TN_GROWER_EDGES;
+    return status;
+}
+
+tn_status tn_grower_new(const char *study, bool separately, tn_grower **grower, tn_error *error)
+{
+    tn_grower *g = calloc(1, sizeof *g);
+    *grower = g;
+    if (!g)
+        return tn_fail_memory(error);
+    g->separately = separately;
+    tn_status status = open_study(g, study, error);
+    if (status != TN_OK) {
+        tn_grower_free(g);
+        *grower = NULL;
+    }
+    return status;
+}
+
+/* ---- one growth */
+
+typedef struct grown {
+    tn_opened opened;
+    tn_growth_system *system;
+    tn_growth *growth;
+} grown;
+
+static void grown_clear(grown *g)
+{
+    tn_growth_free(g->growth);
+    tn_growth_system_free(g->system);
+    tn_close(&g->opened);
+}
+
+static const char *first_error(const tn_opened *opened)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].severity == TN_ERROR)
+            return list->items[i].message;
+    return "it does not compile";
+}
+
+static tn_status grow(const tn_grower *g, const char *sentence, size_t size, grown *out, tn_error *error)
+{
+    *out = (grown){0};
+    tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &out->opened);
+    if (status != TN_OK)
+        return tn_fail(error, TN_INVALID, 0, "%.400s", first_error(&out->opened));
+    status = tn_growth_system_read(out->opened.module, &out->system, error);
+    if (status == TN_OK)
+        status = tn_growth_new(out->system, &g->study.environment, &g->study.options, &out->growth, error);
+    for (uint32_t step = 0; status == TN_OK && step < g->study.steps && !tn_growth_at_rest(out->growth); step++)
+        status = tn_growth_step(out->growth, error);
+    return status;
+}
+
+static void score_terms(const tn_grower *g, const tn_fitness *fitness, tn_score *score)
+{
+    double side = g->study.options.start_length;
+    if (!g->separately) {
+        score->objectives[0] = tn_fitness_total(fitness, &g->study.goal, side);
+        return;
+    }
+    for (size_t i = 0; i < g->term_count; i++) {
+        tn_fitness_goal one = g->study.goal;
+        for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
+            one.wanted[term] = term == g->terms[i];
+        score->objectives[i] = tn_fitness_total(fitness, &one, side);
+    }
+}
+
+static tn_status score_growth(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                              char message[200], tn_error *error)
+{
+    const tn_grower *g = context;
+    tn_error own = {0};
+    tn_stats stats = {0};
+    grown surface;
+    (void)thread;
+    tn_status status = grow(g, sentence, size, &surface, &own);
+    if (status == TN_OK)
+        status = tn_stats_measure(surface.growth, &stats, &own);
+    if (status == TN_OK)
+        score_terms(g, &stats.fitness, score);
+    tn_stats_clear(&stats);
+    grown_clear(&surface);
+    if (status == TN_MEMORY || status == TN_INTERNAL) {
+        *error = own;
+        return status;
+    }
+    if (status != TN_OK) {
+        score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
+        snprintf(message, 200, "%.199s", own.message);
+    }
+    return TN_OK;
+}
+
+tn_evaluator tn_grower_evaluator(tn_grower *grower)
+{
+    return (tn_evaluator){grower, grower->separately ? grower->term_count : 1, score_growth};
+}
+
+/* ---- pictures */
+
+tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_t count, const char *title, const char *path,
+                         tn_error *error)
+{
+    tn_canvas_format format;
+    tn_view **views = calloc(count + 1, sizeof *views);
+    tn_camera camera = tn_camera_default();
+    size_t drawn = 0;
+    if (count > 1)
+        camera.width = 200;
+    tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        grown surface;
+        if (grow(g, sentences[i], strlen(sentences[i]), &surface, NULL) == TN_OK)
+            status = tn_view_take(surface.growth, &camera, &views[drawn++], error);
+        grown_clear(&surface);
+    }
+    tn_view_options options = {.title = title};
+    if (status == TN_OK && drawn)
+        status = tn_views_draw(views, drawn, &options, path, format, error);
+    for (size_t i = 0; views && i < drawn; i++)
+        tn_view_free(views[i]);
+    free(views);
+    return status;
+}
