@@ -141,9 +141,44 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
     return TN_OK;
 }
 
+/* "undulation target 3", "size weight 2", "size target 3 weight 2" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_grower *g = context;
+    char name[40];
+    int read = 0;
+    const char *at = change;
+    tn_fitness_goal goal = g->study.goal;
+    tn_fitness_term term = 0;
+    bool well = sscanf(at, "%39s%n", name, &read) == 1;
+    while (well && term < TN_FITNESS_TERM_COUNT && strcmp(tn_fitness_term_name(term), name) != 0)
+        term++;
+    well = well && term < TN_FITNESS_TERM_COUNT && goal.wanted[term];
+    for (unsigned parts = 0; well && *(at += read); parts++) {
+        char what[16];
+        double value;
+        if (at[strspn(at, " ")] == '\0')
+            break;
+        well = sscanf(at, "%15s %lf%n", what, &value, &read) == 2 && isfinite(value);
+        if (well && strcmp(what, "target") == 0)
+            goal.target[term] = value;
+        else if (well && strcmp(what, "weight") == 0 && value >= 0)
+            goal.weight[term] = value;
+        else
+            well = false;
+    }
+    if (!well) {
+        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_error_help(error, "name a term that the growth study wants, as \"undulation target 3 weight 2\"");
+        return TN_INVALID;
+    }
+    g->study.goal = goal;
+    return TN_OK;
+}
+
 tn_evaluator tn_grower_evaluator(tn_grower *grower)
 {
-    return (tn_evaluator){grower, grower->separately ? grower->term_count : 1, score_growth};
+    return (tn_evaluator){grower, grower->separately ? grower->term_count : 1, score_growth, adjust};
 }
 
 /* ---- pictures */

@@ -121,4 +121,44 @@ cmp -s steps/run.sqlite leap/run.sqlite || fail "a changed weight is not made ag
 "$TARTAN" evolve learn.study -o leap --resume --set "colour 3" > /dev/null 2>&1; [ $? -eq 1 ] || fail "changes what is not there"
 "$TARTAN" check leap/best/1.plan || fail "the best rule is no rule file"
 
+# ---- rule files bred for what they grow
+cat > garden.study <<'X'
+rules "square"
+steps 3
+scale 1.2
+gravity 0 0 -0.1
+repeller at 1 1 -1 strength 0.3
+fitness undulation target 2 weight 1
+fitness subdivisions target 0.6 weight 5
+edge-limit 2000
+X
+cat > bred.study <<'X'
+evolution {
+  grammar "genr8-angles"
+  grow "garden.study"
+  population 40
+  generations 6
+  depth 4..8
+  tail 1
+  seed 5
+}
+X
+"$TARTAN" evolve bred.study -o bred --threads 1 > bred.txt || fail "does not breed surfaces"
+"$TARTAN" evolve bred.study -o bred4 --threads 4 > /dev/null || fail "does not breed surfaces with four threads"
+cmp -s bred/run.sqlite bred4/run.sqlite || fail "four threads breed other surfaces than one"
+"$TARTAN" check bred/best/1.hemls || fail "the best rules are no rule file"
+"$TARTAN" grow bred/best/1.hemls --steps 2 > /dev/null || fail "the best rules do not grow"
+grep -q '<path' bred/best/1.svg || fail "no picture of the best surface"
+"$TARTAN" evolve bred.study -o bred --resume --generations 8 --set "undulation target 1 weight 3" > /dev/null || fail "cannot change a target"
+"$TARTAN" runs replay bred 300 > /dev/null || fail "cannot replay surfaces"
+"$TARTAN" evolve bred.study -o bred --resume --set "undulation height 1" > /dev/null 2>&1; [ $? -eq 1 ] || fail "takes a wrong target"
+sed 's/tail 1/tail 1\n selection nsga2 2/' bred.study > fronts.study
+"$TARTAN" evolve fronts.study > /dev/null || fail "does not breed surfaces with two objectives"
+sed 's/population 40/population 6/' bred.study > hand.study
+printf '1 2*3\n\n' | "$TARTAN" breed hand.study -o surfaces > /dev/null || fail "cannot choose surfaces"
+grep -q '<path' surfaces/sheet-0001.svg || fail "no surfaces on the sheet"
+sed '/fitness/d' garden.study > nothing.study
+sed 's/garden/nothing/' bred.study > wants.study
+"$TARTAN" evolve wants.study > /dev/null 2>&1; [ $? -eq 1 ] || fail "a study that wants nothing is no error"
+
 exit $failed
