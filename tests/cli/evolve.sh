@@ -46,7 +46,7 @@ evolution {
 }
 X
 "$TARTAN" evolve slow.study -o whole > /dev/null || fail "does not run"
-kills=${KILLS:-12}
+kills=${KILLS:-17} # each time three: 51 moments
 for i in $(seq 1 "$kills"); do
   rm -rf killed
   for again in 1 2 3; do
