@@ -1,7 +1,7 @@
 /* Times mapping and evolution in memory: bench_gene WORDS.tnb ARITHMETIC.tnb SMALL.tnb WIDE.tnb LONG.tnb
  *
- * Mapping: random genomes of 200 codons, one thread. Evolution: string match and Vladislavleva-4, population 500, 50 generations, by
- * 1, 2 and 4 threads. Prints one figure a line. */
+ * Mapping: random genomes of 200 codons, one thread. Evolution: string match and Vladislavleva-4, population 500, 50
+ * generations, by 1, 2 and 4 threads. Prints one figure a line. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +31,8 @@ static tn_grammar *load(const char *path)
     tn_module *module;
     tn_grammar *grammar;
     tn_error error;
-    if (tn_module_load_file(path, NULL, &module, &error) != TN_OK || tn_grammar_new(module, 0, &grammar, &error) != TN_OK)
+    if (tn_module_load_file(path, NULL, &module, &error) != TN_OK ||
+        tn_grammar_new(module, 0, &grammar, &error) != TN_OK)
         stop(error.message);
     tn_module_free(module);
     return grammar;
@@ -73,8 +74,8 @@ static void bench_mapping(const char *name, const char *path)
         times[round] = seconds() - start;
     }
     double maps = (double)GENOMES * REPEATS;
-    printf("map %-12s %8.2f million a second, %6.1f codons each, %3.0f %% valid\n", name, maps / median(times, ROUNDS) / 1e6,
-           (double)used / maps, 100 * (double)valid / maps);
+    printf("map %-12s %8.2f million a second, %6.1f codons each, %3.0f %% valid\n", name,
+           maps / median(times, ROUNDS) / 1e6, (double)used / maps, 100 * (double)valid / maps);
     free(codons);
     tn_mapper_free(mapper);
     tn_grammar_free(grammar);

@@ -43,7 +43,8 @@ static bool read_choice(char *line, size_t members, choice *c)
             end = rest;
         }
         if (end == word || *end || place < 1 || place > members || times < 1 || times > TURNS_MAX) {
-            printf("`%s` is no choice: write numbers from 1 to %zu, as 3 7 12, or 3*2 to let one count twice\n", word, members);
+            printf("`%s` is no choice: write numbers from 1 to %zu, as 3 7 12, or 3*2 to let one count twice\n", word,
+                   members);
             return false;
         }
         if (!add(c, place, times))
@@ -111,7 +112,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 static const tn_option options[] = {
     OPTION_RUN_DIR,
     OPTION_RUN_RESUME,
-    NUMBER("generations", 'g', "N", generations, 0, 1000000, "how many generations to breed at most, instead of the study's number"),
+    NUMBER("generations", 'g', "N", generations, 0, 1000000,
+           "how many generations to breed at most, instead of the study's number"),
     OPTION_RUN_SET,
     OPTION_RUN_SEED,
     OPTION_THREADS,
@@ -122,10 +124,11 @@ const tn_command tn_command_breed = {
     .name = "breed",
     .summary = "breed sentences of a grammar by choosing parents yourself",
     .usage = "STUDY.study [-o DIR] [--resume]",
-    .description =
-        "As evolve, but the parents of each generation are chosen by you: a sheet shows every individual with its number, and the "
-        "numbers typed are those that have children. 3*2 counts twice as much as 3. What was chosen is stored with the run, so that it "
-        "can be replayed and gone on with. A population of 12 to 24 suits a sheet.",
+    .description = "As evolve, but the parents of each generation are chosen by you: a sheet shows every individual "
+                   "with its number, and the "
+                   "numbers typed are those that have children. 3*2 counts twice as much as 3. What was chosen is "
+                   "stored with the run, so that it "
+                   "can be replayed and gone on with. A population of 12 to 24 suits a sheet.",
     .example = "$ tartan breed garden.study -o garden.run",
     .options = options,
     .option_count = OPTION_COUNT(options),

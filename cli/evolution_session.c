@@ -24,9 +24,8 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
 {
     const tn_settings *settings = e->command->settings;
     const char *path = settings->operands.items[0];
-    tn_evolution_job_options options = {.threads = (unsigned)settings->threads.value,
-                              .says_seed = settings->seed.given,
-                              .seed = settings->seed.value};
+    tn_evolution_job_options options = {
+        .threads = (unsigned)settings->threads.value, .says_seed = settings->seed.given, .seed = settings->seed.value};
     tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
     const tn_source *grammar = source_of(e->command, study->grammar_file), *text = source_of(e->command, 0);
     tn_run_texts texts = {path, text->text, grammar->path, grammar->text};

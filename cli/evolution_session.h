@@ -2,8 +2,8 @@
 #ifndef TARTAN_CLI_EVOLUTION_SESSION_H
 #define TARTAN_CLI_EVOLUTION_SESSION_H
 
-#include "cli/option_rows.h"
 #include "cli/job.h"
+#include "cli/option_rows.h"
 #include "driver/evolve.h"
 
 #define OPTION_RUN_DIR                                                                                                 \
@@ -22,8 +22,8 @@ typedef struct tn_evolution_session {
     uint32_t generations; /* to be bred, after the first */
 } tn_evolution_session;
 
-/* Opens the study that the first operand names, and begins or resumes its run. False where that failed. Close it in any case, before
- * the job ends. */
+/* Opens the study that the first operand names, and begins or resumes its run. False where that failed. Close it in any
+ * case, before the job ends. */
 bool tn_evolution_session_open(tn_job *command, tn_evolution_session *evolution);
 void tn_evolution_session_close(tn_evolution_session *evolution);
 

@@ -20,8 +20,8 @@ static void describe(const tn_evolution_session *e, uint64_t evaluated_before, d
     tn_generation_stats s = tn_evolution_stats(e->run.evolution);
     uint32_t invalid = s.no_sentence + s.failed + s.limited, members = invalid + s.scored;
     double seconds = now() - start;
-    snprintf(text, size, "generations; best %.5g, mean %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s", s.best[0], s.mean,
-             members ? 100.0 * invalid / members : 0, s.distinct,
+    snprintf(text, size, "generations; best %.5g, mean %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s",
+             s.best[0], s.mean, members ? 100.0 * invalid / members : 0, s.distinct,
              seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
 }
 
@@ -54,9 +54,11 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
     if (e->run.generations == 0)
         return;
-    fprintf(out, "%u generations, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation, s.evaluations, s.births);
-    fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct, %u without sentence, %u failed, %u past a limit\n", s.best[0],
-            s.mean, s.distinct, s.no_sentence, s.failed, s.limited);
+    fprintf(out, "%u generations, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation, s.evaluations,
+            s.births);
+    fprintf(out,
+            "last generation: best %.6g, mean %.6g, %u distinct, %u without sentence, %u failed, %u past a limit\n",
+            s.best[0], s.mean, s.distinct, s.no_sentence, s.failed, s.limited);
     if (count && members[0]->score.state == TN_SCORED)
         fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
     fprintf(out, "results are in %s\n", e->run.dir);
@@ -85,7 +87,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 static const tn_option options[] = {
     OPTION_RUN_DIR,
     OPTION_RUN_RESUME,
-    NUMBER("generations", 'g', "N", generations, 0, 1000000, "how many generations to breed, instead of the study's number"),
+    NUMBER("generations", 'g', "N", generations, 0, 1000000,
+           "how many generations to breed, instead of the study's number"),
     OPTION_RUN_SET,
     OPTION_RUN_SEED,
     OPTION_THREADS,
@@ -96,13 +99,17 @@ const tn_command tn_command_evolve = {
     .name = "evolve",
     .summary = "breed sentences of a grammar towards what a study wants",
     .usage = "STUDY.study [-o DIR] [--resume] [--generations N]",
-    .description =
-        "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and breeds the next generation "
-        "from the best, as often as the study says. The same study and seed give the same run on every machine and with any number of "
-        "threads.\n\n"
-        "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with their derivations drawn), "
-        "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run goes on with --resume and "
-        "ends with the same bytes as one that was not. With --resume and a larger --generations a finished run is extended.",
+    .description = "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and "
+                   "breeds the next generation "
+                   "from the best, as often as the study says. The same study and seed give the same run on every "
+                   "machine and with any number of "
+                   "threads.\n\n"
+                   "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with "
+                   "their derivations drawn), "
+                   "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run "
+                   "goes on with --resume and "
+                   "ends with the same bytes as one that was not. With --resume and a larger --generations a finished "
+                   "run is extended.",
     .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "cli/interrupt.h"
-#include "cli/option_rows.h"
 #include "cli/job.h"
+#include "cli/option_rows.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/gene/invert.h"
 #include "runtime/gene/mapper.h"
@@ -15,8 +15,8 @@
 #include "runtime/vm/random.h"
 #include "runtime/vm/utf8.h"
 
-#define RANDOM_CODONS 200u           /* of a random genome, unless --codons says otherwise */
-#define RANDOM_CODON_BITS 31         /* their size */
+#define RANDOM_CODONS 200u   /* of a random genome, unless --codons says otherwise */
+#define RANDOM_CODON_BITS 31 /* their size */
 
 typedef struct mapping_run {
     tn_job *job;
@@ -81,12 +81,13 @@ static void write_text(const mapping_run *run, const tn_mapping *m)
 {
     fprintf(run->out, "# genome %" PRIu64 ": ", run->done + 1);
     if (m->has_phenotype)
-        fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %u", m->used, m->wraps, m->nodes,
-                m->depth);
+        fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %u", m->used, m->wraps,
+                m->nodes, m->depth);
     if (!m->valid)
         fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_map_reason_text(m->reason));
     if (m->repaired_count)
-        fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", m->repaired_count, m->repaired_used - m->used);
+        fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", m->repaired_count,
+                m->repaired_used - m->used);
     fputc('\n', run->out);
     if (m->has_phenotype)
         fprintf(run->out, "%s\n", m->repaired ? m->repaired_phenotype : m->phenotype);
@@ -100,7 +101,8 @@ static void write_tree(mapping_run *run, const tn_mapping *m)
     tn_status status = tn_tree_make(m->events, m->event_count, &tree, &error);
     if (status == TN_OK && strcmp(how, "text") == 0)
         tn_tree_write_text(run->grammar, m->events, &tree, run->out);
-    else if (status == TN_OK && strcmp(how, "json") == 0 && tn_tree_write_json(run->grammar, m->events, &tree, run->out))
+    else if (status == TN_OK && strcmp(how, "json") == 0 &&
+             tn_tree_write_json(run->grammar, m->events, &tree, run->out))
         fputc('\n', run->out);
     else if (status == TN_OK && strcmp(how, "json") != 0)
         status = tn_tree_draw(run->grammar, m->events, &tree, how, &error);
@@ -305,11 +307,14 @@ static const tn_option options[] = {
     TEXT("genome", 'g', "\"N N ...\"", genome, "map this genome"),
     TEXT("genomes", 0, "FILE", genomes, "map the genomes of FILE, one a line; - is standard input"),
     NUMBER("random", 0, "N", random, 0, 0, "map N random genomes"),
-    TEXT("invert", 0, "SENTENCE", invert, "find a genome that maps to SENTENCE (before repair), or say why there is none"),
+    TEXT("invert", 0, "SENTENCE", invert,
+         "find a genome that maps to SENTENCE (before repair), or say why there is none"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which random genomes: the same seed gives the same (default 0)"),
     NUMBER("codons", 0, "N", codons, 0, TN_GENOME_CODONS_MAX, "codons of a random genome (default 200)"),
-    NUMBER("wraps", 0, "N", wraps, 0, UINT32_MAX, "how often a genome may be read once more (default: what the grammar says)"),
-    NUMBER("max-depth", 0, "N", max_depth, 0, UINT32_MAX, "limit of depth, 0 for none (default: what the grammar says)"),
+    NUMBER("wraps", 0, "N", wraps, 0, UINT32_MAX,
+           "how often a genome may be read once more (default: what the grammar says)"),
+    NUMBER("max-depth", 0, "N", max_depth, 0, UINT32_MAX,
+           "limit of depth, 0 for none (default: what the grammar says)"),
     NUMBER("max-steps", 0, "N", max_steps, 1, UINT64_MAX, "most symbols and codons of a sentence (default 1000000)"),
     NUMBER("max-items", 0, "N", max_items, 1, UINT32_MAX - 1, "most parser states of --invert (default 2000000)"),
     CHOICE("format", 'f', "FORMAT", format, "text|json", "text (the default), or json: one object a line"),
@@ -324,10 +329,13 @@ const tn_command tn_command_map = {
     .usage = "GRAMMAR.bnf --genome \"212 187 632 ...\"\nGRAMMAR.bnf --genomes FILE\nGRAMMAR.bnf --random N [--seed S]\n"
              "GRAMMAR.bnf --invert \"SENTENCE\"",
     .description =
-        "Reads a genome codon by codon to choose, from the start symbol on, a production for each non-terminal, and writes the "
-        "sentence with the number of codons used, wraps, nodes and depth. A genome that gives no sentence is no error: it is "
+        "Reads a genome codon by codon to choose, from the start symbol on, a production for each non-terminal, and "
+        "writes the "
+        "sentence with the number of codons used, wraps, nodes and depth. A genome that gives no sentence is no error: "
+        "it is "
         "reported as not valid, with the reason. Codons are whole numbers from 0 to 18446744073709551615.\n\n"
-        "JSON: one object a line with valid, reason, phenotype, used_codons, nodes, depth, wraps; for the genr8 dialect also "
+        "JSON: one object a line with valid, reason, phenotype, used_codons, nodes, depth, wraps; for the genr8 "
+        "dialect also "
         "max_id, repaired_phenotype, repaired_used_codons and repaired_ids.",
     .example = "$ tartan map genr8-example.bnf --genome \"212 187 632 832 800 517 338 39\" --trace",
     .options = options,

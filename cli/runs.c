@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/option_rows.h"
 #include "cli/job.h"
+#include "cli/option_rows.h"
 #include "driver/evolve.h"
 
 static bool read_run(tn_job *job, const char *dir, tn_generation_stats **stats, size_t *count, char **identity)
@@ -35,11 +35,12 @@ static void show(tn_job *job, const char *dir, FILE *out)
     char *identity;
     if (read_run(job, dir, &stats, &count, &identity)) {
         fprintf(out, "%s: %s\n", dir, identity ? identity : "not begun");
-        fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid", "evaluations", "births");
+        fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
+                "evaluations", "births");
         for (size_t i = 0; i < count; i++)
-            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", stats[i].generation, stats[i].best[0],
-                    stats[i].mean, stats[i].distinct, stats[i].no_sentence + stats[i].failed + stats[i].limited, stats[i].evaluations,
-                    stats[i].births);
+            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", stats[i].generation,
+                    stats[i].best[0], stats[i].mean, stats[i].distinct,
+                    stats[i].no_sentence + stats[i].failed + stats[i].limited, stats[i].evaluations, stats[i].births);
     }
     free(stats);
     free(identity);
@@ -49,7 +50,8 @@ static void show(tn_job *job, const char *dir, FILE *out)
 static void compare(tn_job *job, FILE *out)
 {
     const tn_option_list *dirs = &job->settings->operands;
-    fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations", "best first at");
+    fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations",
+            "best first at");
     for (size_t d = 1; d < dirs->count; d++) {
         tn_generation_stats *stats;
         size_t count, first = 0;
@@ -61,8 +63,8 @@ static void compare(tn_job *job, FILE *out)
             const tn_generation_stats *last = &stats[count - 1];
             while (first + 1 < count && stats[first].best[0] > last->best[0])
                 first++;
-            fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation, last->best[0], last->mean,
-                    last->evaluations, stats[first].generation);
+            fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation,
+                    last->best[0], last->mean, last->evaluations, stats[first].generation);
         }
         free(stats);
         free(identity);
@@ -109,7 +111,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     const tn_option_list *words = &settings->operands;
     const char *what = words->items[0];
     tn_job_begin(&job, settings);
-    bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0, replays = strcmp(what, "replay") == 0;
+    bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0,
+         replays = strcmp(what, "replay") == 0;
     if (!shows && !compares && !replays)
         tn_job_usage(&job, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
     else if (replays && words->count != 3)
@@ -134,9 +137,10 @@ const tn_command tn_command_runs = {
     .name = "runs",
     .summary = "show, compare and replay runs of evolution",
     .usage = "show DIR\ncompare DIR...\nreplay DIR INDIVIDUAL",
-    .description =
-        "show lists a run's generations. compare puts several runs side by side: how far each came, and when. replay makes a run again, "
-        "without scoring, up to the individual with that number, and writes its genome and its sentence: bit for bit what they were.",
+    .description = "show lists a run's generations. compare puts several runs side by side: how far each came, and "
+                   "when. replay makes a run again, "
+                   "without scoring, up to the individual with that number, and writes its genome and its sentence: "
+                   "bit for bit what they were.",
     .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -21,11 +21,12 @@ static void check_sizes(tn_bnf_grammar *g)
 {
     for (size_t r = 0; r < g->rule_count; r++)
         if (g->rules[r]->name.length > TN_NAME_MAX)
-            tn_report(g->reader->diagnostics, E_NAME_TOO_LONG, g->rules[r]->name_span, "a name of %zu bytes; the limit is %u",
-                      g->rules[r]->name.length, TN_NAME_MAX);
+            tn_report(g->reader->diagnostics, E_NAME_TOO_LONG, g->rules[r]->name_span,
+                      "a name of %zu bytes; the limit is %u", g->rules[r]->name.length, TN_NAME_MAX);
     if (g->production_count > TN_BNF_PRODUCTIONS_MAX)
         tn_report(g->reader->diagnostics, E_GRAMMAR_TOO_LARGE, g->rules[0]->name_span,
-                  "the grammar has %zu alternatives, more than %u, the limit", g->production_count, TN_BNF_PRODUCTIONS_MAX);
+                  "the grammar has %zu alternatives, more than %u, the limit", g->production_count,
+                  TN_BNF_PRODUCTIONS_MAX);
 }
 
 /* ---- code */
@@ -58,7 +59,8 @@ static void emit_items(tn_builder *builder, tn_bnf_items items, uint32_t first_r
             break;
         case TN_BNF_REPEAT:
         case TN_BNF_MAYBE:
-            tn_builder_emit(builder, item->kind == TN_BNF_REPEAT ? TN_OP_REPEAT : TN_OP_MAYBE, code_length(item->body), 0);
+            tn_builder_emit(builder, item->kind == TN_BNF_REPEAT ? TN_OP_REPEAT : TN_OP_MAYBE, code_length(item->body),
+                            0);
             emit_items(builder, item->body, first_rule);
             break;
         default:
@@ -77,10 +79,8 @@ static void emit_rule(tn_builder *builder, const tn_bnf_rule *rule, uint32_t fir
                                     .begin = rule->name_span.begin,
                                     .end = rule->name_span.end};
     for (const tn_bnf_alternative *a = rule->alternatives.first; a; a = a->next) {
-        tn_production_record production = {.code_begin = tn_builder_offset(builder),
-                                           .file = a->span.file,
-                                           .begin = a->span.begin,
-                                           .end = a->span.end};
+        tn_production_record production = {
+            .code_begin = tn_builder_offset(builder), .file = a->span.file, .begin = a->span.begin, .end = a->span.end};
         tn_builder_add_MAP(builder, &(tn_map_record){.offset = production.code_begin,
                                                      .file = a->span.file,
                                                      .begin = a->span.begin,
@@ -102,7 +102,8 @@ static tn_bnf_text grammar_name(const char *path)
 
 static uint32_t named(const tn_bnf_grammar *g, const char *name, uint32_t first_rule)
 {
-    uint32_t rule = g->reader->ast.dialect == TN_DIALECT_GENR8 ? tn_bnf_find(g, (tn_bnf_text){name, strlen(name)}) : TN_BNF_NONE;
+    uint32_t rule =
+        g->reader->ast.dialect == TN_DIALECT_GENR8 ? tn_bnf_find(g, (tn_bnf_text){name, strlen(name)}) : TN_BNF_NONE;
     return rule == TN_BNF_NONE ? TN_NO_RECORD : first_rule + rule;
 }
 
@@ -122,8 +123,12 @@ static void emit(const tn_bnf_grammar *g, const tn_source *source, tn_builder *b
         .dialect = ast->dialect,
         .flags = ast->skip_single ? TN_SKIP_SINGLE : 0,
         .repair = genr8 ? ast->repair : TN_REPAIR_OFF,
-        .max_depth = ast->says_max_depth ? ast->max_depth : genr8 ? GENR8_MAX_DEPTH : GE_MAX_DEPTH,
-        .wraps = ast->says_wraps ? ast->wraps : genr8 ? GENR8_WRAPS : GE_WRAPS,
+        .max_depth = ast->says_max_depth ? ast->max_depth
+                     : genr8             ? GENR8_MAX_DEPTH
+                                         : GE_MAX_DEPTH,
+        .wraps = ast->says_wraps ? ast->wraps
+                 : genr8         ? GENR8_WRAPS
+                                 : GE_WRAPS,
         .rule_first = first_rule,
         .rule_count = (uint32_t)g->rule_count,
         .rewrite_rule = named(g, "<RewriteRule>", first_rule),
@@ -136,8 +141,8 @@ static void emit(const tn_bnf_grammar *g, const tn_source *source, tn_builder *b
     tn_builder_add_GRAMMAR(builder, &record);
 }
 
-tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena, tn_builder *builder,
-                         tn_error *error)
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
+                         tn_builder *builder, tn_error *error)
 {
     tn_source *source = &sources->files[file];
     size_t errors_before = diagnostics->error_count;

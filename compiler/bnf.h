@@ -1,6 +1,6 @@
-/* Compiles a .bnf text, already among the sources, into a module under construction: one GRAMMAR record, its NONTERMINAL and
- * PRODUCTION records, and their code. What is wrong is in the diagnostics; nothing is added to the builder where there is an
- * error. */
+/* Compiles a .bnf text, already among the sources, into a module under construction: one GRAMMAR record, its
+ * NONTERMINAL and PRODUCTION records, and their code. What is wrong is in the diagnostics; nothing is added to the
+ * builder where there is an error. */
 #ifndef TARTAN_COMPILER_BNF_H
 #define TARTAN_COMPILER_BNF_H
 
@@ -9,8 +9,8 @@
 #include "runtime/vm/builder.h"
 
 /* TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
-tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena, tn_builder *builder,
-                         tn_error *error);
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
+                         tn_builder *builder, tn_error *error);
 
 /* Is it a .bnf file, by its name? */
 bool tn_is_bnf(const char *path);

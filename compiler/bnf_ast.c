@@ -23,8 +23,8 @@ tn_bnf_item *tn_bnf_lone_quote(tn_bnf_reader *reader, tn_span span, tn_bnf_text 
     char quote = text.text[0], other = quote == '"' ? '\'' : '"';
     tn_diagnostic *diagnostic =
         tn_report(reader->diagnostics, E_UNTERMINATED_STRING, span, "this quote has no partner on its line");
-    tn_help(reader->diagnostics, diagnostic, "to write the sign itself, put it between quotes of the other kind: %c%c%c",
-            other, quote, other);
+    tn_help(reader->diagnostics, diagnostic,
+            "to write the sign itself, put it between quotes of the other kind: %c%c%c", other, quote, other);
     return tn_bnf_item_new(reader, TN_BNF_PLAIN, span, text);
 }
 
@@ -156,7 +156,8 @@ void tn_bnf_memory_exhausted(tn_bnf_reader *reader, tn_span span, const char *me
 {
     (void)message;
     reader->failed = true;
-    tn_report(reader->diagnostics, E_GRAMMAR_TOO_LARGE, span, "groups nest too deep to be read (limit %u)", TN_GROUP_DEPTH);
+    tn_report(reader->diagnostics, E_GRAMMAR_TOO_LARGE, span, "groups nest too deep to be read (limit %u)",
+              TN_GROUP_DEPTH);
 }
 
 /* ---- directives */
@@ -251,7 +252,8 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
             bad_value(reader, span, names[1], "consume or skip");
         ast->skip_single = chosen == 1;
         if (ast->skip_single && reader->genr8)
-            tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "in the genr8 dialect every non-terminal reads a gene");
+            tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span,
+                      "in the genr8 dialect every non-terminal reads a gene");
         break;
     case 2:
         chosen = choice(value, repairs, 3);
@@ -273,13 +275,15 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
         ast->says_wraps = true;
         break;
     default: {
-        tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "there is no such directive");
+        tn_diagnostic *diagnostic =
+            tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "there is no such directive");
         char *word = tn_arena_copy(reader->arena, said.items[0].text, said.count ? said.items[0].length : 0);
         const char *near = word ? tn_nearest(word, names, 5) : NULL;
         if (near)
             tn_help(reader->diagnostics, diagnostic, "did you mean %s?", near);
         else
-            tn_help(reader->diagnostics, diagnostic, "there are %%dialect, %%single-choice, %%repair, %%max-depth and %%wraps");
+            tn_help(reader->diagnostics, diagnostic,
+                    "there are %%dialect, %%single-choice, %%repair, %%max-depth and %%wraps");
         break;
     }
     }

@@ -1,7 +1,7 @@
 /* What the parser of .bnf files builds: rules of alternatives of items, each with its byte range.
  *
- * Everything lives in the compilation's arena. The constructors are called by the grammar's actions, one each; where memory
- * runs out they return NULL (or what they were given), which the arena remembers.
+ * Everything lives in the compilation's arena. The constructors are called by the grammar's actions, one each; where
+ * memory runs out they return NULL (or what they were given), which the arena remembers.
  */
 #ifndef TARTAN_COMPILER_BNF_AST_H
 #define TARTAN_COMPILER_BNF_AST_H
@@ -17,11 +17,11 @@ typedef struct tn_bnf_text {
 } tn_bnf_text;
 
 typedef enum tn_bnf_kind {
-    TN_BNF_PLAIN,     /* text as written; ge: its escapes not yet read */
-    TN_BNF_QUOTED,    /* without its quotes */
-    TN_BNF_NEWLINE,   /* ge: a line end between two pieces, with the blanks around it */
-    TN_BNF_TERMINAL,  /* made of the three above: what is written to the sentence */
-    TN_BNF_NAME,      /* with its angle brackets */
+    TN_BNF_PLAIN,    /* text as written; ge: its escapes not yet read */
+    TN_BNF_QUOTED,   /* without its quotes */
+    TN_BNF_NEWLINE,  /* ge: a line end between two pieces, with the blanks around it */
+    TN_BNF_TERMINAL, /* made of the three above: what is written to the sentence */
+    TN_BNF_NAME,     /* with its angle brackets */
     TN_BNF_EDGE,
     TN_BNF_EDGE_SAME, /* letter: 0 to 2 */
     TN_BNF_REPEAT,    /* body */
@@ -88,8 +88,8 @@ typedef struct tn_bnf_reader {
     tn_bnf_file ast;
 } tn_bnf_reader;
 
-/* Parses a text, `size` bytes followed by two zero bytes, which the lexer writes to while it works but leaves as they were.
- * What is wrong is in the diagnostics. */
+/* Parses a text, `size` bytes followed by two zero bytes, which the lexer writes to while it works but leaves as they
+ * were. What is wrong is in the diagnostics. */
 void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size);
 
 /* ---- for the grammar */
@@ -105,7 +105,8 @@ tn_bnf_alternative *tn_bnf_alternative_new(tn_bnf_reader *reader, tn_span span, 
 tn_bnf_alternatives tn_bnf_first(tn_bnf_reader *reader, tn_bnf_alternative *alternative);
 tn_bnf_alternatives tn_bnf_next(tn_bnf_reader *reader, tn_bnf_alternatives list, tn_bnf_alternative *alternative,
                                 bool after_comment);
-void tn_bnf_rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head, tn_span span, tn_bnf_alternatives list);
+void tn_bnf_rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head, tn_span span,
+                     tn_bnf_alternatives list);
 void tn_bnf_rule_broken(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head);
 void tn_bnf_unexpected(tn_bnf_reader *reader, tn_span span, const char *token);
 void tn_bnf_memory_exhausted(tn_bnf_reader *reader, tn_span span, const char *message);

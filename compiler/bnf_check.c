@@ -52,8 +52,8 @@ static void enter_names(tn_bnf_grammar *g)
 static void undefined(tn_bnf_grammar *g, const tn_bnf_item *item)
 {
     tn_diagnostics *list = g->reader->diagnostics;
-    tn_diagnostic *diagnostic =
-        tn_report(list, E_GRAMMAR_UNDEFINED, item->span, "there is no rule %.*s", (int)item->text.length, item->text.text);
+    tn_diagnostic *diagnostic = tn_report(list, E_GRAMMAR_UNDEFINED, item->span, "there is no rule %.*s",
+                                          (int)item->text.length, item->text.text);
     size_t count = g->rule_count < SUGGESTIONS_MAX ? g->rule_count : SUGGESTIONS_MAX;
     const char **names = TN_NEW_ARRAY(g->reader->arena, const char *, count);
     const char *wanted = tn_arena_copy(g->reader->arena, item->text.text, item->text.length);
@@ -80,8 +80,9 @@ static void find_names(tn_bnf_grammar *g, tn_bnf_items items)
 
 /* ---- which rules can end */
 
-/* A rule can end if one of its alternatives needs only rules that can; what is in a group is not needed. Each alternative
- * waits for a number of names, and a rule that is found to end wakes the alternatives that wait for it: linear time. */
+/* A rule can end if one of its alternatives needs only rules that can; what is in a group is not needed. Each
+ * alternative waits for a number of names, and a rule that is found to end wakes the alternatives that wait for it:
+ * linear time. */
 typedef struct ending {
     tn_bnf_grammar *grammar;
     uint32_t *rule_of;     /* by alternative */
@@ -222,8 +223,9 @@ static void check_repair(tn_bnf_grammar *g)
     for (size_t i = 0; ast->repair != TN_REPAIR_OFF && i < 3; i++) {
         if (tn_bnf_find(g, (tn_bnf_text){names[i], strlen(names[i])}) != TN_BNF_NONE)
             continue;
-        tn_diagnostic *diagnostic = tn_report(g->reader->diagnostics, E_GRAMMAR_REPAIR, g->rules[0]->name_span,
-                                              "repair gives a rule to edge types that have none, and needs a rule %s", names[i]);
+        tn_diagnostic *diagnostic =
+            tn_report(g->reader->diagnostics, E_GRAMMAR_REPAIR, g->rules[0]->name_span,
+                      "repair gives a rule to edge types that have none, and needs a rule %s", names[i]);
         tn_help(g->reader->diagnostics, diagnostic, "write that rule, or begin the file with `%%repair off`");
     }
 }

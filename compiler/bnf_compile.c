@@ -13,10 +13,12 @@ static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn
     tn_status status = tn_bnf_compile(&c->sources, file, &c->diagnostics, c->arena, builder, error);
     if (status != TN_OK)
         return status;
-    tn_builder_add_SOURCE(builder, &(tn_source_record){.path = tn_builder_string(builder, source->path),
-                                                       .text = tn_builder_string_n(builder, source->text, source->size)});
-    tn_builder_add_PRODUCER(builder, &(tn_producer_record){.version = tn_builder_string(builder, "tartan " TARTAN_VERSION),
-                                                           .sources_hash = (int64_t)XXH3_64bits(source->text, source->size)});
+    tn_builder_add_SOURCE(builder,
+                          &(tn_source_record){.path = tn_builder_string(builder, source->path),
+                                              .text = tn_builder_string_n(builder, source->text, source->size)});
+    tn_builder_add_PRODUCER(builder,
+                            &(tn_producer_record){.version = tn_builder_string(builder, "tartan " TARTAN_VERSION),
+                                                  .sources_hash = (int64_t)XXH3_64bits(source->text, source->size)});
     return tn_builder_finish(builder, &c->module, &c->module_size, error);
 }
 

@@ -1,5 +1,5 @@
-/* Terminals of .bnf files. In ge, the pieces between two non-terminals are one terminal, white space and all, and escapes are
- * read as PonyGE2 reads them; in genr8, each token is one. */
+/* Terminals of .bnf files. In ge, the pieces between two non-terminals are one terminal, white space and all, and
+ * escapes are read as PonyGE2 reads them; in genr8, each token is one. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -208,7 +208,8 @@ static void check_braces(tn_bnf_reader *reader, const tn_bnf_item *item, bool *r
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_DIALECT, item->span,
                                           "braces or brackets stand alone, and the file does not say what they mean");
     tn_help(reader->diagnostics, diagnostic,
-            "begin the file with `%%dialect genr8` if they repeat and make optional, or with `%%dialect ge` if they are text");
+            "begin the file with `%%dialect genr8` if they repeat and make optional, or with `%%dialect ge` if they "
+            "are text");
 }
 
 static tn_bnf_item *range_item(tn_bnf_reader *reader, tn_span span, uint32_t value)
@@ -222,8 +223,10 @@ static tn_bnf_item *range_item(tn_bnf_reader *reader, tn_span span, uint32_t val
     return copy ? tn_bnf_item_new(reader, TN_BNF_TERMINAL, span, (tn_bnf_text){copy, (size_t)length}) : NULL;
 }
 
-/* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false where this is none. */
-static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_alternative *from, tn_bnf_alternatives *kept)
+/* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false where this is none.
+ */
+static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_alternative *from,
+                         tn_bnf_alternatives *kept)
 {
     static const char word[] = "GE_RANGE:";
     size_t length = sizeof word - 1, count;
@@ -237,17 +240,18 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     if (count == 0 || word_goes_on) {
         tn_diagnostic *diagnostic =
             tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE wants a whole number of up to nine digits");
-        tn_help(reader->diagnostics, diagnostic, "GE_RANGE:3 stands for 0 | 1 | 2; numbers of a data set are not known here");
+        tn_help(reader->diagnostics, diagnostic,
+                "GE_RANGE:3 stands for 0 | 1 | 2; numbers of a data set are not known here");
         return true;
     }
     if (top > TN_BNF_PRODUCTIONS_MAX) {
-        tn_report(reader->diagnostics, E_GRAMMAR_TOO_LARGE, span, "GE_RANGE:%u makes more than %u alternatives, the limit", top,
-                  TN_BNF_PRODUCTIONS_MAX);
+        tn_report(reader->diagnostics, E_GRAMMAR_TOO_LARGE, span,
+                  "GE_RANGE:%u makes more than %u alternatives, the limit", top, TN_BNF_PRODUCTIONS_MAX);
         return true;
     }
     if (item->next || length + count < item->text.length)
-        tn_report(reader->diagnostics, W_GRAMMAR_RANGE_REST, from->span, "what follows GE_RANGE:%u in its alternative is dropped",
-                  top);
+        tn_report(reader->diagnostics, W_GRAMMAR_RANGE_REST, from->span,
+                  "what follows GE_RANGE:%u in its alternative is dropped", top);
     for (uint32_t value = 0; value < top; value++) {
         tn_bnf_items items = tn_bnf_append(reader, (tn_bnf_items){0}, range_item(reader, span, value));
         *kept = tn_bnf_next(reader, *kept, tn_bnf_alternative_new(reader, from->span, items), false);
@@ -269,7 +273,8 @@ static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative, bool
 static void bad_token(tn_bnf_reader *reader, const tn_bnf_item *item, const char *what)
 {
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_TOKEN, item->span, "%s", what);
-    tn_help(reader->diagnostics, diagnostic, "in the genr8 dialect blanks part all tokens; quote what is to be text: 'x'");
+    tn_help(reader->diagnostics, diagnostic,
+            "in the genr8 dialect blanks part all tokens; quote what is to be text: 'x'");
 }
 
 static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
@@ -277,8 +282,8 @@ static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
     tn_bnf_text text = item->text;
     const char *open = memchr(text.text, '<', text.length);
     if (memchr(text.text, '{', text.length) || memchr(text.text, '}', text.length) ||
-             memchr(text.text, '[', text.length) || memchr(text.text, ']', text.length) ||
-             memchr(text.text, '|', text.length))
+        memchr(text.text, '[', text.length) || memchr(text.text, ']', text.length) ||
+        memchr(text.text, '|', text.length))
         bad_token(reader, item, "a brace, bracket or bar sticks to other text");
     else if (open && memchr(open, '>', text.length - (size_t)(open - text.text)) && text.length > 2)
         bad_token(reader, item, "a non-terminal sticks to other text");
@@ -289,7 +294,8 @@ static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
 static void check_edge(tn_bnf_reader *reader, const tn_bnf_item *item)
 {
     if (item->text.length > 4 && memcmp(item->text.text, "Edge", 4) == 0 && digit(item->text.text[4], 10) >= 0)
-        bad_token(reader, item, "an edge with a number of its own: the genome draws the numbers, write Edge, EdgeX, EdgeY or EdgeZ");
+        bad_token(reader, item,
+                  "an edge with a number of its own: the genome draws the numbers, write Edge, EdgeX, EdgeY or EdgeZ");
 }
 
 static void make_genr8(tn_bnf_reader *reader, tn_bnf_items items)
@@ -338,8 +344,9 @@ static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
     rule->alternatives = kept;
     if (!kept.first && !rule->broken) {
         rule->broken = true;
-        tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_EMPTY_RULE, rule->name_span,
-                                              "the rule %.*s has no alternatives", (int)rule->name.length, rule->name.text);
+        tn_diagnostic *diagnostic =
+            tn_report(reader->diagnostics, E_GRAMMAR_EMPTY_RULE, rule->name_span, "the rule %.*s has no alternatives",
+                      (int)rule->name.length, rule->name.text);
         if (!genr8)
             tn_help(reader->diagnostics, diagnostic, "to write nothing to the sentence, say so: \"\"");
     }

@@ -17,10 +17,16 @@
 
 /* ---- the checked study: names are as the engine's own lists have them */
 
-typedef enum tn_evolution_problem { TN_EVOLVE_NOTHING, TN_EVOLVE_MATCH, TN_EVOLVE_FIT, TN_EVOLVE_LEARN, TN_EVOLVE_GROW } tn_evolution_problem;
+typedef enum tn_evolution_problem {
+    TN_EVOLVE_NOTHING,
+    TN_EVOLVE_MATCH,
+    TN_EVOLVE_FIT,
+    TN_EVOLVE_LEARN,
+    TN_EVOLVE_GROW
+} tn_evolution_problem;
 
 typedef struct tn_evolution_study {
-    const char *grammar; /* as written */
+    const char *grammar;   /* as written */
     uint32_t grammar_file; /* among the sources */
     tn_evolution_problem problem;
     const char *match;       /* the text */
@@ -46,7 +52,7 @@ typedef struct tn_evolution_study {
     const char *replacement;
     uint64_t max_depth, wraps, tree_depth, max_steps;
     bool says_max_depth, says_wraps, says_stop, says_tree_depth;
-    double stop; /* as soon as the best is not above it */
+    double stop;          /* as soon as the best is not above it */
     double length_weight; /* learn: what a byte of a rule costs */
     tn_span span;
 } tn_evolution_study;
@@ -58,7 +64,12 @@ typedef struct tn_evolution_text {
     size_t length;
 } tn_evolution_text;
 
-typedef enum tn_evolution_value_kind { TN_EVOLUTION_WORD, TN_EVOLUTION_NUMBER, TN_EVOLUTION_RANGE, TN_EVOLUTION_STRING } tn_evolution_value_kind;
+typedef enum tn_evolution_value_kind {
+    TN_EVOLUTION_WORD,
+    TN_EVOLUTION_NUMBER,
+    TN_EVOLUTION_RANGE,
+    TN_EVOLUTION_STRING
+} tn_evolution_value_kind;
 
 typedef struct tn_evolution_value {
     tn_evolution_value_kind kind;
@@ -89,7 +100,8 @@ void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size);
 
 /* For the grammar. */
 void tn_evolution_block(tn_evolution_reader *reader, tn_span span);
-void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name, tn_evolution_value *values);
+void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name,
+                              tn_evolution_value *values);
 tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolution_value_kind kind, tn_span span,
                                            tn_evolution_text text);
 tn_evolution_value *tn_evolution_value_add(tn_evolution_value *list, tn_evolution_value *value);

@@ -13,7 +13,8 @@ void tn_evolution_block(tn_evolution_reader *reader, tn_span span)
     reader->block = span;
 }
 
-void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name, tn_evolution_value *values)
+void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name,
+                              tn_evolution_value *values)
 {
     tn_evolution_setting *setting = TN_NEW(reader->arena, tn_evolution_setting);
     char *copy = tn_arena_copy(reader->arena, name.text, name.length);

@@ -6,11 +6,11 @@
 #include "compiler/evolution.h"
 
 typedef enum kind {
-    WHOLE,    /* a whole number from low to high */
-    REAL,     /* a number from low to high */
-    PAIR,     /* a whole number, or a range of them */
-    TEXT,     /* in quotes */
-    CHOICE,   /* a word of a list */
+    WHOLE,       /* a whole number from low to high */
+    REAL,        /* a number from low to high */
+    PAIR,        /* a whole number, or a range of them */
+    TEXT,        /* in quotes */
+    CHOICE,      /* a word of a list */
     CHOICE_REAL, /* and perhaps a number after it */
 } kind;
 
@@ -94,7 +94,8 @@ static void bad_value(check *c, const setting_row *row, tn_span span)
         tn_help(list, diagnostic, "write one of %s", row->choices);
         break;
     case CHOICE_REAL:
-        tn_help(list, diagnostic, "write one of %s, and perhaps a number from %g to %g", row->choices, row->low, row->high);
+        tn_help(list, diagnostic, "write one of %s, and perhaps a number from %g to %g", row->choices, row->low,
+                row->high);
         break;
     }
 }
@@ -228,23 +229,28 @@ static void check_whole(check *c)
     tn_evolution_study *s = c->study;
     int problems = (s->match != NULL) + (s->fit != NULL) + (s->grow != NULL) + (s->keep || s->drop);
     if (!s->grammar)
-        whole_error(c, "the study does not say which grammar genomes are mapped through", "add a line such as `grammar \"words\"`");
+        whole_error(c, "the study does not say which grammar genomes are mapped through",
+                    "add a line such as `grammar \"words\"`");
     if (problems != 1)
         whole_error(c, problems ? "the study has more than one problem" : "the study does not say what is wanted",
-                    "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
+                    "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` "
+                    "with `drop \"PLANS\"`");
     if ((s->keep != NULL) != (s->drop != NULL))
-        whole_error(c, "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
+        whole_error(c, "a rule is learned from plans of both kinds",
+                    "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
     s->problem = s->match ? TN_EVOLVE_MATCH : s->fit ? TN_EVOLVE_FIT : s->grow ? TN_EVOLVE_GROW : TN_EVOLVE_LEARN;
     if (s->elites >= s->population)
         whole_error(c, "there are as many elites as individuals", "an elite or two are usual");
     bool nsga2 = strcmp(s->selection, "nsga2") == 0;
     if (nsga2 && s->problem != TN_EVOLVE_LEARN && s->problem != TN_EVOLVE_GROW)
-        whole_error(c, "`selection nsga2` weighs several objectives, and this problem has one", "write `selection tournament 3`");
+        whole_error(c, "`selection nsga2` weighs several objectives, and this problem has one",
+                    "write `selection tournament 3`");
     if (nsga2 && strcmp(s->replacement, "generational") != 0)
         whole_error(c, "`selection nsga2` chooses among parents and children together", "leave `replacement` out");
     bool truncation = strcmp(s->selection, "truncation") == 0;
     if (truncation && s->says_selection_value && !(s->selection_value > 0 && s->selection_value <= 1))
-        whole_error(c, "`selection truncation` takes the share of the best", "write a number above 0 and not above 1, as 0.5");
+        whole_error(c, "`selection truncation` takes the share of the best",
+                    "write a number above 0 and not above 1, as 0.5");
     if (strcmp(s->mutation, "genome") != 0 && s->mutation_rate > 1)
         whole_error(c, "this mutation takes a probability", "write a number from 0 to 1");
 }

@@ -7,7 +7,8 @@
 #include "compiler/import.h"
 
 /* What importing asks: the study uses its grammar, a grammar uses nothing. */
-static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses, size_t *use_count)
+static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,
+                       size_t *use_count)
 {
     tn_source *source = &diagnostics->sources->files[file];
     tn_evolution_reader *reader = TN_NEW(arena, tn_evolution_reader);
@@ -24,7 +25,8 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
         return false;
     *uses = use;
     for (const tn_evolution_setting *s = reader->first; s; s = s->next) {
-        if (strcmp(s->name, "grammar") != 0 || !s->values || s->values->kind != TN_EVOLUTION_STRING || !s->values->text[0])
+        if (strcmp(s->name, "grammar") != 0 || !s->values || s->values->kind != TN_EVOLUTION_STRING ||
+            !s->values->text[0])
             continue;
         *use = (tn_use){.path = s->values->text, .span = s->values->span};
         *use_count = 1;
@@ -38,9 +40,10 @@ static tn_status emit(tn_compilation *c, uint32_t grammar, tn_error *error)
     tn_status status = builder ? tn_bnf_compile(&c->sources, grammar, &c->diagnostics, c->arena, builder, error)
                                : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < c->sources.count; i++)
-        tn_builder_add_SOURCE(builder, &(tn_source_record){
-                                           .path = tn_builder_string(builder, c->sources.files[i].path),
-                                           .text = tn_builder_string_n(builder, c->sources.files[i].text, c->sources.files[i].size)});
+        tn_builder_add_SOURCE(builder,
+                              &(tn_source_record){.path = tn_builder_string(builder, c->sources.files[i].path),
+                                                  .text = tn_builder_string_n(builder, c->sources.files[i].text,
+                                                                              c->sources.files[i].size)});
     if (status == TN_OK)
         status = tn_builder_finish(builder, &c->module, &c->module_size, error);
     tn_builder_free(builder);
@@ -51,8 +54,8 @@ tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation
 {
     tn_imports imports;
     tn_evolution_study *study = TN_NEW(c->arena, tn_evolution_study);
-    tn_status status = study ? tn_import_all(c->arena, &c->diagnostics, options->stdlib_dirs, options->stdlib_dir_count, ".bnf",
-                                             parse_unit, 0, &imports)
+    tn_status status = study ? tn_import_all(c->arena, &c->diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
+                                             ".bnf", parse_unit, 0, &imports)
                              : tn_fail_memory(error);
     if (status != TN_OK)
         return tn_fail_memory(error);
@@ -68,7 +71,8 @@ tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation
     }
     if (status == TN_MEMORY || status == TN_LIMIT)
         return status;
-    if (!well || !grammar || c->diagnostics.error_count > 0 || (options->warnings_are_errors && c->diagnostics.warning_count > 0)) {
+    if (!well || !grammar || c->diagnostics.error_count > 0 ||
+        (options->warnings_are_errors && c->diagnostics.warning_count > 0)) {
         free(c->module);
         c->module = NULL;
         return TN_INVALID;

@@ -43,7 +43,6 @@ static int number_of(const char *word, const char *const *names, int count)
 
 /* ---- settings */
 
-
 static void translate(const tn_evolution_study *s, const tn_grammar *grammar, const tn_evolution_job_options *options,
                       tn_evolution_settings *out)
 {
@@ -88,15 +87,17 @@ static char *identity_of(const tn_evolution_job *job)
     char *text = NULL;
     int length = asprintf(
         &text,
-        "problem %d grow \"%s\" match \"%s\" fit \"%s\" keep \"%s\" drop \"%s\" schema \"%s\" seed %llu population %u initialise %s codons %u "
-        "codon-limit %llu max-codons %zu depth %u..%u tail %.17g seeds %zu selection %s %u %.17g crossover %s %.17g mutation %s %.17g "
+        "problem %d grow \"%s\" match \"%s\" fit \"%s\" keep \"%s\" drop \"%s\" schema \"%s\" seed %llu population %u "
+        "initialise %s codons %u "
+        "codon-limit %llu max-codons %zu depth %u..%u tail %.17g seeds %zu selection %s %u %.17g crossover %s %.17g "
+        "mutation %s %.17g "
         "points %s elites %u replacement %s max-depth %u wraps %u tree-depth %u max-steps %llu length-weight %.17g",
-        (int)s->problem, s->grow ? s->grow : "", s->match ? s->match : "", s->fit ? s->fit : "", s->keep ? s->keep : "", s->drop ? s->drop : "", s->schema,
-        (unsigned long long)t->seed, t->population, s->initialise, t->codons, (unsigned long long)t->vary.codon_limit,
-        t->vary.max_codons, t->depth_low, t->depth_high, t->tail, job->seed_count, s->selection, t->select.tournament,
-        t->select.truncation, s->crossover, t->vary.crossover_rate, s->mutation, t->vary.mutation_rate, s->points, t->elites,
-        s->replacement, t->mapping.max_depth, t->mapping.wraps, t->vary.tree_depth, (unsigned long long)t->mapping.max_steps,
-        s->length_weight);
+        (int)s->problem, s->grow ? s->grow : "", s->match ? s->match : "", s->fit ? s->fit : "", s->keep ? s->keep : "",
+        s->drop ? s->drop : "", s->schema, (unsigned long long)t->seed, t->population, s->initialise, t->codons,
+        (unsigned long long)t->vary.codon_limit, t->vary.max_codons, t->depth_low, t->depth_high, t->tail,
+        job->seed_count, s->selection, t->select.tournament, t->select.truncation, s->crossover, t->vary.crossover_rate,
+        s->mutation, t->vary.mutation_rate, s->points, t->elites, s->replacement, t->mapping.max_depth,
+        t->mapping.wraps, t->vary.tree_depth, (unsigned long long)t->mapping.max_steps, s->length_weight);
     return length < 0 ? NULL : text;
 }
 
@@ -126,8 +127,8 @@ static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error 
 {
     char *keep = beside(path, job->study.keep), *drop = beside(path, job->study.drop);
     bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
-    tn_status status = keep && drop ? tn_learner_new(job->study.schema, keep, drop, job->study.length_weight, separately,
-                                                     &job->learner, error)
+    tn_status status = keep && drop ? tn_learner_new(job->study.schema, keep, drop, job->study.length_weight,
+                                                     separately, &job->learner, error)
                                     : tn_fail_memory(error);
     free(keep);
     free(drop);
@@ -143,8 +144,8 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     return status;
 }
 
-static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
-                                tn_error *error)
+static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                                char message[200], tn_error *error)
 {
     (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
     return tn_fail(error, TN_INTERNAL, 0, "a score is missing in the run's database");
@@ -154,7 +155,9 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
 {
     tn_status status = TN_OK;
     size_t objectives = job->settings.select.selection == TN_SELECT_NSGA2 ? 2 : 1;
-    job->extension = job->study.problem == TN_EVOLVE_LEARN ? "plan" : job->study.problem == TN_EVOLVE_GROW ? "hemls" : "txt";
+    job->extension = job->study.problem == TN_EVOLVE_LEARN  ? "plan"
+                     : job->study.problem == TN_EVOLVE_GROW ? "hemls"
+                                                            : "txt";
     if (only_replay) {
         job->evaluator = (tn_evaluator){NULL, objectives, never_evaluate, NULL};
         return TN_OK;
@@ -168,7 +171,9 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
     else
         status = make_learner(job, path, error);
     if (status == TN_OK)
-        job->evaluator = job->grower ? tn_grower_evaluator(job->grower) : job->learner ? tn_learner_evaluator(job->learner) : tn_problem_evaluator(job->problem);
+        job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
+                         : job->learner ? tn_learner_evaluator(job->learner)
+                                        : tn_problem_evaluator(job->problem);
     return status;
 }
 

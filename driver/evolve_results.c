@@ -1,5 +1,5 @@
-/* What a person has of a run: the best sentences, statistics, a plot. All of it is derived from the run's database and can be made
- * again. */
+/* What a person has of a run: the best sentences, statistics, a plot. All of it is derived from the run's database and
+ * can be made again. */
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -57,8 +57,9 @@ static tn_status draw_derivation(tn_run *run, const char *path, const tn_individ
     tn_mapping mapping;
     tn_tree tree = {0};
     options.record = true;
-    tn_status status = mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
-                              : tn_fail_memory(error);
+    tn_status status =
+        mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
+               : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
     if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
@@ -68,11 +69,13 @@ static tn_status draw_derivation(tn_run *run, const char *path, const tn_individ
     return status;
 }
 
-static tn_status write_individual(tn_run *run, const char *dir, size_t number, const tn_individual *individual, tn_error *error)
+static tn_status write_individual(tn_run *run, const char *dir, size_t number, const tn_individual *individual,
+                                  tn_error *error)
 {
     char *sentence = NULL, *picture = NULL;
     tn_status status = TN_OK;
-    if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 || asprintf(&picture, "%s/%zu.svg", dir, number) < 0)
+    if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 ||
+        asprintf(&picture, "%s/%zu.svg", dir, number) < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = write_sentence(sentence, individual, error);
@@ -126,12 +129,14 @@ static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size
         return tn_fail_memory(error);
     tn_status status = tn_output_open(path, &output, error);
     if (status == TN_OK) {
-        fputs("generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth\n",
-              output.stream);
+        fputs(
+            "generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth\n",
+            output.stream);
         for (size_t i = 0; i < count; i++)
-            fprintf(output.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g\n", stats[i].generation,
-                    stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence, stats[i].failed, stats[i].limited,
-                    stats[i].distinct, stats[i].evaluations, stats[i].births, stats[i].mean_codons, stats[i].mean_depth);
+            fprintf(output.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g\n",
+                    stats[i].generation, stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence,
+                    stats[i].failed, stats[i].limited, stats[i].distinct, stats[i].evaluations, stats[i].births,
+                    stats[i].mean_codons, stats[i].mean_depth);
         status = tn_output_commit(&output, error);
     }
     free(path);
@@ -238,7 +243,8 @@ static void draw_curve(const chart *c, bool mean, const char *name)
     tn_type_line(t, WIDTH - RIGHT + 6, last + (mean ? -4 : 8), TN_ALIGN_LEFT, text);
 }
 
-tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path, tn_error *error)
+tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
+                      tn_error *error)
 {
     tn_canvas_format format;
     tn_canvas *canvas = NULL;

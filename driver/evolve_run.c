@@ -39,8 +39,8 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
     char hash[20];
     snprintf(hash, sizeof hash, "%016" PRIx64, run->job->grammar->hash);
     const char *const keys[] = {"format", "identity", "study_path", "study", "grammar_path", "grammar"};
-    const char *const values[] = {"1", run->job->identity, texts->study_path, texts->study_text, texts->grammar_path,
-                                  texts->grammar_text};
+    const char *const values[] = {
+        "1", run->job->identity, texts->study_path, texts->study_text, texts->grammar_path, texts->grammar_text};
     return tn_run_store_put_meta(run->store, keys, values, sizeof keys / sizeof *keys, error);
 }
 
@@ -110,8 +110,10 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
     if (run->generations == 0 || !evaluator->adjust) {
-        tn_fail(error, TN_INVALID, 1232, run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning" : "change the study itself");
+        tn_fail(error, TN_INVALID, 1232,
+                run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
+        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning"
+                                              : "change the study itself");
         return TN_INVALID;
     }
     if (holds_already(run, change))
@@ -151,7 +153,8 @@ static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error 
     if (status == TN_OK)
         status = remember_change(run, event->generation, event->text, error);
     if (status == TN_OK)
-        status = tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
+        status =
+            tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
     list.items = items;
     if (status == TN_OK) {
         tn_evolution_recall(run->evolution, recall_rescored, &list);
@@ -236,8 +239,8 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
     return status;
 }
 
-tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts, tn_run *run,
-                       tn_error *error)
+tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
+                       tn_run *run, tn_error *error)
 {
     *run = (tn_run){.job = job, .dir = strdup(dir)};
     char *path = tn_run_database(dir);
@@ -282,8 +285,8 @@ tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, 
     if (status == TN_OK)
         status = tn_evolution_step(run->evolution, error);
     if (status == TN_OK)
-        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count, run->rescored,
-                                  run->new_changes ? run->rescored_count : 0, error);
+        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count,
+                                  run->rescored, run->new_changes ? run->rescored_count : 0, error);
     if (status == TN_OK) {
         run->generations++;
         run->new_changes = 0;
@@ -295,7 +298,8 @@ tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, 
 
 bool tn_run_reached(const tn_run *run)
 {
-    return run->job->study.says_stop && run->generations && tn_evolution_stats(run->evolution).best[0] <= run->job->study.stop;
+    return run->job->study.says_stop && run->generations &&
+           tn_evolution_stats(run->evolution).best[0] <= run->job->study.stop;
 }
 
 /* ---- replay */
@@ -340,7 +344,8 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
     *individual = NULL;
     *run = (tn_run){.job = job, .dir = strdup(dir)};
     char *path = tn_run_database(dir), *identity = NULL;
-    tn_status status = path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
+    tn_status status =
+        path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
     free(path);
     if (status == TN_OK)
         status = compile_stored(run, opened, error);
@@ -362,7 +367,8 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
     if (status == TN_OK)
         status = repeat(run, id, error);
     size_t born = 0;
-    const tn_individual *const *newest = status == TN_OK && run->generations ? tn_evolution_born(run->evolution, &born) : NULL;
+    const tn_individual *const *newest =
+        status == TN_OK && run->generations ? tn_evolution_born(run->evolution, &born) : NULL;
     for (size_t i = 0; i < born; i++)
         if (newest[i]->id == id)
             *individual = newest[i];

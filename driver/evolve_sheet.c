@@ -34,7 +34,8 @@ static void draw_cell(cairo_t *t, double x, double y, size_t number, const tn_in
     tn_type_line(t, x + CELL_WIDTH - 2 * INSET, y + 18, TN_ALIGN_RIGHT, text);
     cairo_set_source_rgb(t, 0, 0, 0);
     tn_type_face(t, 8, false);
-    const char *sentence = member->sentence && member->sentence[0] ? member->sentence : tn_map_reason_text(member->reason);
+    const char *sentence =
+        member->sentence && member->sentence[0] ? member->sentence : tn_map_reason_text(member->reason);
     tn_type_paragraph(t, x + INSET, y + 34, CELL_WIDTH - 3 * INSET, 10, 9, sentence);
 }
 
@@ -51,7 +52,8 @@ static tn_status draw_surfaces(tn_run *run, const char *path, tn_error *error)
         sentences[scored] = members[scored]->sentence;
         scored++;
     }
-    snprintf(title, sizeof title, "generation %u: 1 to %zu, row by row", run->generations ? run->generations - 1 : 0, scored);
+    snprintf(title, sizeof title, "generation %u: 1 to %zu, row by row", run->generations ? run->generations - 1 : 0,
+             scored);
     tn_status status = tn_grower_draw(run->job->grower, sentences, scored, title, path, error);
     free(sentences);
     return status;

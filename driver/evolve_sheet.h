@@ -4,8 +4,8 @@
 
 #include "driver/evolve.h"
 
-/* Draws all members, numbered from 1, into the run's folder: sheet-0000.svg for the first generation, and so on. `path` (of `size`
- * bytes) is where. */
+/* Draws all members, numbered from 1, into the run's folder: sheet-0000.svg for the first generation, and so on. `path`
+ * (of `size` bytes) is where. */
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error);
 
 #endif

@@ -5,9 +5,9 @@
 
 #include "runtime/gene/analysis.h"
 
-#define GROWS 1.0005       /* above it a mean multiplication is not a matter of rounding */
-#define DEPTHS_SHOWN 8u    /* levels for which derivations are counted, from the shallowest sentence on */
-#define CODONS_SHOWN 24u   /* likewise numbers of codons */
+#define GROWS 1.0005        /* above it a mean multiplication is not a matter of rounding */
+#define DEPTHS_SHOWN 8u     /* levels for which derivations are counted, from the shallowest sentence on */
+#define CODONS_SHOWN 24u    /* likewise numbers of codons */
 #define RULES_COUNTED 2000u /* of larger grammars, derivations are not counted */
 #define DIGITS_SHOWN 24u
 
@@ -22,10 +22,10 @@ static void warn_of_growth(tn_opened *opened, const tn_grammar *g, const tn_anal
         return;
     tn_diagnostics *list = &opened->compilation.diagnostics;
     const tn_rule *rule = &g->rules[a->growing_rule];
-    tn_diagnostic *diagnostic =
-        tn_report(list, W_GRAMMAR_EXPLODES, span_of(rule),
-                  "sentences tend to grow without end: random choices turn each %s into %.2f recursive non-terminals on average",
-                  tn_rule_name(g, a->growing_rule), a->growth);
+    tn_diagnostic *diagnostic = tn_report(
+        list, W_GRAMMAR_EXPLODES, span_of(rule),
+        "sentences tend to grow without end: random choices turn each %s into %.2f recursive non-terminals on average",
+        tn_rule_name(g, a->growing_rule), a->growth);
     tn_help(list, diagnostic, "add alternatives that end (an alternative may stand several times), or set %%max-depth");
 }
 
@@ -43,7 +43,8 @@ static void write_count(const mpz_t count, char *text, size_t size)
     free(digits);
 }
 
-static tn_status count_at(const tn_grammar *g, uint32_t depth, bool *by_codons, char *text, size_t size, tn_error *error)
+static tn_status count_at(const tn_grammar *g, uint32_t depth, bool *by_codons, char *text, size_t size,
+                          tn_error *error)
 {
     mpz_t count;
     mpz_init(count);
@@ -69,7 +70,8 @@ static tn_status note_counts(tn_opened *opened, const tn_grammar *g, uint32_t sh
         if (!by_codons)
             tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "derivations of at most %u levels: %s", n, text);
         else if (strcmp(text, "0") != 0)
-            tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "derivations of %u codons, edge types not told apart: %s", n, text);
+            tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "derivations of %u codons, edge types not told apart: %s", n,
+                           text);
     }
     return TN_OK;
 }
@@ -77,14 +79,15 @@ static tn_status note_counts(tn_opened *opened, const tn_grammar *g, uint32_t sh
 static tn_status note_figures(tn_opened *opened, const tn_grammar *g, const tn_analysis *a, tn_error *error)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "%zu rules with %zu alternatives, %zu different terminals", g->rule_count,
-                   g->production_count, g->terminal_count);
+    tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "%zu rules with %zu alternatives, %zu different terminals",
+                   g->rule_count, g->production_count, g->terminal_count);
     tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "the shallowest sentence has %u levels", a->rule_depth[0]);
     if (a->growing_rule == TN_NO_RECORD)
         tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "no rule leads back to itself");
     else
-        tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "random choices multiply recursive non-terminals by %.3f a round, most of all %s",
-                       a->growth, tn_rule_name(g, a->growing_rule));
+        tn_report_bare(list, TN_NOTE, TN_CODE_NONE,
+                       "random choices multiply recursive non-terminals by %.3f a round, most of all %s", a->growth,
+                       tn_rule_name(g, a->growing_rule));
     return g->rule_count <= RULES_COUNTED ? note_counts(opened, g, a->rule_depth[0], error) : TN_OK;
 }
 

@@ -183,8 +183,8 @@ tn_evaluator tn_grower_evaluator(tn_grower *grower)
 
 /* ---- pictures */
 
-tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_t count, const char *title, const char *path,
-                         tn_error *error)
+tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_t count, const char *title,
+                         const char *path, tn_error *error)
 {
     tn_canvas_format format;
     tn_view **views = calloc(count + 1, sizeof *views);

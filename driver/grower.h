@@ -1,5 +1,5 @@
-/* Scoring rule files by what they grow: a sentence is a .hemls text; it is compiled, grown as a growth study says, and measured against
- * the study's fitness terms. */
+/* Scoring rule files by what they grow: a sentence is a .hemls text; it is compiled, grown as a growth study says, and
+ * measured against the study's fitness terms. */
 #ifndef TARTAN_DRIVER_GROWER_H
 #define TARTAN_DRIVER_GROWER_H
 
@@ -9,15 +9,16 @@ typedef struct tn_grower tn_grower;
 
 #define TN_GROWER_EDGES 50000u /* edges of one growth, where the study has no limit of its own */
 
-/* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are not grown. With
- * `separately`, each term is an objective; else their sum is the one. TN_INVALID (E1245) where it cannot be used. */
+/* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are
+ * not grown. With `separately`, each term is an objective; else their sum is the one. TN_INVALID (E1245) where it
+ * cannot be used. */
 tn_status tn_grower_new(const char *study, bool separately, tn_grower **grower, tn_error *error);
 void tn_grower_free(tn_grower *grower);
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower);
 
 /* Grows sentences and draws them side by side in their order; those that cannot be grown are left out. */
-tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, size_t count, const char *title, const char *path,
-                         tn_error *error);
+tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, size_t count, const char *title,
+                         const char *path, tn_error *error);
 
 #endif

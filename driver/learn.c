@@ -88,7 +88,8 @@ static tn_status read_all(tn_learner *l, const char *name, const char *keep, con
     if (status != TN_OK)
         status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
     if (status == TN_OK)
-        status = tn_schema_new(opened.module, opened.module->RULE_records[opened.module->RULE_count - 1].schema, 0, &schema, error);
+        status = tn_schema_new(opened.module, opened.module->RULE_records[opened.module->RULE_count - 1].schema, 0,
+                               &schema, error);
     if (status == TN_OK) {
         l->codes = schema->tray_count;
         status = read_examples(l, schema, keep, false, error);
@@ -164,8 +165,8 @@ static const char *first_error(const tn_opened *opened)
     return "it does not compile";
 }
 
-static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
-                            tn_error *error)
+static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                            char message[200], tn_error *error)
 {
     const tn_learner *l = context;
     tn_opened opened;

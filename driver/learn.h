@@ -1,5 +1,5 @@
-/* Learning a pruning rule from examples: a sentence is a .plan text with a rule; it is compiled, lowered to its automaton, and held
- * against plans to be kept and plans to be dropped. */
+/* Learning a pruning rule from examples: a sentence is a .plan text with a rule; it is compiled, lowered to its
+ * automaton, and held against plans to be kept and plans to be dropped. */
 #ifndef TARTAN_DRIVER_LEARN_H
 #define TARTAN_DRIVER_LEARN_H
 
@@ -7,8 +7,8 @@
 
 typedef struct tn_learner tn_learner;
 
-/* `schema` is what the plans are of, as `use` names it; `keep` and `drop` are files of plans. With `separately`, errors and length
- * are two objectives; else one, errors + length_weight * bytes. */
+/* `schema` is what the plans are of, as `use` names it; `keep` and `drop` are files of plans. With `separately`, errors
+ * and length are two objectives; else one, errors + length_weight * bytes. */
 tn_status tn_learner_new(const char *schema, const char *keep, const char *drop, double length_weight, bool separately,
                          tn_learner **learner, tn_error *error);
 void tn_learner_free(tn_learner *learner);

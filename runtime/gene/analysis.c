@@ -23,7 +23,8 @@ bool tn_grammar_has_loops(const tn_grammar *grammar)
 
 /* ---- shallowest sentences */
 
-/* Rules are worked off in the order of their depths: a production's depth is known when the last of the rules it needs is. */
+/* Rules are worked off in the order of their depths: a production's depth is known when the last of the rules it needs
+ * is. */
 typedef struct depths {
     const tn_grammar *grammar;
     tn_analysis *analysis;
@@ -49,7 +50,8 @@ static void list_uses(depths *d)
     const tn_grammar *g = d->grammar;
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t p = 0; p < g->production_count; p++)
-            for (uint32_t at = g->productions[p].words; TN_WORD_OP(g->words[at]) != TN_WORD_DONE; at = past_group(g, at)) {
+            for (uint32_t at = g->productions[p].words; TN_WORD_OP(g->words[at]) != TN_WORD_DONE;
+                 at = past_group(g, at)) {
                 if (TN_WORD_OP(g->words[at]) != TN_WORD_RULE)
                     continue;
                 uint32_t rule = TN_WORD_ARGUMENT(g->words[at]);
@@ -161,8 +163,13 @@ static tn_status find_recursion(const tn_grammar *g, uint32_t *component, tn_ana
     uint32_t *memory = calloc(n * 5, sizeof *memory);
     if (!memory)
         return tn_fail_memory(error);
-    component_search s = {.grammar = g, .order = memory, .low = memory + n, .component = component, .stack = memory + 2 * n,
-                          .path = memory + 3 * n, .at = memory + 4 * n};
+    component_search s = {.grammar = g,
+                          .order = memory,
+                          .low = memory + n,
+                          .component = component,
+                          .stack = memory + 2 * n,
+                          .path = memory + 3 * n,
+                          .at = memory + 4 * n};
     memset(component, 0xFF, n * sizeof *component);
     for (uint32_t r = 0; r < n; r++)
         if (s.order[r] == 0)
@@ -250,7 +257,11 @@ static tn_status analyse_depths(const tn_grammar *g, tn_analysis *a, tn_error *e
     uint32_t *memory = calloc(p + n + 2 + uses + n, sizeof *memory);
     if (!memory)
         return tn_fail_memory(error);
-    depths d = {.grammar = g, .analysis = a, .waits = memory, .first = memory + p, .use = memory + p + n + 2,
+    depths d = {.grammar = g,
+                .analysis = a,
+                .waits = memory,
+                .first = memory + p,
+                .use = memory + p + n + 2,
                 .queue = memory + p + n + 2 + uses};
     memset(a->rule_depth, 0xFF, n * sizeof *a->rule_depth);
     memset(a->production_depth, 0xFF, p * sizeof *a->production_depth);
@@ -267,8 +278,8 @@ tn_status tn_analyse(const tn_grammar *g, tn_analysis *a, tn_error *error)
     a->recursive = calloc(g->rule_count, 1);
     a->endless = calloc(g->production_count, 1);
     uint32_t *component = calloc(g->rule_count, sizeof *component);
-    tn_status status = a->rule_depth && a->production_depth && a->recursive && a->endless && component ? TN_OK
-                                                                                                      : tn_fail_memory(error);
+    tn_status status =
+        a->rule_depth && a->production_depth && a->recursive && a->endless && component ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = analyse_depths(g, a, error);
     if (status == TN_OK)

@@ -1,5 +1,5 @@
-/* A run of random draws that depends on (seed, what for, generation, number) alone, so that work can be shared among threads in any
- * way and be repeated at any time. */
+/* A run of random draws that depends on (seed, what for, generation, number) alone, so that work can be shared among
+ * threads in any way and be repeated at any time. */
 #ifndef TARTAN_GENE_CHANCE_H
 #define TARTAN_GENE_CHANCE_H
 
@@ -30,7 +30,7 @@ static inline uint64_t tn_chance_next(tn_chance *chance)
 /* Evenly from 0 to bound - 1; 0 where bound is 0. (The bias is under bound / 2^64.) */
 static inline uint64_t tn_chance_below(tn_chance *chance, uint64_t bound)
 {
-    return (uint64_t)((__extension__ (unsigned __int128)tn_chance_next(chance) * bound) >> 64);
+    return (uint64_t)((__extension__(unsigned __int128) tn_chance_next(chance) * bound) >> 64);
 }
 
 /* Evenly from [0, 1). */

@@ -109,7 +109,8 @@ static void add_item(tn_chart *c, tn_chart_item item)
     size_t place = (size_t)key_hash(item.at, item.begin, item.end, item.letters) & (table->size - 1);
     for (; table->slots[place] != TN_CHART_NONE; place = (place + 1) & (table->size - 1)) {
         tn_chart_item *there = &c->items[table->slots[place]];
-        if (there->at != item.at || there->begin != item.begin || there->end != item.end || there->letters != item.letters)
+        if (there->at != item.at || there->begin != item.begin || there->end != item.end ||
+            there->letters != item.letters)
             continue;
         if (item.value < there->value) {
             there->value = item.value;
@@ -153,8 +154,8 @@ static uint32_t child_need(uint32_t value)
     return value ? value + 1 : 0;
 }
 
-/* ge: levels taken, terminals counted. genr8: how far below the depth limit it must start, which only holds for a production with
- * non-terminals whose rule has others without (from the limit on only those are chosen). */
+/* ge: levels taken, terminals counted. genr8: how far below the depth limit it must start, which only holds for a
+ * production with non-terminals whose rule has others without (from the limit on only those are chosen). */
 static uint32_t finished_value(const tn_chart *c, const tn_chart_item *item, uint32_t production)
 {
     const tn_production *p = &c->grammar->productions[production];
@@ -186,7 +187,8 @@ static uint32_t scan(const tn_chart *c, uint32_t terminal, uint32_t end)
     const tn_terminal *t = &c->grammar->terminals[terminal];
     const char *text = c->grammar->texts + t->offset;
     if (c->grammar->dialect == TN_DIALECT_GE)
-        return t->length <= c->size - end && memcmp(c->sentence + end, text, t->length) == 0 ? end + t->length : TN_CHART_NONE;
+        return t->length <= c->size - end && memcmp(c->sentence + end, text, t->length) == 0 ? end + t->length
+                                                                                             : TN_CHART_NONE;
     if (end == c->length || c->tokens[end].length != t->length)
         return TN_CHART_NONE;
     return memcmp(c->sentence + c->tokens[end].begin, text, t->length) == 0 ? end + 1 : TN_CHART_NONE;
@@ -240,8 +242,12 @@ static void predict(tn_chart *c, uint32_t rule, uint32_t begin)
             expect(c, word, begin);
             continue;
         }
-        add_item(c, (tn_chart_item){.at = at, .begin = begin, .end = begin, .letters = UINT64_MAX >> 1,
-                                    .before = TN_CHART_NONE, .child = TN_CHART_NONE});
+        add_item(c, (tn_chart_item){.at = at,
+                                    .begin = begin,
+                                    .end = begin,
+                                    .letters = UINT64_MAX >> 1,
+                                    .before = TN_CHART_NONE,
+                                    .child = TN_CHART_NONE});
     }
 }
 
@@ -314,8 +320,11 @@ static void complete(tn_chart *c, uint32_t index)
 {
     const tn_chart_item *item = &c->items[index];
     uint32_t production = production_at(c->grammar, item->at), done;
-    tn_chart_finished f = {.rule = c->grammar->productions[production].rule, .begin = item->begin, .end = item->end,
-                           .value = finished_value(c, item, production), .item = index};
+    tn_chart_finished f = {.rule = c->grammar->productions[production].rule,
+                           .begin = item->begin,
+                           .end = item->end,
+                           .value = finished_value(c, item, production),
+                           .item = index};
     if (!finish(c, f, &done))
         return;
     bool is_new;
@@ -407,7 +416,8 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
     if (c->out_of_memory)
         return tn_fail_memory(error);
     if (c->too_many) {
-        tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit", c->max_items);
+        tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit",
+                c->max_items);
         tn_error_help(error, "raise it with --max-items, or take a shorter sentence");
         return TN_LIMIT;
     }

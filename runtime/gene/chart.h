@@ -1,5 +1,5 @@
-/* The chart of an Earley parser over a grammar's words: which stretches of a sentence each production can write. Internal to
- * inverting. */
+/* The chart of an Earley parser over a grammar's words: which stretches of a sentence each production can write.
+ * Internal to inverting. */
 #ifndef TARTAN_GENE_CHART_H
 #define TARTAN_GENE_CHART_H
 
@@ -18,11 +18,11 @@ typedef struct tn_chart_token {
 /* A production written from `begin` up to its word `at`, which stands at `end`. */
 typedef struct tn_chart_item {
     uint32_t at, begin, end;
-    uint32_t value;    /* how much depth it needs, the least found */
-    uint64_t letters;  /* numbers of its edge variables, TN_CHART_LETTER_BITS each */
-    uint32_t before;   /* the item that it came from, or TN_CHART_NONE */
-    uint32_t child;    /* the finished item of the rule in between, or TN_CHART_NONE */
-    uint32_t link;     /* next in the list of items that wait for the same rule at the same place */
+    uint32_t value;   /* how much depth it needs, the least found */
+    uint64_t letters; /* numbers of its edge variables, TN_CHART_LETTER_BITS each */
+    uint32_t before;  /* the item that it came from, or TN_CHART_NONE */
+    uint32_t child;   /* the finished item of the rule in between, or TN_CHART_NONE */
+    uint32_t link;    /* next in the list of items that wait for the same rule at the same place */
     bool queued;
 } tn_chart_item;
 
@@ -68,7 +68,8 @@ typedef struct tn_chart {
     bool out_of_memory, too_many;
 } tn_chart;
 
-/* Parses; the finished record of the start symbol over the whole sentence in *result, TN_CHART_NONE where there is none. */
+/* Parses; the finished record of the start symbol over the whole sentence in *result, TN_CHART_NONE where there is
+ * none. */
 tn_status tn_chart_parse(tn_chart *chart, uint32_t *result, tn_error *error);
 void tn_chart_clear(tn_chart *chart);
 

@@ -3,12 +3,12 @@
 
 #include "runtime/gene/analysis.h"
 
-/* Numbers by rule: with `width` 1 those of the derivations of one depth; else polynomials, a coefficient for each number of
- * codons from 0 to width - 1. */
+/* Numbers by rule: with `width` 1 those of the derivations of one depth; else polynomials, a coefficient for each
+ * number of codons from 0 to width - 1. */
 typedef struct counter {
     const tn_grammar *grammar;
     size_t width;
-    mpz_t *now, *next;               /* [rule][width] */
+    mpz_t *now, *next;      /* [rule][width] */
     mpz_t *product, *spare; /* [width] */
     bool too_large;
 } counter;
@@ -148,7 +148,8 @@ tn_status tn_count_derivations(const tn_grammar *grammar, uint32_t depth, bool *
         c.next = swap;
     }
     if (status == TN_OK && c.too_large)
-        status = tn_fail(error, TN_LIMIT, 1227, "the number of derivations passes %u binary digits, the limit", TN_DERIVATION_BITS);
+        status = tn_fail(error, TN_LIMIT, 1227, "the number of derivations passes %u binary digits, the limit",
+                         TN_DERIVATION_BITS);
     if (status == TN_OK)
         mpz_set(total, c.now[c.width - 1]);
     numbers_free(c.now, numbers);

@@ -23,12 +23,12 @@ struct tn_evolution {
     tn_individual *all;    /* twice the population */
     tn_individual **members, **born, **pool;
     size_t member_count, born_count;
-    tn_merit *merits;      /* of pool, or of members */
+    tn_merit *merits; /* of pool, or of members */
     uint32_t *scratch;
-    uint32_t *todo;        /* places in born that wait for their score */
+    uint32_t *todo; /* places in born that wait for their score */
     tn_score_cache cache;
-    uint32_t generation;   /* of the members */
-    uint32_t *chosen;      /* by a person, or NULL */
+    uint32_t generation; /* of the members */
+    uint32_t *chosen;    /* by a person, or NULL */
     size_t chosen_count;
     tn_recall *recall;
     void *recall_context;
@@ -45,8 +45,14 @@ tn_evolution_settings tn_evolution_settings_default(void)
         .depth_high = 10,
         .tail = 0.5,
         .select = {.selection = TN_SELECT_TOURNAMENT, .tournament = 2, .truncation = 0.5},
-        .vary = {.crossover = TN_CROSS_ONE_POINT, .crossover_rate = 0.75, .mutation = TN_MUTATE_CODONS, .mutation_rate = -1,
-                 .within_used = true, .codon_limit = 100000, .max_codons = 5000, .tree_depth = 10},
+        .vary = {.crossover = TN_CROSS_ONE_POINT,
+                 .crossover_rate = 0.75,
+                 .mutation = TN_MUTATE_CODONS,
+                 .mutation_rate = -1,
+                 .within_used = true,
+                 .codon_limit = 100000,
+                 .max_codons = 5000,
+                 .tree_depth = 10},
         .elites = 1,
     };
 }
@@ -65,7 +71,8 @@ static bool allocate(tn_evolution *e)
     e->todo = calloc(n, sizeof *e->todo);
     e->breeders = calloc(e->threads, sizeof *e->breeders);
     e->crew = tn_crew_new(e->threads);
-    if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->breeders || !e->crew)
+    if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->breeders ||
+        !e->crew)
         return false;
     for (unsigned t = 0; t < e->threads; t++)
         if (!(e->breeders[t] = tn_breeder_new(e->grammar, &e->analysis, &e->settings.mapping)))
@@ -73,15 +80,16 @@ static bool allocate(tn_evolution *e)
     return true;
 }
 
-tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_settings *settings, const tn_evaluator *evaluator,
-                           tn_evolution **evolution, tn_error *error)
+tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_settings *settings,
+                           const tn_evaluator *evaluator, tn_evolution **evolution, tn_error *error)
 {
     *evolution = NULL;
     if (settings->population < 2 || settings->population > TN_POPULATION_MAX)
         return tn_fail(error, TN_INVALID, 1240, "a population has 2 to %u individuals, not %u", TN_POPULATION_MAX,
                        settings->population);
     if (evaluator->objectives < 1 || evaluator->objectives > TN_OBJECTIVES_MAX)
-        return tn_fail(error, TN_INVALID, 1240, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX, evaluator->objectives);
+        return tn_fail(error, TN_INVALID, 1240, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX,
+                       evaluator->objectives);
     tn_evolution *e = calloc(1, sizeof *e);
     if (!e)
         return tn_fail_memory(error);
@@ -137,8 +145,8 @@ tn_status tn_evolution_choose(tn_evolution *e, const uint32_t *places, size_t co
 {
     for (size_t i = 0; i < count; i++)
         if (places[i] >= e->member_count)
-            return tn_fail(error, TN_INVALID, 1241, "there is no individual %u; they are numbered from 1 to %zu", places[i] + 1,
-                           e->member_count);
+            return tn_fail(error, TN_INVALID, 1241, "there is no individual %u; they are numbered from 1 to %zu",
+                           places[i] + 1, e->member_count);
     uint32_t *chosen = malloc((count ? count : 1) * sizeof *chosen);
     if (!chosen)
         return tn_fail_memory(error);
@@ -171,8 +179,8 @@ static bool keep_sentence(tn_individual *individual, const char *text, size_t si
 static tn_status map_individual(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
 {
     tn_mapping mapping;
-    tn_status status = tn_map_genome(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons, individual->genome.count,
-                              &e->settings.mapping, &mapping, error);
+    tn_status status = tn_map_genome(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons,
+                                     individual->genome.count, &e->settings.mapping, &mapping, error);
     if (status != TN_OK)
         return status;
     size_t size = 0;
@@ -215,8 +223,8 @@ static void tidy_score(const tn_evolution *e, tn_score *score)
 static tn_status evaluate(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
 {
     individual->score = (tn_score){0};
-    tn_status status = e->evaluator.evaluate(e->evaluator.context, thread, individual->sentence, individual->sentence_size,
-                                             &individual->score, individual->message, error);
+    tn_status status = e->evaluator.evaluate(e->evaluator.context, thread, individual->sentence,
+                                             individual->sentence_size, &individual->score, individual->message, error);
     tidy_score(e, &individual->score);
     return status;
 }

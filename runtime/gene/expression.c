@@ -70,8 +70,8 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Powers of ten that a double holds exactly: a number of at most 15 digits with as many after the point is then read right by one
- * division (Clinger 1990). */
+/* Powers of ten that a double holds exactly: a number of at most 15 digits with as many after the point is then read
+ * right by one division (Clinger 1990). */
 static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 static void read_number(reader *r)
@@ -112,8 +112,10 @@ typedef struct function {
 
 static void read_call(reader *r, const char *name, size_t length)
 {
-    static const function functions[] = {{"sqrt", TN_EXPRESSION_SQRT, 1},     {"abs", TN_EXPRESSION_ABS, 1},
-                                         {"square", TN_EXPRESSION_SQUARE, 1}, {"min", TN_EXPRESSION_MIN, 2},
+    static const function functions[] = {{"sqrt", TN_EXPRESSION_SQRT, 1},
+                                         {"abs", TN_EXPRESSION_ABS, 1},
+                                         {"square", TN_EXPRESSION_SQUARE, 1},
+                                         {"min", TN_EXPRESSION_MIN, 2},
                                          {"max", TN_EXPRESSION_MAX, 2}};
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         if (strlen(functions[i].name) != length || memcmp(functions[i].name, name, length) != 0)
@@ -156,7 +158,8 @@ static void read_factor(reader *r)
     if (r->status != TN_OK)
         return;
     if (++r->nest > TN_EXPRESSION_NEST) {
-        r->status = tn_fail(r->error, TN_LIMIT, 1242, "the expression nests more than %u deep, the limit", TN_EXPRESSION_NEST);
+        r->status =
+            tn_fail(r->error, TN_LIMIT, 1242, "the expression nests more than %u deep, the limit", TN_EXPRESSION_NEST);
         return;
     }
     if (take(r, '(')) {
@@ -171,7 +174,8 @@ static void read_factor(reader *r)
     } else if (r->at < r->size && is_name(r->text[r->at])) {
         read_name(r);
     } else {
-        refuse(r, r->at == r->size ? "the expression ends too soon" : "a number, a name or a parenthesis is wanted here");
+        refuse(r,
+               r->at == r->size ? "the expression ends too soon" : "a number, a name or a parenthesis is wanted here");
     }
     r->nest--;
 }
@@ -200,10 +204,11 @@ static void read_sum(reader *r)
     }
 }
 
-tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count, tn_expression *expression,
-                              tn_error *error)
+tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count,
+                              tn_expression *expression, tn_error *error)
 {
-    reader r = {.text = text, .size = size, .names = names, .name_count = name_count, .out = expression, .error = error};
+    reader r = {
+        .text = text, .size = size, .names = names, .name_count = name_count, .out = expression, .error = error};
     expression->count = expression->depth = 0;
     read_sum(&r);
     take(&r, ' ');
@@ -212,9 +217,9 @@ tn_status tn_expression_parse(const char *text, size_t size, const char *const *
     return r.status;
 }
 
-/* ---- evaluating: row by row, each operation over a whole row. Rows have one length, so that compilers turn the loops into vector
- * code, also for wider vectors than the oldest processors have, where there are: every element is one IEEE operation by itself, so
- * that the results are the same with any. */
+/* ---- evaluating: row by row, each operation over a whole row. Rows have one length, so that compilers turn the loops
+ * into vector code, also for wider vectors than the oldest processors have, where there are: every element is one IEEE
+ * operation by itself, so that the results are the same with any. */
 
 #define ROW TN_EXPRESSION_ROW
 #define EACH for (size_t i = 0; i < ROW; i++)
@@ -267,11 +272,13 @@ ANY_WIDTH static void compute(tn_expression_op op, const double *a, const double
 
 static bool takes_one(tn_expression_op op)
 {
-    return op == TN_EXPRESSION_NEGATE || op == TN_EXPRESSION_SQRT || op == TN_EXPRESSION_ABS || op == TN_EXPRESSION_SQUARE;
+    return op == TN_EXPRESSION_NEGATE || op == TN_EXPRESSION_SQRT || op == TN_EXPRESSION_ABS ||
+           op == TN_EXPRESSION_SQUARE;
 }
 
-/* One row of results, from rows of variables. `out` may be no operand: results of one level of the stack are written to the scratch
- * row of that level, which two operands of the same level never share; so each level has two rows, used in turn. */
+/* One row of results, from rows of variables. `out` may be no operand: results of one level of the stack are written to
+ * the scratch row of that level, which two operands of the same level never share; so each level has two rows, used in
+ * turn. */
 static const double *evaluate_row(const tn_expression *e, const double *const *columns, size_t from)
 {
     size_t top = 0;
@@ -312,11 +319,13 @@ static bool reserve(tn_expression *e)
     return true;
 }
 
-tn_status tn_expression_evaluate(tn_expression *e, const double *const *columns, size_t count, double *values, tn_error *error)
+tn_status tn_expression_evaluate(tn_expression *e, const double *const *columns, size_t count, double *values,
+                                 tn_error *error)
 {
     if (!reserve(e))
         return tn_fail_memory(error);
     for (size_t from = 0; from < count; from += ROW)
-        memcpy(values + from, evaluate_row(e, columns, from), (count - from < ROW ? count - from : ROW) * sizeof *values);
+        memcpy(values + from, evaluate_row(e, columns, from),
+               (count - from < ROW ? count - from : ROW) * sizeof *values);
     return TN_OK;
 }

@@ -1,9 +1,11 @@
-/* Arithmetic expressions over named variables, evaluated over columns of numbers: for fitting data and for fitness terms.
+/* Arithmetic expressions over named variables, evaluated over columns of numbers: for fitting data and for fitness
+ * terms.
  *
- *   expression: term {(+|-) term}   term: factor {(*|/) factor}   factor: number | name | name(expression, ...) | (expression) | -factor
+ *   expression: term {(+|-) term}   term: factor {(*|/) factor}   factor: number | name | name(expression, ...) |
+ * (expression) | -factor
  *
- * Functions: sqrt (of the absolute value), abs, square, min, max. Division is protected: a / b is 1 where b is 0. No operation
- * depends on the machine: each is one IEEE 754 operation, or a choice.
+ * Functions: sqrt (of the absolute value), abs, square, min, max. Division is protected: a / b is 1 where b is 0. No
+ * operation depends on the machine: each is one IEEE 754 operation, or a choice.
  */
 #ifndef TARTAN_GENE_EXPRESSION_H
 #define TARTAN_GENE_EXPRESSION_H
@@ -35,8 +37,8 @@ typedef struct tn_expression_step {
 typedef struct tn_expression {
     tn_expression_step *steps;
     size_t count, capacity;
-    size_t depth; /* of the stack, at most */
-    double *stack; /* scratch of evaluating: depth rows of TN_EXPRESSION_ROW */
+    size_t depth;            /* of the stack, at most */
+    double *stack;           /* scratch of evaluating: depth rows of TN_EXPRESSION_ROW */
     const double **operands; /* likewise: the rows that are on the stack, a variable's column or one of the above */
     size_t stack_capacity;
 } tn_expression;
@@ -47,11 +49,11 @@ typedef struct tn_expression {
 void tn_expression_clear(tn_expression *expression);
 
 /* TN_INVALID with the column (E1242), TN_LIMIT where it nests too deep. */
-tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count, tn_expression *expression,
-                              tn_error *error);
+tn_status tn_expression_parse(const char *text, size_t size, const char *const *names, size_t name_count,
+                              tn_expression *expression, tn_error *error);
 
-/* The values at `count` points, columns[variable][point], into `values`. Columns are readable (not changed, and not part of the
- * result) up to the next multiple of TN_EXPRESSION_ROW points. TN_MEMORY, or TN_OK. */
+/* The values at `count` points, columns[variable][point], into `values`. Columns are readable (not changed, and not
+ * part of the result) up to the next multiple of TN_EXPRESSION_ROW points. TN_MEMORY, or TN_OK. */
 tn_status tn_expression_evaluate(tn_expression *expression, const double *const *columns, size_t count, double *values,
                                  tn_error *error);
 

@@ -16,8 +16,8 @@ bool tn_genome_reserve(tn_genome *genome, size_t count);
 
 #define TN_GENOME_CODONS_MAX (1u << 24)
 
-/* Reads one line (no newline in it) into a genome, which it empties first. TN_INVALID (E1220, E1221) with the column; the line
- * is the caller's to set. TN_LIMIT past TN_GENOME_CODONS_MAX. Commas may stand beside blanks. */
+/* Reads one line (no newline in it) into a genome, which it empties first. TN_INVALID (E1220, E1221) with the column;
+ * the line is the caller's to set. TN_LIMIT past TN_GENOME_CODONS_MAX. Commas may stand beside blanks. */
 tn_status tn_genome_read(const char *line, size_t length, tn_genome *genome, tn_error *error);
 
 #endif

@@ -33,8 +33,8 @@ static uint32_t terminal_for(decoder *d, uint32_t string)
     return (uint32_t)g->terminal_count - 1;
 }
 
-/* The words of code bytes [at, end): a REPEAT's body is followed by its AGAIN. Bodies nest, so their ends are kept on a stack
- * that the verifier has bounded to TN_GROUP_DEPTH. */
+/* The words of code bytes [at, end): a REPEAT's body is followed by its AGAIN. Bodies nest, so their ends are kept on a
+ * stack that the verifier has bounded to TN_GROUP_DEPTH. */
 static void decode_production(decoder *d, uint32_t at, uint32_t end, tn_production *production)
 {
     struct {

@@ -1,7 +1,7 @@
 /* A grammar as the mapper runs it: the productions' bytecode of a module, decoded once into 32-bit words.
  *
- * A grammar is immutable and may be shared between threads. It owns everything reached through it but borrows nothing: the
- * module may be freed first.
+ * A grammar is immutable and may be shared between threads. It owns everything reached through it but borrows nothing:
+ * the module may be freed first.
  */
 #ifndef TARTAN_GENE_GRAMMAR_H
 #define TARTAN_GENE_GRAMMAR_H
@@ -61,7 +61,7 @@ typedef struct tn_grammar {
     uint32_t max_depth; /* 0: no limit */
     uint32_t wraps;
     uint32_t rewrite_rule, predecessor, successor; /* rules, or TN_NO_RECORD */
-    tn_rule *rules; /* the first is the start symbol */
+    tn_rule *rules;                                /* the first is the start symbol */
     size_t rule_count;
     tn_production *productions;
     size_t production_count;
@@ -76,8 +76,8 @@ typedef struct tn_grammar {
     uint64_t hash;    /* of the module */
 } tn_grammar;
 
-/* Decodes grammar `index` of a verified module. On success the caller owns *grammar. TN_INVALID where the module has none;
- * TN_LIMIT where it has more than TN_WORD_MAX words, rules or terminals. */
+/* Decodes grammar `index` of a verified module. On success the caller owns *grammar. TN_INVALID where the module has
+ * none; TN_LIMIT where it has more than TN_WORD_MAX words, rules or terminals. */
 tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **grammar, tn_error *error);
 void tn_grammar_free(tn_grammar *grammar);
 
@@ -86,14 +86,14 @@ static inline const char *tn_rule_name(const tn_grammar *grammar, uint32_t rule)
     return grammar->texts + grammar->rules[rule].name;
 }
 
-/* codon mod divisor. Codons under 2^32, which nearly all are, need no division: Lemire, Kaser and Kurz, "Faster remainder by
- * direct computation" (2019), with reciprocal = ceil(2^64 / divisor), exact for 32-bit operands. */
+/* codon mod divisor. Codons under 2^32, which nearly all are, need no division: Lemire, Kaser and Kurz, "Faster
+ * remainder by direct computation" (2019), with reciprocal = ceil(2^64 / divisor), exact for 32-bit operands. */
 static inline uint32_t tn_codon_modulo(uint64_t codon, uint32_t divisor, uint64_t reciprocal)
 {
     if (codon >> 32)
         return (uint32_t)(codon % divisor);
     uint64_t fraction = reciprocal * codon;
-    return (uint32_t)(((__extension__ (unsigned __int128)fraction) * divisor) >> 64);
+    return (uint32_t)(((__extension__(unsigned __int128) fraction) * divisor) >> 64);
 }
 
 static inline uint64_t tn_reciprocal(uint32_t divisor)

@@ -149,7 +149,8 @@ static void expand(planter *p, uint32_t index)
     const tn_grammar *g = p->grammar;
     uint32_t rule = p->nodes[index].rule, depth = p->nodes[index].depth;
     bool starved = p->options->method == TN_TREE_PI_GROW && p->recursive_pending == 0 && p->deepest < p->options->depth;
-    uint32_t production = choose(p, rule, depth, p->options->method == TN_TREE_FULL || (starved && p->analysis->recursive[rule]));
+    uint32_t production =
+        choose(p, rule, depth, p->options->method == TN_TREE_FULL || (starved && p->analysis->recursive[rule]));
     open_loop loops[TN_GROUP_DEPTH];
     size_t open = 0;
     bool bound[TN_EDGE_LETTERS] = {false};

@@ -1,7 +1,7 @@
 /* First genomes: random codons, or codons of random derivation trees.
  *
- * A tree is made with its depth bounded, then written out in the order in which mapping reads, so that the genome maps to the
- * tree. Behind it random codons follow, for repair and for what crossover makes of it.
+ * A tree is made with its depth bounded, then written out in the order in which mapping reads, so that the genome maps
+ * to the tree. Behind it random codons follow, for repair and for what crossover makes of it.
  */
 #ifndef TARTAN_GENE_INITIALISE_H
 #define TARTAN_GENE_INITIALISE_H
@@ -11,9 +11,10 @@
 #include "runtime/gene/genome.h"
 
 typedef enum tn_tree_method {
-    TN_TREE_GROW,       /* any production that still fits */
-    TN_TREE_FULL,       /* recursive productions as long as they fit */
-    TN_TREE_PI_GROW,    /* position independent: expanded in random order, so that depth is reached anywhere (Fagan et al., 2016) */
+    TN_TREE_GROW,    /* any production that still fits */
+    TN_TREE_FULL,    /* recursive productions as long as they fit */
+    TN_TREE_PI_GROW, /* position independent: expanded in random order, so that depth is reached anywhere (Fagan et al.,
+                        2016) */
 } tn_tree_method;
 
 typedef struct tn_tree_options {

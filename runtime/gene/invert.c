@@ -45,7 +45,8 @@ static tn_status split(tn_chart *c, tn_error *error)
         }
         while (at < c->size && !is_blank(c->sentence[at]))
             at++;
-        c->tokens[c->length++] = (tn_chart_token){(uint32_t)begin, (uint32_t)(at - begin), edge_of(c->sentence + begin, at - begin)};
+        c->tokens[c->length++] =
+            (tn_chart_token){(uint32_t)begin, (uint32_t)(at - begin), edge_of(c->sentence + begin, at - begin)};
     }
     return TN_OK;
 }
@@ -59,8 +60,11 @@ static tn_status check_edges(const tn_chart *c, tn_error *error)
         if (edge == TN_CHART_NONE)
             continue;
         if (edge > known) {
-            tn_fail(error, TN_INVALID, 1222, "no genome gives this sentence: Edge%u stands before there was an Edge%u", edge, known);
-            tn_error_help(error, "edge types come in order; number the sentence's edges by their first use, from Edge0 and Edge1 on");
+            tn_fail(error, TN_INVALID, 1222, "no genome gives this sentence: Edge%u stands before there was an Edge%u",
+                    edge, known);
+            tn_error_help(
+                error,
+                "edge types come in order; number the sentence's edges by their first use, from Edge0 and Edge1 on");
             tn_error_place(error, 0, c->tokens[i].begin + 1, c->tokens[i].begin + c->tokens[i].length + 1);
             return TN_INVALID;
         }
@@ -107,8 +111,8 @@ static tn_status not_derivable(const tn_chart *c, tn_error *error)
     if (past)
         tn_fail(error, TN_INVALID, 1222, "the sentence cannot be derived: it ends too soon");
     else
-        tn_fail(error, TN_INVALID, 1222, "the sentence cannot be derived: `%.*s` does not fit here", length > 40 ? 40 : (int)length,
-                c->sentence + begin);
+        tn_fail(error, TN_INVALID, 1222, "the sentence cannot be derived: `%.*s` does not fit here",
+                length > 40 ? 40 : (int)length, c->sentence + begin);
     if (c->expected_count)
         tn_error_help(error, "it goes as far as this; %s could follow", expected);
     else if (!past)
@@ -283,7 +287,8 @@ static tn_status check_depth(const tn_chart *c, uint32_t value, const tn_invert_
     uint32_t needed = ge ? value : value ? value + 1 : 0;
     if (!options->max_depth || needed <= options->max_depth)
         return TN_OK;
-    tn_fail(error, TN_INVALID, 1222, "no genome gives this sentence within a depth of %u: its shallowest derivation needs %u",
+    tn_fail(error, TN_INVALID, 1222,
+            "no genome gives this sentence within a depth of %u: its shallowest derivation needs %u",
             options->max_depth, needed);
     tn_error_help(error, "raise it with --max-depth %u", needed);
     return TN_INVALID;

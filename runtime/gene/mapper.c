@@ -4,17 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIRST_IDS 2u       /* edge types that there are to begin with: Edge0 and Edge1 (5.2) */
-#define REPAIR_DEPTH 3u    /* of a repairing rule's successor: below the start symbol and a rewrite rule */
+#define FIRST_IDS 2u    /* edge types that there are to begin with: Edge0 and Edge1 (5.2) */
+#define REPAIR_DEPTH 3u /* of a repairing rule's successor: below the start symbol and a rewrite rule */
 #define NO_ID UINT32_MAX
-#define COPY 16u           /* short terminals are copied by this many bytes at once */
-#define EDGE_TEXT 16u      /* "Edge" and ten digits, at most */
+#define COPY 16u      /* short terminals are copied by this many bytes at once */
+#define EDGE_TEXT 16u /* "Edge" and ten digits, at most */
 
 /* What to go back to: a production after one of its non-terminals, or a loop. */
 typedef struct frame {
     const uint32_t *ip; /* next word; of a loop: its first */
     uint32_t depth;
-    uint32_t rule;      /* that ends when this frame is popped (recording), of a loop: rounds so far */
+    uint32_t rule; /* that ends when this frame is popped (recording), of a loop: rounds so far */
     uint32_t ids[TN_EDGE_LETTERS];
     uint32_t mark; /* tn_rule_mark of the rule that ends when this frame is popped */
 } frame;
@@ -150,7 +150,8 @@ static void predecessor_begins(tn_mapper *m)
     m->predecessor_count = 0;
 }
 
-/* The edges that a predecessor rewrites, its contexts left out (4.5): A in `A > B`, B in `A < B` and in `A < B > C`, all without. */
+/* The edges that a predecessor rewrites, its contexts left out (4.5): A in `A > B`, B in `A < B` and in `A < B > C`,
+ * all without. */
 static bool predecessor_ends(tn_mapper *m)
 {
     size_t from = m->has_less ? 1 : 0;
@@ -223,8 +224,15 @@ static inline outcome draw_edge(tn_mapper *m, uint32_t *id, bool recorded, uint3
     *id = (uint32_t)(codon % modulus);
     bool is_new = *id == m->max_id;
     m->max_id += is_new;
-    if (recorded && !record(m, (tn_event){.kind = TN_EVENT_EDGE, .letter = letter, .depth = depth, .symbol = is_new,
-                                          .read = m->used - 1, .codon = codon, .modulus = modulus, .value = *id, .text_begin = m->text.size}))
+    if (recorded && !record(m, (tn_event){.kind = TN_EVENT_EDGE,
+                                          .letter = letter,
+                                          .depth = depth,
+                                          .symbol = is_new,
+                                          .read = m->used - 1,
+                                          .codon = codon,
+                                          .modulus = modulus,
+                                          .value = *id,
+                                          .text_begin = m->text.size}))
         return NO_MEMORY;
     return RAN;
 }
@@ -235,14 +243,18 @@ static bool edge_written(tn_mapper *m, uint32_t id)
 }
 
 /* Which production of the rule, at that depth. */
-static inline outcome choose(tn_mapper *m, const tn_grammar *g, uint32_t index, uint32_t depth, bool genr8, bool recorded,
-                             uint32_t *production)
+static inline outcome choose(tn_mapper *m, const tn_grammar *g, uint32_t index, uint32_t depth, bool genr8,
+                             bool recorded, uint32_t *production)
 {
     const tn_rule *rule = &g->rules[index];
     if (!genr8 && rule->count == 1 && g->skip_single) {
         *production = rule->first;
-        return recorded && !record(m, (tn_event){.kind = TN_EVENT_EXPAND, .depth = depth, .symbol = index,
-                                                 .production = rule->first, .read = TN_NO_READ, .text_begin = m->text.size})
+        return recorded && !record(m, (tn_event){.kind = TN_EVENT_EXPAND,
+                                                 .depth = depth,
+                                                 .symbol = index,
+                                                 .production = rule->first,
+                                                 .read = TN_NO_READ,
+                                                 .text_begin = m->text.size})
                    ? NO_MEMORY
                    : RAN;
     }
@@ -253,10 +265,15 @@ static inline outcome choose(tn_mapper *m, const tn_grammar *g, uint32_t index, 
     uint32_t modulus = closed ? rule->closed_count : rule->count;
     uint32_t choice = closed ? (uint32_t)(codon % modulus) : tn_codon_modulo(codon, modulus, rule->reciprocal);
     *production = closed ? g->closed[rule->closed_first + choice] : rule->first + choice;
-    if (recorded &&
-        !record(m, (tn_event){.kind = TN_EVENT_EXPAND, .depth = depth, .symbol = index, .production = *production,
-                              .read = m->used - 1, .codon = codon, .modulus = modulus, .value = choice,
-                              .text_begin = m->text.size}))
+    if (recorded && !record(m, (tn_event){.kind = TN_EVENT_EXPAND,
+                                          .depth = depth,
+                                          .symbol = index,
+                                          .production = *production,
+                                          .read = m->used - 1,
+                                          .codon = codon,
+                                          .modulus = modulus,
+                                          .value = choice,
+                                          .text_begin = m->text.size}))
         return NO_MEMORY;
     return RAN;
 }
@@ -268,9 +285,14 @@ static outcome again(tn_mapper *m, uint32_t rounds, uint32_t depth, bool recorde
     if (!read_codon(m, &codon))
         return NO_CODON;
     *goes_on = codon % modulus > rounds;
-    if (recorded && !record(m, (tn_event){.kind = *goes_on ? TN_EVENT_AGAIN : TN_EVENT_STOP, .depth = depth, .symbol = rounds,
-                                          .read = m->used - 1, .codon = codon, .modulus = modulus,
-                                          .value = codon % modulus, .text_begin = m->text.size}))
+    if (recorded && !record(m, (tn_event){.kind = *goes_on ? TN_EVENT_AGAIN : TN_EVENT_STOP,
+                                          .depth = depth,
+                                          .symbol = rounds,
+                                          .read = m->used - 1,
+                                          .codon = codon,
+                                          .modulus = modulus,
+                                          .value = codon % modulus,
+                                          .text_begin = m->text.size}))
         return NO_MEMORY;
     return RAN;
 }
@@ -281,16 +303,21 @@ static outcome option(tn_mapper *m, uint32_t depth, bool recorded, bool *taken)
     if (!read_codon(m, &codon))
         return NO_CODON;
     *taken = codon & 1;
-    if (recorded && !record(m, (tn_event){.kind = *taken ? TN_EVENT_TAKE : TN_EVENT_SKIP, .depth = depth, .read = m->used - 1,
-                                          .codon = codon, .modulus = 2, .value = codon & 1, .text_begin = m->text.size}))
+    if (recorded && !record(m, (tn_event){.kind = *taken ? TN_EVENT_TAKE : TN_EVENT_SKIP,
+                                          .depth = depth,
+                                          .read = m->used - 1,
+                                          .codon = codon,
+                                          .modulus = 2,
+                                          .value = codon & 1,
+                                          .text_begin = m->text.size}))
         return NO_MEMORY;
     return RAN;
 }
 
-/* Expands the rule `start` at `depth` to the end of the text. The two flags are constants in each caller, so that no dialect pays
- * for the other one, nor either for recording. */
-static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32_t start, uint32_t depth, const bool genr8,
-                                                            const bool recorded)
+/* Expands the rule `start` at `depth` to the end of the text. The two flags are constants in each caller, so that no
+ * dialect pays for the other one, nor either for recording. */
+static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32_t start, uint32_t depth,
+                                                            const bool genr8, const bool recorded)
 {
     const tn_grammar *g = m->grammar;
     const uint32_t opening[2] = {TN_WORD_RULE | start << TN_WORD_BITS, TN_WORD_DONE};
@@ -310,8 +337,11 @@ static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32
             if (m->text.size + length + COPY + 1 > m->text.capacity &&
                 !reserve(&m->text.data, &m->text.capacity, m->text.size, length + COPY + 1, 1))
                 return NO_MEMORY;
-            if (recorded && !record(m, (tn_event){.kind = TN_EVENT_TERMINAL, .depth = depth, .symbol = argument,
-                                                  .read = TN_NO_READ, .text_begin = m->text.size}))
+            if (recorded && !record(m, (tn_event){.kind = TN_EVENT_TERMINAL,
+                                                  .depth = depth,
+                                                  .symbol = argument,
+                                                  .read = TN_NO_READ,
+                                                  .text_begin = m->text.size}))
                 return NO_MEMORY;
             if (genr8 && m->text.size)
                 m->text.data[m->text.size++] = ' ';
@@ -330,8 +360,7 @@ static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32
         case TN_WORD_RULE: {
             uint32_t production, child = depth + 1, mark = genr8 ? g->rules[argument].mark : TN_MARK_NONE;
             if (recorded || TN_WORD_OP(*ip) != TN_WORD_DONE || mark) {
-                if (top == m->frame_capacity &&
-                    !reserve(&m->frames, &m->frame_capacity, top, 1, sizeof *m->frames))
+                if (top == m->frame_capacity && !reserve(&m->frames, &m->frame_capacity, top, 1, sizeof *m->frames))
                     return NO_MEMORY;
                 frame *f = &m->frames[top++];
                 f->ip = ip;
@@ -368,8 +397,11 @@ static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32
                 return RAN;
             }
             const frame *f = &m->frames[--top];
-            if (recorded && !record(m, (tn_event){.kind = TN_EVENT_END, .depth = depth, .symbol = f->rule,
-                                                  .read = TN_NO_READ, .text_begin = m->text.size}))
+            if (recorded && !record(m, (tn_event){.kind = TN_EVENT_END,
+                                                  .depth = depth,
+                                                  .symbol = f->rule,
+                                                  .read = TN_NO_READ,
+                                                  .text_begin = m->text.size}))
                 return NO_MEMORY;
             ip = f->ip;
             depth = f->depth;
@@ -385,8 +417,13 @@ static inline __attribute__((always_inline)) outcome expand(tn_mapper *m, uint32
             bool variable = TN_WORD_OP(word) == TN_WORD_SAME, bound = variable && ids[argument] != NO_ID;
             uint32_t id = bound ? ids[argument] : NO_ID;
             char letter = variable ? (char)('X' + argument) : '\0';
-            if (bound && recorded && !record(m, (tn_event){.kind = TN_EVENT_EDGE, .letter = letter, .depth = depth,
-                                                           .read = TN_NO_READ, .value = id, .text_begin = m->text.size}))
+            if (bound && recorded &&
+                !record(m, (tn_event){.kind = TN_EVENT_EDGE,
+                                      .letter = letter,
+                                      .depth = depth,
+                                      .read = TN_NO_READ,
+                                      .value = id,
+                                      .text_begin = m->text.size}))
                 return NO_MEMORY;
             outcome drawn = bound ? RAN : draw_edge(m, &id, recorded, depth, letter);
             if (drawn != RAN)
@@ -526,7 +563,8 @@ static outcome expand_ge(tn_mapper *m)
 
 static __attribute__((noinline)) outcome expand_recorded(tn_mapper *m, uint32_t rule, uint32_t depth)
 {
-    return m->grammar->dialect == TN_DIALECT_GENR8 ? expand(m, rule, depth, true, true) : expand(m, rule, depth, false, true);
+    return m->grammar->dialect == TN_DIALECT_GENR8 ? expand(m, rule, depth, true, true)
+                                                   : expand(m, rule, depth, false, true);
 }
 
 static __attribute__((noinline)) outcome expand_genr8(tn_mapper *m, uint32_t rule, uint32_t depth)
@@ -557,8 +595,8 @@ static outcome repairing_rule(tn_mapper *m, uint32_t id, const tn_map_options *o
     m->text.size = 0;
     if (!reserve(&m->text.data, &m->text.capacity, 0, 2 * EDGE_TEXT + COPY, 1))
         return NO_MEMORY;
-    if (options->record && !record(m, (tn_event){.kind = TN_EVENT_REPAIR, .depth = REPAIR_DEPTH - 1, .read = TN_NO_READ,
-                                                 .value = id}))
+    if (options->record &&
+        !record(m, (tn_event){.kind = TN_EVENT_REPAIR, .depth = REPAIR_DEPTH - 1, .read = TN_NO_READ, .value = id}))
         return NO_MEMORY;
     m->text.size = write_edge(m->text.data, 0, id);
     memcpy(m->text.data + m->text.size, " ->", 3);
@@ -666,8 +704,8 @@ static void describe(const tn_mapper *m, tn_mapping *mapping)
     mapping->max_id = m->max_id;
 }
 
-tn_status tn_map_genome(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
-                 tn_error *error)
+tn_status tn_map_genome(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options,
+                        tn_mapping *mapping, tn_error *error)
 {
     bool genr8 = m->grammar->dialect == TN_DIALECT_GENR8, repairing = false;
     memset(mapping, 0, sizeof *mapping);

@@ -1,10 +1,10 @@
 /* Mapping: a genome chooses, codon by codon, the sentence of a grammar (Genr8 paper, 5.1 and 5.2).
  *
- * Depth-first, leftmost, the start symbol at depth 1. A genome of n codons with W wraps is read as if written W + 1 times. The
- * mapping is total: any codons, also none, give a sentence or a reason why there is none.
+ * Depth-first, leftmost, the start symbol at depth 1. A genome of n codons with W wraps is read as if written W + 1
+ * times. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
  *
- * A tn_mapper holds the scratch memory of one thread; make one for each. What a tn_mapping points to lives in the mapper and
- * is valid until its next use.
+ * A tn_mapper holds the scratch memory of one thread; make one for each. What a tn_mapping points to lives in the
+ * mapper and is valid until its next use.
  */
 #ifndef TARTAN_GENE_MAPPER_H
 #define TARTAN_GENE_MAPPER_H
@@ -54,21 +54,22 @@ typedef enum tn_event_kind {
 
 /* One step of a derivation, in order. */
 typedef struct tn_event {
-    uint8_t kind;      /* tn_event_kind */
-    char letter;       /* EDGE: 'X', 'Y' or 'Z' for a variable, else 0 */
-    uint32_t depth;    /* of the non-terminal; of the production that the step belongs to elsewhere */
-    uint32_t symbol;   /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
+    uint8_t kind;   /* tn_event_kind */
+    char letter;    /* EDGE: 'X', 'Y' or 'Z' for a variable, else 0 */
+    uint32_t depth; /* of the non-terminal; of the production that the step belongs to elsewhere */
+    uint32_t
+        symbol; /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
     uint32_t production; /* EXPAND */
-    uint64_t read;     /* how many codons were read before this step's own; TN_NO_READ where it reads none */
+    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ where it reads none */
     uint64_t codon;
     uint64_t modulus, value; /* value = codon mod modulus */
-    size_t text_begin; /* in the sentence written so far */
+    size_t text_begin;       /* in the sentence written so far */
 } tn_event;
 
 typedef struct tn_mapping {
     bool valid;
     tn_map_reason reason;
-    bool has_phenotype; /* also where only the repair failed */
+    bool has_phenotype;    /* also where only the repair failed */
     const char *phenotype; /* zero-ended */
     size_t phenotype_size;
     /* of the phenotype, before repair */
@@ -78,7 +79,7 @@ typedef struct tn_mapping {
     uint64_t wraps; /* (used - 1) / n */
     /* genr8 */
     uint32_t max_id; /* how many edge types there are */
-    bool repaired; /* repair was asked for and done, even if there was nothing to add */
+    bool repaired;   /* repair was asked for and done, even if there was nothing to add */
     const char *repaired_phenotype;
     size_t repaired_size;
     uint64_t repaired_used;
@@ -96,8 +97,8 @@ tn_mapper *tn_mapper_new(const tn_grammar *grammar);
 void tn_mapper_free(tn_mapper *mapper);
 
 /* Maps a genome. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
-tn_status tn_map_genome(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options, tn_mapping *mapping,
-                 tn_error *error);
+tn_status tn_map_genome(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options,
+                        tn_mapping *mapping, tn_error *error);
 
 /* What a valid mapping is for: the repaired sentence where there is one, else the phenotype. */
 static inline const char *tn_mapping_sentence(const tn_mapping *mapping, size_t *size)

@@ -52,14 +52,15 @@ tn_status tn_problem_match(const char *target, tn_problem **problem, tn_error *e
     return TN_OK;
 }
 
-static tn_status match(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
-                       tn_error *error)
+static tn_status match(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                       char message[200], tn_error *error)
 {
     const tn_problem *p = context;
     (void)thread;
     (void)message;
     (void)error;
-    size_t longer = size > p->target_size ? size : p->target_size, shorter = size < p->target_size ? size : p->target_size;
+    size_t longer = size > p->target_size ? size : p->target_size,
+           shorter = size < p->target_size ? size : p->target_size;
     double distance = (double)longer;
     for (size_t i = 0; i < shorter; i++) {
         int difference = (unsigned char)sentence[i] - (unsigned char)p->target[i];
@@ -96,8 +97,8 @@ static tn_status fit_new(size_t variables, size_t points, unsigned threads, tn_p
     return tn_fail_memory(error);
 }
 
-tn_status tn_problem_fit(const char *const *names, const double *const *columns, size_t variables, size_t points, unsigned threads,
-                         tn_problem **problem, tn_error *error)
+tn_status tn_problem_fit(const char *const *names, const double *const *columns, size_t variables, size_t points,
+                         unsigned threads, tn_problem **problem, tn_error *error)
 {
     tn_status status = fit_new(variables, points, threads, problem, error);
     for (size_t i = 0; status == TN_OK && i <= variables; i++) {
@@ -132,20 +133,22 @@ static double mean_squared_error(const double *values, const double *wanted, siz
     return sums[0] / (double)points;
 }
 
-static tn_status fit(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
-                     tn_error *error)
+static tn_status fit(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                     char message[200], tn_error *error)
 {
     tn_problem *p = context;
     tn_expression *expression = &p->expressions[thread];
     tn_error wrong = {0};
-    tn_status status = tn_expression_parse(sentence, size, (const char *const *)p->names, p->variables, expression, &wrong);
+    tn_status status =
+        tn_expression_parse(sentence, size, (const char *const *)p->names, p->variables, expression, &wrong);
     if (status == TN_INVALID || status == TN_LIMIT) {
         score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
         snprintf(message, 200, "%.199s", wrong.message);
         return TN_OK;
     }
     if (status == TN_OK)
-        status = tn_expression_evaluate(expression, (const double *const *)p->columns, p->points, p->values[thread], error);
+        status =
+            tn_expression_evaluate(expression, (const double *const *)p->columns, p->points, p->values[thread], error);
     if (status == TN_OK)
         score->objectives[0] = sqrt(mean_squared_error(p->values[thread], p->columns[p->variables], p->points));
     return status;

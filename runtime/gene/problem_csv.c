@@ -45,7 +45,8 @@ static bool keep_number(table *t, size_t column, double value)
     return true;
 }
 
-static tn_status read_field(table *t, const char *line, size_t begin, size_t end, size_t column, size_t number, tn_error *error)
+static tn_status read_field(table *t, const char *line, size_t begin, size_t end, size_t column, size_t number,
+                            tn_error *error)
 {
     while (begin < end && line[begin] == ' ')
         begin++;
@@ -106,10 +107,11 @@ tn_status tn_problem_fit_csv(const char *text, size_t size, unsigned threads, tn
         at += length;
     }
     if (status == TN_OK && (t->width < 2 || t->points == 0))
-        status = tn_fail(error, TN_INVALID, 1243, "data to fit have two columns or more, and a line of numbers or more");
+        status =
+            tn_fail(error, TN_INVALID, 1243, "data to fit have two columns or more, and a line of numbers or more");
     if (status == TN_OK)
-        status = tn_problem_fit((const char *const *)t->names, (const double *const *)t->columns, t->width - 1, t->points, threads,
-                                problem, error);
+        status = tn_problem_fit((const char *const *)t->names, (const double *const *)t->columns, t->width - 1,
+                                t->points, threads, problem, error);
     if (t)
         table_clear(t);
     return status;

@@ -16,16 +16,20 @@ struct tn_run_store {
     sqlite3_stmt *put_birth, *put_generation, *put_event, *put_rescore;
 };
 
-static const char schema[] =
-    "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-    "CREATE TABLE generation(number INTEGER PRIMARY KEY, best REAL, mean REAL, scored INTEGER, no_sentence INTEGER, failed INTEGER,"
-    " limited INTEGER, distinct_sentences INTEGER, evaluations INTEGER, births INTEGER, mean_codons REAL, mean_depth REAL,"
-    " members BLOB);"
-    "CREATE TABLE birth(id INTEGER PRIMARY KEY, kind INTEGER, parent INTEGER, other INTEGER, state INTEGER, fitness REAL,"
-    " more BLOB, message TEXT);"
-    "CREATE TABLE event(generation INTEGER, number INTEGER, kind TEXT, text TEXT, PRIMARY KEY(generation, number)) WITHOUT ROWID;"
-    "CREATE TABLE rescore(generation INTEGER, id INTEGER, state INTEGER, fitness REAL, more BLOB, PRIMARY KEY(generation, id))"
-    " WITHOUT ROWID;";
+static const char schema[] = "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+                             "CREATE TABLE generation(number INTEGER PRIMARY KEY, best REAL, mean REAL, scored "
+                             "INTEGER, no_sentence INTEGER, failed INTEGER,"
+                             " limited INTEGER, distinct_sentences INTEGER, evaluations INTEGER, births INTEGER, "
+                             "mean_codons REAL, mean_depth REAL,"
+                             " members BLOB);"
+                             "CREATE TABLE birth(id INTEGER PRIMARY KEY, kind INTEGER, parent INTEGER, other INTEGER, "
+                             "state INTEGER, fitness REAL,"
+                             " more BLOB, message TEXT);"
+                             "CREATE TABLE event(generation INTEGER, number INTEGER, kind TEXT, text TEXT, PRIMARY "
+                             "KEY(generation, number)) WITHOUT ROWID;"
+                             "CREATE TABLE rescore(generation INTEGER, id INTEGER, state INTEGER, fitness REAL, more "
+                             "BLOB, PRIMARY KEY(generation, id))"
+                             " WITHOUT ROWID;";
 
 static tn_status wrong(tn_run_store *store, tn_error *error)
 {
@@ -75,7 +79,8 @@ static tn_status open_at(const char *path, int flags, bool durable, tn_run_store
     if (!s)
         return tn_fail_memory(error);
     if (sqlite3_open_v2(path, &s->db, flags, NULL) != SQLITE_OK)
-        return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path, sqlite3_errmsg(s->db));
+        return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path,
+                       sqlite3_errmsg(s->db));
     sqlite3_busy_timeout(s->db, 5000);
     return run(s, durable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF", error);
 }
@@ -84,7 +89,8 @@ static tn_status prepare_writing(tn_run_store *store, tn_error *error)
 {
     tn_status status = prepare(store, "INSERT INTO birth VALUES(?,?,?,?,?,?,?,?)", &store->put_birth, error);
     if (status == TN_OK)
-        status = prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)", &store->put_generation, error);
+        status =
+            prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)", &store->put_generation, error);
     if (status == TN_OK)
         status = prepare(store, "INSERT INTO event VALUES(?,?,?,?)", &store->put_event, error);
     if (status == TN_OK)
@@ -278,7 +284,8 @@ static tn_status put_generation(tn_run_store *store, const tn_evolution *evoluti
     return finish_step(store, s, error);
 }
 
-static tn_status put_events(tn_run_store *store, uint32_t generation, const tn_run_event *events, size_t count, tn_error *error)
+static tn_status put_events(tn_run_store *store, uint32_t generation, const tn_run_event *events, size_t count,
+                            tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; i < count && status == TN_OK; i++) {
@@ -304,8 +311,9 @@ static tn_status put_rescored(tn_run_store *store, uint32_t generation, const tn
     return status;
 }
 
-tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives, const tn_run_event *events,
-                           size_t event_count, const tn_rescored *rescored, size_t rescored_count, tn_error *error)
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+                           const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
+                           size_t rescored_count, tn_error *error)
 {
     size_t count;
     const tn_individual *const *born = tn_evolution_born(evolution, &count);
@@ -342,7 +350,8 @@ tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t
     size_t capacity = 0;
     *events = NULL;
     *count = 0;
-    tn_status status = prepare(store, "SELECT generation, kind, text FROM event ORDER BY generation, number", &statement, error);
+    tn_status status =
+        prepare(store, "SELECT generation, kind, text FROM event ORDER BY generation, number", &statement, error);
     while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
         if (*count == capacity) {
             capacity = capacity ? capacity * 2 : 16;
@@ -354,7 +363,8 @@ tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t
             *events = grown;
         }
         tn_run_event *event = &(*events)[(*count)++];
-        *event = (tn_run_event){(uint32_t)sqlite3_column_int64(statement, 0), copy_column(statement, 1), copy_column(statement, 2)};
+        *event = (tn_run_event){(uint32_t)sqlite3_column_int64(statement, 0), copy_column(statement, 1),
+                                copy_column(statement, 2)};
         if (!event->kind || !event->text)
             status = tn_fail_memory(error);
     }
@@ -418,15 +428,15 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
     return status;
 }
 
-tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored, size_t *count,
-                                tn_error *error)
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored,
+                                size_t *count, tn_error *error)
 {
     sqlite3_stmt *statement = NULL;
     size_t capacity = 0;
     *rescored = NULL;
     *count = 0;
-    tn_status status =
-        prepare(store, "SELECT id, state, fitness, more FROM rescore WHERE generation=? ORDER BY id", &statement, error);
+    tn_status status = prepare(store, "SELECT id, state, fitness, more FROM rescore WHERE generation=? ORDER BY id",
+                               &statement, error);
     if (status == TN_OK)
         sqlite3_bind_int64(statement, 1, generation);
     while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
@@ -464,8 +474,10 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
     sqlite3_finalize(statement);
     if (same)
         return TN_OK;
-    tn_fail(error, TN_INVALID, 1252, "generation %u does not come out as it is stored: the run was made with another grammar, study or "
-                                     "version", generation);
+    tn_fail(error, TN_INVALID, 1252,
+            "generation %u does not come out as it is stored: the run was made with another grammar, study or "
+            "version",
+            generation);
     tn_error_help(error, "resume it with the files and the version of tartan that it was started with");
     return TN_INVALID;
 }

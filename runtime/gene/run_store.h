@@ -1,16 +1,15 @@
 /* A run's database (SQLite): settings, generations, every birth with its parents and score, and what a person decided.
  *
- *   meta        key, value           what the run was started from: study text, grammar text, seed, compiler's version, hashes
- *   generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births, mean_codons,
- *               mean_depth, members: 8 bytes an id, little-endian, the best first
- *   birth       id, kind, parent, other, state, fitness, more, message: `more` holds the further objectives, 8 bytes each
- *   event       generation, number, kind, text: before that generation is bred; kind choose (places, from 1) or set (a target or
- *               weight)
- *   rescore     generation, id, state, fitness, more: the members' scores after a set
+ *   meta        key, value           what the run was started from: study text, grammar text, seed, compiler's version,
+ * hashes generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births,
+ * mean_codons, mean_depth, members: 8 bytes an id, little-endian, the best first birth       id, kind, parent, other,
+ * state, fitness, more, message: `more` holds the further objectives, 8 bytes each event       generation, number,
+ * kind, text: before that generation is bred; kind choose (places, from 1) or set (a target or weight) rescore
+ * generation, id, state, fitness, more: the members' scores after a set
  *
- * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored depends on
- * the clock, the machine, or an interruption: a generation is one transaction, so that a run that was killed and resumed ends with
- * the same bytes as one that was not.
+ * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored
+ * depends on the clock, the machine, or an interruption: a generation is one transaction, so that a run that was killed
+ * and resumed ends with the same bytes as one that was not.
  */
 #ifndef TARTAN_GENE_RUN_STORE_H
 #define TARTAN_GENE_RUN_STORE_H
@@ -19,10 +18,12 @@
 
 typedef struct tn_run_store tn_run_store;
 
-/* Makes a new database; TN_INVALID (E1250) where the file is there already. `durable` also survives the loss of power. */
+/* Makes a new database; TN_INVALID (E1250) where the file is there already. `durable` also survives the loss of power.
+ */
 tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **store, tn_error *error);
 
-/* Opens one that is there, to go on with (or only to read). TN_IO where it is not, TN_INVALID (E1251) where it is none. */
+/* Opens one that is there, to go on with (or only to read). TN_IO where it is not, TN_INVALID (E1251) where it is none.
+ */
 tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error);
 void tn_run_store_free(tn_run_store *store);
 
@@ -46,12 +47,13 @@ typedef struct tn_rescored {
 } tn_rescored;
 
 /* Stores the generation that was made last, and the events and scores that came before it, in one transaction. */
-tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives, const tn_run_event *events,
-                           size_t event_count, const tn_rescored *rescored, size_t rescored_count, tn_error *error);
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+                           const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
+                           size_t rescored_count, tn_error *error);
 
 /* The members' scores after the changes before a generation, in order of their ids. The caller frees *rescored. */
-tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored, size_t *count,
-                                tn_error *error);
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored,
+                                size_t *count, tn_error *error);
 
 /* All events, in order. The caller frees with tn_run_events_free. */
 tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t *count, tn_error *error);
@@ -68,8 +70,8 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
 void tn_run_scores_clear(tn_run_scores *scores);
 bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score);
 
-/* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) where not: then the database is of
- * another study, grammar or version. */
+/* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) where not: then the database
+ * is of another study, grammar or version. */
 tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution, tn_error *error);
 
 /* The statistics of all stored generations; the caller frees *stats. */

@@ -35,7 +35,8 @@ static bool dominates(const double *a, const double *b, size_t objectives)
 }
 
 /* Fronts one after another: those that nothing left dominates. `above` counts by how many each is dominated. */
-static void find_fronts(tn_merit *merits, size_t count, size_t objectives, uint32_t *above, uint32_t *front, uint32_t *next)
+static void find_fronts(tn_merit *merits, size_t count, size_t objectives, uint32_t *above, uint32_t *front,
+                        uint32_t *next)
 {
     size_t size = 0;
     for (size_t i = 0; i < count; i++) {
@@ -82,7 +83,8 @@ static void find_rooms(tn_merit *merits, uint32_t *places, size_t count, size_t 
 {
     for (size_t o = 0; o < objectives; o++) {
         sort_by(merits, places, count, o);
-        double low = merits[places[0]].objectives[o], high = merits[places[count - 1]].objectives[o], range = high - low;
+        double low = merits[places[0]].objectives[o], high = merits[places[count - 1]].objectives[o],
+               range = high - low;
         merits[places[0]].room = merits[places[count - 1]].room = HUGE_VAL;
         for (size_t i = 1; i + 1 < count && range > 0 && isfinite(range); i++)
             merits[places[i]].room +=

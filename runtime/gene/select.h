@@ -18,8 +18,8 @@ typedef enum tn_selection {
 
 extern const char *const tn_selection_names[TN_SELECT_COUNT];
 
-/* One individual's merit, as orders compare it: by front, then crowding (more room is better), then objective 0, then index. With
- * one objective, front is 0 and room 0 for all. */
+/* One individual's merit, as orders compare it: by front, then crowding (more room is better), then objective 0, then
+ * index. With one objective, front is 0 and room 0 for all. */
 typedef struct tn_merit {
     const double *objectives;
     uint32_t front;
@@ -27,8 +27,8 @@ typedef struct tn_merit {
     uint32_t index;
 } tn_merit;
 
-/* Fills front and room of each: nondominated sorting and crowding distance (Deb et al., 2002). Quadratic in count. `scratch` has
- * room for 3 * count numbers. */
+/* Fills front and room of each: nondominated sorting and crowding distance (Deb et al., 2002). Quadratic in count.
+ * `scratch` has room for 3 * count numbers. */
 void tn_nsga2(tn_merit *merits, size_t count, size_t objectives, uint32_t *scratch);
 
 /* Sorts the best to the front. */

@@ -1,5 +1,5 @@
-/* The subtrees of a derivation as stretches of its genome: reading depth-first, leftmost, a subtree's codons lie side by side, so
- * that a subtree can be changed for another of the same rule by changing one stretch for another. */
+/* The subtrees of a derivation as stretches of its genome: reading depth-first, leftmost, a subtree's codons lie side
+ * by side, so that a subtree can be changed for another of the same rule by changing one stretch for another. */
 #ifndef TARTAN_GENE_SPAN_H
 #define TARTAN_GENE_SPAN_H
 
@@ -8,9 +8,9 @@
 
 typedef struct tn_span_of {
     uint32_t rule;
-    uint32_t depth;        /* of its root */
-    uint32_t event;        /* that expands it */
-    uint64_t begin, end;   /* codons, counting past the genome's end where it wraps */
+    uint32_t depth;      /* of its root */
+    uint32_t event;      /* that expands it */
+    uint64_t begin, end; /* codons, counting past the genome's end where it wraps */
 } tn_span_of;
 
 typedef struct tn_spans {
@@ -27,8 +27,9 @@ void tn_spans_clear(tn_spans *spans);
 /* Puts the codons that a mapping read, wraps written out, and the unread rest into `straight`. */
 bool tn_genome_straighten(const uint64_t *codons, size_t count, const tn_mapping *mapping, tn_genome *straight);
 
-/* A codon, near to `codon`, that makes `rule` at `depth` choose `production`; false where it cannot there, since from max_depth on
- * only productions without non-terminals are chosen (genr8). */
-bool tn_choice_codon(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth, uint64_t *codon);
+/* A codon, near to `codon`, that makes `rule` at `depth` choose `production`; false where it cannot there, since from
+ * max_depth on only productions without non-terminals are chosen (genr8). */
+bool tn_choice_codon(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth,
+                     uint64_t *codon);
 
 #endif

@@ -250,8 +250,8 @@ static void enter_json(void *context, uint32_t node, uint32_t depth)
 {
     const writer *w = context;
     const tn_event *event = &w->events[w->tree->nodes[node].event];
-    static const char *const kinds[] = {[TN_EVENT_AGAIN] = "again", [TN_EVENT_STOP] = "stop", [TN_EVENT_TAKE] = "take",
-                                        [TN_EVENT_SKIP] = "skip"};
+    static const char *const kinds[] = {
+        [TN_EVENT_AGAIN] = "again", [TN_EVENT_STOP] = "stop", [TN_EVENT_TAKE] = "take", [TN_EVENT_SKIP] = "skip"};
     (void)depth;
     fputc('{', w->out);
     switch ((tn_event_kind)event->kind) {
@@ -277,8 +277,8 @@ static void enter_json(void *context, uint32_t node, uint32_t depth)
         break;
     }
     if (event->read != TN_NO_READ)
-        fprintf(w->out, ",\"codon\":\"%" PRIu64 "\",\"modulus\":\"%" PRIu64 "\",\"choice\":\"%" PRIu64 "\"", event->codon,
-                event->modulus, event->value);
+        fprintf(w->out, ",\"codon\":\"%" PRIu64 "\",\"modulus\":\"%" PRIu64 "\",\"choice\":\"%" PRIu64 "\"",
+                event->codon, event->modulus, event->value);
     if (event->kind == TN_EVENT_EXPAND)
         fputs(",\"children\":[", w->out);
 }

@@ -1,4 +1,5 @@
-/* A derivation shown: as a table codon by codon (Genr8 paper, 5.2), as a tree in text or JSON, or as a picture (Fig. 7).
+/* A derivation shown: as a table codon by codon (Genr8 paper, 5.2), as a tree in text or JSON, or as a picture (Fig.
+ * 7).
  *
  * All take the events of a mapping made with tn_map_options.record; also an invalid mapping's, as far as it went.
  */
@@ -23,8 +24,8 @@ typedef struct tn_tree {
     size_t count;
 } tn_tree;
 
-/* Expansions, terminals, edges and repairs become nodes, and loops and options that ended or were not taken as well. Free with
- * tn_tree_clear. TN_LIMIT past 2^32 - 2 events. */
+/* Expansions, terminals, edges and repairs become nodes, and loops and options that ended or were not taken as well.
+ * Free with tn_tree_clear. TN_LIMIT past 2^32 - 2 events. */
 tn_status tn_tree_make(const tn_event *events, size_t count, tn_tree *tree, tn_error *error);
 void tn_tree_clear(tn_tree *tree);
 
@@ -39,16 +40,17 @@ bool tn_trace_write(const tn_grammar *grammar, const tn_event *events, size_t co
 /* One node a line, indented. */
 bool tn_tree_write_text(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, FILE *out);
 
-/* {"symbol", "depth", "codon", "modulus", "choice", "children": [...]}, {"terminal"}, {"edge", "letter", ...}; codons, which
- * JSON readers may round, are decimal text. Roots are an array. */
+/* {"symbol", "depth", "codon", "modulus", "choice", "children": [...]}, {"terminal"}, {"edge", "letter", ...}; codons,
+ * which JSON readers may round, are decimal text. Roots are an array. */
 bool tn_tree_write_json(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, FILE *out);
 
 /* Writes a production as the grammar file has it. */
 void tn_production_write(const tn_grammar *grammar, uint32_t production, FILE *out);
 
-/* Draws the derivation as Fig. 7 does: non-terminals inside, terminals at the leaves, at most TN_TREE_DRAWN nodes (TN_LIMIT, E1228).
- * `path` ends in .svg, .png or .pdf; errors of writing as tn_canvas_new has them. */
-tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path, tn_error *error);
+/* Draws the derivation as Fig. 7 does: non-terminals inside, terminals at the leaves, at most TN_TREE_DRAWN nodes
+ * (TN_LIMIT, E1228). `path` ends in .svg, .png or .pdf; errors of writing as tn_canvas_new has them. */
+tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path,
+                       tn_error *error);
 
 #define TN_TREE_DRAWN 4000u
 

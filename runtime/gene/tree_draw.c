@@ -24,7 +24,7 @@ typedef struct drawing {
     double *x, *half, *left; /* by node: centre, half of its label's width, where its room begins */
     double right;            /* where the room of what is placed so far ends */
     uint32_t last;           /* the node entered last */
-    uint32_t *depth;  /* by node; UINT32_MAX where it is not drawn */
+    uint32_t *depth;         /* by node; UINT32_MAX where it is not drawn */
     double width;
     uint32_t deepest;
 } drawing;
@@ -67,8 +67,8 @@ static void codon_text(const tn_event *event, char *text, size_t size)
         snprintf(text, size, "%" PRIu64 " mod %" PRIu64 " = %" PRIu64, event->codon, event->modulus, event->value);
 }
 
-/* Leaves lie side by side; a parent is centred over its children, which are moved to the right where its own label wants more
- * room than they take. */
+/* Leaves lie side by side; a parent is centred over its children, which are moved to the right where its own label
+ * wants more room than they take. */
 static void enter(void *context, uint32_t node, uint32_t depth)
 {
     drawing *d = context;
@@ -184,10 +184,12 @@ static tn_status draw(drawing *d, const char *path, tn_error *error)
     return status;
 }
 
-tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path, tn_error *error)
+tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path,
+                       tn_error *error)
 {
     if (tree->count > TN_TREE_DRAWN) {
-        tn_fail(error, TN_LIMIT, 1228, "the derivation has %zu nodes; at most %u are drawn", tree->count, TN_TREE_DRAWN);
+        tn_fail(error, TN_LIMIT, 1228, "the derivation has %zu nodes; at most %u are drawn", tree->count,
+                TN_TREE_DRAWN);
         tn_error_help(error, "--tree text and --tree json have no such limit");
         return TN_LIMIT;
     }

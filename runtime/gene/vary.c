@@ -5,7 +5,8 @@
 
 #define ATTEMPTS 8 /* at finding subtrees that can change places */
 
-const char *const tn_crossover_names[TN_CROSS_COUNT] = {"one-point", "fixed-one-point", "two-point", "fixed-two-point", "subtree"};
+const char *const tn_crossover_names[TN_CROSS_COUNT] = {"one-point", "fixed-one-point", "two-point", "fixed-two-point",
+                                                        "subtree"};
 const char *const tn_mutation_names[TN_MUTATE_COUNT] = {"codons", "genome", "subtree"};
 
 struct tn_breeder {
@@ -103,7 +104,8 @@ static void two_points(tn_chance *chance, size_t length, size_t points[2])
     }
 }
 
-static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_parent parents[2], tn_genome *children[2])
+static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_parent parents[2],
+                         tn_genome *children[2])
 {
     const tn_genome *a = parents[0].genome, *b = parents[1].genome;
     size_t la = part_of(&parents[0], o->within_used), lb = part_of(&parents[1], o->within_used), pa[2], pb[2];
@@ -187,7 +189,8 @@ static tn_status is_valid(tn_breeder *b, const tn_genome *genome, bool *valid, t
     return status;
 }
 
-/* child = the genome `which` with its subtree `at` replaced by the subtree `from` of the other one; the child must be valid. */
+/* child = the genome `which` with its subtree `at` replaced by the subtree `from` of the other one; the child must be
+ * valid. */
 static tn_status graft(tn_breeder *b, const tn_vary_options *o, int which, const tn_span_of *at, const tn_span_of *from,
                        tn_genome *child, bool *done, tn_error *error)
 {
@@ -197,7 +200,8 @@ static tn_status graft(tn_breeder *b, const tn_vary_options *o, int which, const
         return tn_fail_memory(error);
     if (!*done)
         return TN_OK;
-    if (!splice(child, &b->straight[which], (size_t)at->begin, (size_t)at->end, &b->part, 0, b->part.count, o->max_codons))
+    if (!splice(child, &b->straight[which], (size_t)at->begin, (size_t)at->end, &b->part, 0, b->part.count,
+                o->max_codons))
         return tn_fail_memory(error);
     return is_valid(b, child, done, error);
 }
@@ -276,8 +280,8 @@ static bool mutate_genome(const tn_vary_options *o, tn_chance *chance, size_t pa
     return part && times;
 }
 
-static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, tn_genome *genome, bool *mutated,
-                                tn_error *error)
+static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, tn_genome *genome,
+                                bool *mutated, tn_error *error)
 {
     bool valid;
     *mutated = false;
@@ -286,14 +290,18 @@ static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chan
     tn_status status = find_subtrees(b, 0, genome, &valid, error);
     if (status != TN_OK || !valid)
         return status;
-    tn_tree_options tree = {.method = TN_TREE_GROW, .depth = o->tree_depth, .max_depth = b->mapping.max_depth,
-                            .codon_limit = o->codon_limit, .max_codons = o->max_codons};
+    tn_tree_options tree = {.method = TN_TREE_GROW,
+                            .depth = o->tree_depth,
+                            .max_depth = b->mapping.max_depth,
+                            .codon_limit = o->codon_limit,
+                            .max_codons = o->max_codons};
     for (int attempt = 0; attempt < ATTEMPTS && !*mutated; attempt++) {
         const tn_span_of *at = &b->spans[0].items[tn_chance_below(chance, b->spans[0].count)];
         status = tn_random_tree(b->grammar, b->analysis, at->rule, at->depth, &tree, chance, &b->tree, error);
         if (status != TN_OK)
             return status;
-        if (!splice(&b->part, &b->straight[0], (size_t)at->begin, (size_t)at->end, &b->tree, 0, b->tree.count, o->max_codons))
+        if (!splice(&b->part, &b->straight[0], (size_t)at->begin, (size_t)at->end, &b->tree, 0, b->tree.count,
+                    o->max_codons))
             return tn_fail_memory(error);
         status = is_valid(b, &b->part, mutated, error);
         if (status != TN_OK)
@@ -302,8 +310,8 @@ static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chan
     return !*mutated || copy(genome, &b->part) ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status mutate(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, uint64_t used, tn_genome *genome, bool *mutated,
-                        tn_error *error)
+static tn_status mutate(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, uint64_t used, tn_genome *genome,
+                        bool *mutated, tn_error *error)
 {
     tn_parent child = {genome, used};
     size_t part = part_of(&child, o->within_used);
@@ -319,8 +327,8 @@ static tn_status mutate(tn_breeder *b, const tn_vary_options *o, tn_chance *chan
     }
 }
 
-tn_status tn_breed(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, const tn_parent parents[2], tn_genome *children[2],
-                   uint8_t kinds[2], tn_error *error)
+tn_status tn_breed(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, const tn_parent parents[2],
+                   tn_genome *children[2], uint8_t kinds[2], tn_error *error)
 {
     bool crossed = false;
     tn_status status = TN_OK;

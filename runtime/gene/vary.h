@@ -1,5 +1,5 @@
-/* Genetic operators: how two genomes make two others, and how one is changed. Each is a function of its inputs and of the draws of
- * one tn_chance, so that a run's genealogy can be replayed. */
+/* Genetic operators: how two genomes make two others, and how one is changed. Each is a function of its inputs and of
+ * the draws of one tn_chance, so that a run's genealogy can be replayed. */
 #ifndef TARTAN_GENE_VARY_H
 #define TARTAN_GENE_VARY_H
 
@@ -11,7 +11,7 @@ typedef enum tn_crossover {
     TN_CROSS_FIXED_ONE_POINT, /* both at the same */
     TN_CROSS_TWO_POINT,
     TN_CROSS_FIXED_TWO_POINT,
-    TN_CROSS_SUBTREE,         /* subtrees of the same rule change places; keeps sentences valid */
+    TN_CROSS_SUBTREE, /* subtrees of the same rule change places; keeps sentences valid */
     TN_CROSS_COUNT
 } tn_crossover;
 
@@ -29,11 +29,11 @@ typedef struct tn_vary_options {
     tn_crossover crossover;
     double crossover_rate; /* probability that a pair is crossed at all */
     tn_mutation mutation;
-    double mutation_rate;  /* negative: 1 / (codons used), or 1 codon of a genome */
-    bool within_used;      /* points lie among the codons that mapping read */
+    double mutation_rate; /* negative: 1 / (codons used), or 1 codon of a genome */
+    bool within_used;     /* points lie among the codons that mapping read */
     uint64_t codon_limit;
     size_t max_codons;
-    uint32_t tree_depth;   /* of the trees that subtree mutation makes, as a limit of the whole tree's depth */
+    uint32_t tree_depth; /* of the trees that subtree mutation makes, as a limit of the whole tree's depth */
 } tn_vary_options;
 
 /* One thread's means of varying: scratch memory. Borrows the grammar and its analysis. */
@@ -48,7 +48,13 @@ typedef struct tn_parent {
     uint64_t used; /* codons that mapping read; 0 where it is not valid (then all count) */
 } tn_parent;
 
-typedef enum tn_birth_kind { TN_BIRTH_RANDOM, TN_BIRTH_TREE, TN_BIRTH_SEED, TN_BIRTH_CLONE, TN_BIRTH_CROSSED } tn_birth_kind;
+typedef enum tn_birth_kind {
+    TN_BIRTH_RANDOM,
+    TN_BIRTH_TREE,
+    TN_BIRTH_SEED,
+    TN_BIRTH_CLONE,
+    TN_BIRTH_CROSSED
+} tn_birth_kind;
 
 #define TN_BIRTH_MUTATED 16 /* is added to the kind */
 

@@ -11,10 +11,10 @@ struct tn_crew {
     pthread_cond_t wake, done;
     pthread_t *helpers;
     unsigned helper_count;
-    uint64_t job;      /* number of the current one */
-    bool open;         /* may helpers join it? */
-    bool leaving;      /* no more jobs */
-    unsigned active;   /* helpers at work on it */
+    uint64_t job;    /* number of the current one */
+    bool open;       /* may helpers join it? */
+    bool leaving;    /* no more jobs */
+    unsigned active; /* helpers at work on it */
     /* the job */
     tn_crew_work *work;
     void *context;

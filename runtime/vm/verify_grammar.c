@@ -14,7 +14,8 @@ typedef struct tn_grammar_checker {
     size_t map;                       /* the next map record */
 } tn_grammar_checker;
 
-__attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_grammar_checker *checker, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_grammar_checker *checker, const char *format,
+                                                              ...)
 {
     char what[160];
     va_list args;
@@ -50,7 +51,8 @@ static tn_status check_operand(const tn_grammar_checker *checker, const tn_instr
             return refuse(checker, "there is no text at %u", operand);
         return TN_OK;
     case TN_OPERANDS_SYMBOL:
-        return is_symbol(checker->grammar, operand) ? TN_OK : refuse(checker, "non-terminal %u is not of the grammar", operand);
+        return is_symbol(checker->grammar, operand) ? TN_OK
+                                                    : refuse(checker, "non-terminal %u is not of the grammar", operand);
     case TN_OPERANDS_LETTER:
         return operand < TN_EDGE_LETTERS ? TN_OK : refuse(checker, "there is no edge variable %u", operand);
     case TN_OPERANDS_BODY:
@@ -69,11 +71,13 @@ static tn_status check_opcode(const tn_grammar_checker *checker, uint32_t body_e
     const tn_opcode_info *info = tn_opcode_describe(opcode);
     if (!info || info->engine != TN_CODE_MAP)
         return refuse(checker, "%u is no opcode of a production", opcode);
-    if (info->length > code_end - checker->offset || (opcode != TN_OP_DONE && info->length > body_end - checker->offset))
+    if (info->length > code_end - checker->offset ||
+        (opcode != TN_OP_DONE && info->length > body_end - checker->offset))
         return refuse(checker, "%s runs past its end", info->name);
     if ((opcode == TN_OP_DONE) != (checker->offset + 1 == code_end))
         return refuse(checker, "a production ends with its one DONE");
-    if (checker->grammar->dialect == TN_DIALECT_GE && opcode != TN_OP_EMIT && opcode != TN_OP_EXPAND && opcode != TN_OP_DONE)
+    if (checker->grammar->dialect == TN_DIALECT_GE && opcode != TN_OP_EMIT && opcode != TN_OP_EXPAND &&
+        opcode != TN_OP_DONE)
         return refuse(checker, "%s is not of the grammar's dialect", info->name);
     return TN_OK;
 }
@@ -145,7 +149,8 @@ static tn_status check_grammar(tn_grammar_checker *checker, const tn_grammar_rec
     checker->grammar = grammar;
     if (!is_name(module, grammar->name))
         return refuse(checker, "a grammar has no name of 1 to %u bytes", TN_NAME_MAX);
-    if (grammar->dialect >= TN_DIALECT_COUNT || grammar->repair >= TN_REPAIR_COUNT || (grammar->flags & ~TN_SKIP_SINGLE) != 0)
+    if (grammar->dialect >= TN_DIALECT_COUNT || grammar->repair >= TN_REPAIR_COUNT ||
+        (grammar->flags & ~TN_SKIP_SINGLE) != 0)
         return refuse(checker, "a grammar has an unknown dialect, repair or flag");
     if (grammar->dialect == TN_DIALECT_GE ? grammar->repair != TN_REPAIR_OFF : grammar->flags != 0)
         return refuse(checker, "a grammar's repair or flags are not of its dialect");

@@ -1,5 +1,5 @@
-/* The front end of grammars on any text: it ends, says what is wrong, and what it accepts loads, is analysed, maps, and inverts what
- * it maps. The first byte chooses the genome. */
+/* The front end of grammars on any text: it ends, says what is wrong, and what it accepts loads, is analysed, maps, and
+ * inverts what it maps. The first byte chooses the genome. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,8 @@ static void write_all(const tn_grammar *grammar, const tn_mapping *mapping)
     free(text);
 }
 
-static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_options *options, const char *sentence, size_t size)
+static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_options *options, const char *sentence,
+                   size_t size)
 {
     tn_genome genome = {0};
     tn_error error;

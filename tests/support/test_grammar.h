@@ -15,7 +15,8 @@
 #include "runtime/gene/grammar.h"
 #include "runtime/vm/file.h"
 
-/* Compiles; what there is to say goes to `codes` as "E1004 W1001 ", in the order of the text. NULL where there are errors. */
+/* Compiles; what there is to say goes to `codes` as "E1004 W1001 ", in the order of the text. NULL where there are
+ * errors. */
 static inline uint8_t *test_compile_grammar(const char *text, size_t *size, char *codes, size_t codes_size)
 {
     tn_sources sources = {0};

@@ -21,7 +21,7 @@ static void test_depths(void **state)
     tn_grammar_free(g);
     g = test_grammar_file(STDLIB "genr8.bnf");
     assert_int_equal(tn_analyse(g, &a, NULL), TN_OK);
-    assert_int_equal(a.rule_depth[0], 3); /* start symbol, rewrite rule, predecessor */
+    assert_int_equal(a.rule_depth[0], 3);            /* start symbol, rewrite rule, predecessor */
     assert_true(a.growth > 0.69 && a.growth < 0.71); /* seven of ten productions of <Modifier> hold another */
     assert_string_equal(tn_rule_name(g, a.growing_rule), "<Modifier>");
     tn_analysis_clear(&a);
@@ -77,7 +77,8 @@ static void test_counts(void **state)
     count(tree, 4, false, "38");
     count(tree, 5, false, "1446");
     count(tree, 9, false, "365338978906606237729724396156395693696687137202086");
-    /* by codons: start symbol, then the loop's k rounds of one digit each and its k + 1 tests: 2^k ways with 2k + 2 codons */
+    /* by codons: start symbol, then the loop's k rounds of one digit each and its k + 1 tests: 2^k ways with 2k + 2
+     * codons */
     const char *loop = "%dialect genr8\n%repair off\n<s> ::= { <d> }\n<d> ::= 0 | 1\n";
     count(loop, 2, true, "1");
     count(loop, 3, true, "0");

@@ -1,4 +1,5 @@
-/* Evolution: the same run whatever the number of threads, runs replayed from their scores, expressions, and that it gets better. */
+/* Evolution: the same run whatever the number of threads, runs replayed from their scores, expressions, and that it
+ * gets better. */
 #include <math.h>
 
 #include "runtime/gene/evolve.h"
@@ -161,8 +162,8 @@ static bool recall(void *context, uint64_t id, tn_score *score)
     return true;
 }
 
-static tn_status never(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score, char message[200],
-                       tn_error *error)
+static tn_status never(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                       char message[200], tn_error *error)
 {
     (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
     return tn_fail(error, TN_INTERNAL, 0, "asked");
@@ -270,8 +271,9 @@ static void test_csv(void **state)
     static const struct {
         const char *text;
         uint32_t line, column;
-    } wrong[] = {{"", 0, 0}, {"x,y\n", 0, 0}, {"x,y\n1\n", 2, 2}, {"x,y\n1,2,3\n", 2, 5}, {"x,y\n1,two\n", 2, 3}, {"x,,y\n", 1, 3},
-                 {"y\n1\n", 0, 0}, {"x,y\n1,inf\n", 2, 3}};
+    } wrong[] = {
+        {"", 0, 0},       {"x,y\n", 0, 0},  {"x,y\n1\n", 2, 2},    {"x,y\n1,2,3\n", 2, 5}, {"x,y\n1,two\n", 2, 3},
+        {"x,,y\n", 1, 3}, {"y\n1\n", 0, 0}, {"x,y\n1,inf\n", 2, 3}};
     tn_problem *problem;
     tn_error error;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

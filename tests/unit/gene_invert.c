@@ -1,5 +1,5 @@
-/* Mapping backwards: map(invert(s)) = s for random sentences of all kinds of grammars, and clear answers where there is no
- * genome. */
+/* Mapping backwards: map(invert(s)) = s for random sentences of all kinds of grammars, and clear answers where there is
+ * no genome. */
 #include "runtime/gene/invert.h"
 #include "runtime/gene/mapper.h"
 #include "runtime/vm/random.h"
@@ -89,7 +89,8 @@ static void test_refusals(void **state)
 static void test_binding(void **state)
 {
     (void)state;
-    tn_grammar *g = test_grammar("%dialect genr8\n%repair off\n<s> ::= { EdgeX - } EdgeX EdgeY <t>\n<t> ::= EdgeX [ <t> ]\n");
+    tn_grammar *g =
+        test_grammar("%dialect genr8\n%repair off\n<s> ::= { EdgeX - } EdgeX EdgeY <t>\n<t> ::= EdgeX [ <t> ]\n");
     tn_genome genome = {0};
     tn_error error;
     tn_invert_options options = {0};
@@ -101,7 +102,8 @@ static void test_binding(void **state)
     tn_grammar_free(g);
 }
 
-/* Left recursion, hidden recursion, empty cycles and exponentially many derivations all end, within the limit of states. */
+/* Left recursion, hidden recursion, empty cycles and exponentially many derivations all end, within the limit of
+ * states. */
 static void test_hostile(void **state)
 {
     (void)state;

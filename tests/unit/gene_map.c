@@ -1,5 +1,5 @@
-/* Mapping against independent results: PonyGE2's for the ge dialect, a reference implementation's for genr8, and the worked
- * example of the Genr8 paper (5.2), gene by gene. */
+/* Mapping against independent results: PonyGE2's for the ge dialect, a reference implementation's for genr8, and the
+ * worked example of the Genr8 paper (5.2), gene by gene. */
 #include <jansson.h>
 
 #include "runtime/gene/mapper.h"
@@ -134,11 +134,11 @@ static void test_worked_example(void **state)
     (void)state;
     static const uint64_t genome[] = {212, 187, 632, 832, 800, 517, 338, 39, 878, 185, 954, 863};
     static const expected_step steps[] = {
-        {212, 1, 0, TN_EVENT_EXPAND}, /* start symbol */
-        {187, 1, 0, TN_EVENT_EXPAND}, /* axiom */
-        {632, 3, 2, TN_EVENT_EDGE},   /* a new edge type */
+        {212, 1, 0, TN_EVENT_EXPAND},                                                            /* start symbol */
+        {187, 1, 0, TN_EVENT_EXPAND},                                                            /* axiom */
+        {632, 3, 2, TN_EVENT_EDGE},                                                              /* a new edge type */
         {832, 4, 0, TN_EVENT_EDGE},   {800, 4, 0, TN_EVENT_EDGE},   {517, 2, 1, TN_EVENT_AGAIN}, /* 1 > 0 */
-        {338, 4, 2, TN_EVENT_EDGE},   {39, 3, 0, TN_EVENT_STOP},                                /* 0 < 1 */
+        {338, 4, 2, TN_EVENT_EDGE},   {39, 3, 0, TN_EVENT_STOP},                                 /* 0 < 1 */
         {878, 1, 0, TN_EVENT_EXPAND}, {185, 4, 1, TN_EVENT_EXPAND}, {954, 4, 2, TN_EVENT_EDGE},
         {863, 4, 3, TN_EVENT_EDGE}, /* another new one */
     };
@@ -245,14 +245,15 @@ static void test_genr8_cases(void **state)
                        "<Successor> ::= Edge Edge\n";
     g = test_grammar(text);
     options = tn_map_options_of(g);
-    map_text(g, "0 0 1 0 0 1 2 3", &options, "Edge0 -> Edge1 Edge2 ; Edge1 -> Edge1 ; Edge2 -> Edge2 ; Edge3 -> Edge3 ; Edge3");
+    map_text(g, "0 0 1 0 0 1 2 3", &options,
+             "Edge0 -> Edge1 Edge2 ; Edge1 -> Edge1 ; Edge2 -> Edge2 ; Edge3 -> Edge3 ; Edge3");
     tn_grammar_free(g);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ge_rows),       cmocka_unit_test(test_genr8_rows),  cmocka_unit_test(test_all_rows),
+        cmocka_unit_test(test_ge_rows),        cmocka_unit_test(test_genr8_rows),  cmocka_unit_test(test_all_rows),
         cmocka_unit_test(test_worked_example), cmocka_unit_test(test_small_cases), cmocka_unit_test(test_genr8_cases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

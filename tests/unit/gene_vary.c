@@ -1,5 +1,5 @@
-/* First genomes and genetic operators: trees map to themselves within their depth, subtree operators keep sentences valid, and
- * everything depends on its draws alone. */
+/* First genomes and genetic operators: trees map to themselves within their depth, subtree operators keep sentences
+ * valid, and everything depends on its draws alone. */
 #include "runtime/gene/vary.h"
 #include "tests/support/test_grammar.h"
 
@@ -29,7 +29,8 @@ static void finish(fixture *f)
     tn_grammar_free(f->grammar);
 }
 
-static const char *const grammars[] = {STDLIB "arithmetic.bnf", STDLIB "words.bnf", STDLIB "plan-rules.bnf", STDLIB "genr8.bnf",
+static const char *const grammars[] = {STDLIB "arithmetic.bnf",      STDLIB "words.bnf",
+                                       STDLIB "plan-rules.bnf",      STDLIB "genr8.bnf",
                                        STDLIB "genr8-symmetric.bnf", STDLIB "genr8-probabilistic.bnf"};
 
 static void test_trees(void **state)
@@ -41,8 +42,11 @@ static void test_trees(void **state)
         for (uint64_t i = 0; i < 300; i++) {
             tn_genome genome = {0};
             tn_chance chance = tn_chance_for(3, TN_PURPOSE_INITIALISE, g, i);
-            tn_tree_options options = {.method = (tn_tree_method)(i % 3), .depth = least + (uint32_t)(i % 7),
-                                       .max_depth = f.mapping.max_depth, .codon_limit = 100000, .max_codons = 100000};
+            tn_tree_options options = {.method = (tn_tree_method)(i % 3),
+                                       .depth = least + (uint32_t)(i % 7),
+                                       .max_depth = f.mapping.max_depth,
+                                       .codon_limit = 100000,
+                                       .max_codons = 100000};
             assert_int_equal(tn_random_tree(f.grammar, &f.analysis, 0, 1, &options, &chance, &genome, NULL), TN_OK);
             tn_mapping mapping;
             assert_int_equal(tn_map_genome(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL), TN_OK);
@@ -64,11 +68,21 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
     tn_breeder *breeder = tn_breeder_new(f->grammar, &f->analysis, &f->mapping);
     tn_breeder *again = tn_breeder_new(f->grammar, &f->analysis, &f->mapping);
     tn_genome genomes[40] = {0};
-    tn_tree_options tree = {.depth = f->analysis.rule_depth[0] + 5, .max_depth = f->mapping.max_depth, .codon_limit = 1000,
-                            .tail = 0.5, .max_codons = 5000};
-    tn_vary_options options = {.crossover = crossover, .crossover_rate = 0.9, .mutation = mutation,
-                               .mutation_rate = mutation == TN_MUTATE_GENOME ? 2 : mutation == TN_MUTATE_SUBTREE ? 0.5 : 0.02,
-                               .within_used = true, .codon_limit = 1000, .max_codons = 5000, .tree_depth = tree.depth};
+    tn_tree_options tree = {.depth = f->analysis.rule_depth[0] + 5,
+                            .max_depth = f->mapping.max_depth,
+                            .codon_limit = 1000,
+                            .tail = 0.5,
+                            .max_codons = 5000};
+    tn_vary_options options = {.crossover = crossover,
+                               .crossover_rate = 0.9,
+                               .mutation = mutation,
+                               .mutation_rate = mutation == TN_MUTATE_GENOME    ? 2
+                                                : mutation == TN_MUTATE_SUBTREE ? 0.5
+                                                                                : 0.02,
+                               .within_used = true,
+                               .codon_limit = 1000,
+                               .max_codons = 5000,
+                               .tree_depth = tree.depth};
     size_t crossed = 0;
     for (uint64_t i = 0; i < 40; i++) {
         tn_chance chance = tn_chance_for(5, TN_PURPOSE_INITIALISE, 0, i);
@@ -76,7 +90,8 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
     }
     for (uint64_t round = 0; round < 400; round++) {
         uint64_t a = tn_random64(1, round, 0) % 40, b = tn_random64(1, round, 1) % 40;
-        tn_genome children[2] = {0}, copies[2] = {0}, *into[2] = {&children[0], &children[1]}, *twice[2] = {&copies[0], &copies[1]};
+        tn_genome children[2] = {0}, copies[2] = {0}, *into[2] = {&children[0], &children[1]},
+                  *twice[2] = {&copies[0], &copies[1]};
         tn_mapping mapping;
         tn_map_genome(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
         tn_parent parents[2] = {{&genomes[a], mapping.used}, {&genomes[b], 0}};
@@ -89,7 +104,8 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
             assert_int_equal(kinds[i], same[i]);
             assert_int_equal(children[i].count, copies[i].count);
             assert_memory_equal(children[i].codons, copies[i].codons, children[i].count * sizeof(uint64_t));
-            assert_int_equal(tn_map_genome(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
+            assert_int_equal(
+                tn_map_genome(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
             assert_true(mapping.valid || !keeps_valid);
             tn_genome *place = &genomes[i ? b : a];
             if (mapping.valid && (i == 0 || a != b)) {
@@ -134,10 +150,14 @@ static void test_linear_crossover(void **state)
                 first[i] = 100 + i;
             for (uint64_t i = 0; i < 7; i++)
                 second[i] = 200 + i;
-            tn_genome a = {first, 10, 10}, b = {second, 7, 7}, children[2] = {0}, *into[2] = {&children[0], &children[1]};
+            tn_genome a = {first, 10, 10}, b = {second, 7, 7}, children[2] = {0},
+                      *into[2] = {&children[0], &children[1]};
             tn_parent parents[2] = {{&a, 0}, {&b, 0}};
-            tn_vary_options options = {.crossover = (tn_crossover)c, .crossover_rate = 1, .mutation = TN_MUTATE_CODONS,
-                                       .mutation_rate = 0, .max_codons = 100};
+            tn_vary_options options = {.crossover = (tn_crossover)c,
+                                       .crossover_rate = 1,
+                                       .mutation = TN_MUTATE_CODONS,
+                                       .mutation_rate = 0,
+                                       .max_codons = 100};
             tn_chance chance = tn_chance_for(9, TN_PURPOSE_BIRTH, (uint64_t)c, round);
             uint8_t kinds[2];
             assert_int_equal(tn_breed(breeder, &options, &chance, parents, into, kinds, NULL), TN_OK);
