@@ -120,6 +120,13 @@ void tn_any_walk(const tn_any *any, const tn_lanes *lanes, uint8_t matches[TN_LA
 #define START(k)                                                                                                       \
     size_t state##k = 0;                                                                                               \
     const uint32_t *rows##k = lanes->rows + (k)*stride;
+    if (lanes->alone) {
+        START(0)
+        for (size_t i = 0; i < longest && state0 != sink; i++)
+            STEP(0)
+        FINISH(0)
+        return;
+    }
     TN_EACH_LANE(START)
 #undef START
     for (size_t i = 0; i < longest;) {

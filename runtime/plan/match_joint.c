@@ -230,6 +230,13 @@ static void walk_joined(const tn_joint *joint, const tn_lanes *lanes, uint64_t *
     size_t stride = lanes->stride, longest = lanes->longest;
     unsigned shift = joint->shift;
 #define STEP(k) state##k = table[((size_t)rows##k[i] << shift) + state##k];
+    if (lanes->alone) {
+        START(0)
+        for (size_t i = 0; i < longest; i++)
+            STEP(0)
+        FINISH(0)
+        return;
+    }
     TN_EACH_LANE(START)
     for (size_t i = 0; i < longest; i++) {
         TN_EACH_LANE(STEP)
@@ -244,6 +251,13 @@ static void walk_joined(const tn_joint *joint, const tn_lanes *lanes, uint64_t *
         const TYPE *table = joint->table;                                                                              \
         const uint32_t *column = joint->column;                                                                        \
         size_t stride = lanes->stride, longest = lanes->longest;                                                       \
+        if (lanes->alone) {                                                                                            \
+            START(0)                                                                                                   \
+            for (size_t i = 0; i < longest; i++)                                                                       \
+                STEP(0)                                                                                                \
+            FINISH(0)                                                                                                  \
+            return;                                                                                                    \
+        }                                                                                                              \
         TN_EACH_LANE(START)                                                                                            \
         for (size_t i = 0; i < longest; i++) {                                                                         \
             TN_EACH_LANE(STEP)                                                                                         \

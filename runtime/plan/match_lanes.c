@@ -72,10 +72,24 @@ static void copy_plans(tn_lanes *lanes, const tn_row_map *map, const tn_tray *tr
     }
 }
 
+/* One plan: what a program does that asks plan by plan. */
+static bool fill_one(tn_lanes *lanes, const tn_row_map *map, const tn_tray *trays, size_t length)
+{
+    if (!reserve(lanes, length))
+        return false;
+    for (size_t i = 0; i < length; i++)
+        lanes->rows[i] = map->row_of_tray ? map->row_of_tray[trays[i]] : trays[i];
+    lanes->rows[length] = map->rows; /* where an odd number of trays is walked as an even one */
+    return true;
+}
+
 bool tn_lanes_fill(tn_lanes *lanes, const tn_row_map *map, const tn_plan_array *plans, size_t first)
 {
     size_t starts[TN_LANES + 1], last = plans->ends[plans->count - 1], longest = 0;
     starts[0] = first ? plans->ends[first - 1] : plans->begin;
+    lanes->alone = plans->count - first == 1;
+    if (lanes->alone)
+        return fill_one(lanes, map, plans->trays + starts[0], last - starts[0]);
     for (size_t k = 0; k < TN_LANES; k++) {
         starts[k + 1] = first + k < plans->count ? plans->ends[first + k] : starts[k];
         size_t length = starts[k + 1] - starts[k];

@@ -30,6 +30,7 @@ typedef struct tn_lanes {
     uint32_t *rows;
     size_t stride;
     size_t longest;
+    bool alone;      /* there is one plan, in lane 0, and the others have nothing in them: they need not be walked */
     size_t capacity; /* of rows */
     bool masked;     /* the processor has AVX-512, and it may be used */
 } tn_lanes;
@@ -42,7 +43,8 @@ typedef struct tn_plan_array {
     size_t count;
 } tn_plan_array;
 
-/* Puts plans [first, first + TN_LANES) into lanes; those past the last are empty. false where out of memory. */
+/* Puts plans [first, first + TN_LANES) into lanes; where those are fewer, the lanes left are empty. false where out of
+ * memory. */
 bool tn_lanes_fill(tn_lanes *lanes, const tn_row_map *map, const tn_plan_array *plans, size_t first);
 
 #endif

@@ -141,11 +141,18 @@ walk_avx512(const tn_shuffle *vector, const tn_lanes *lanes, uint64_t *bits, siz
 #define FINISH(k)                                                                                                      \
     bits[(k)*words + block.word] |= (_mm512_movepi8_mask(_mm512_permutexvar_epi8(state##k, accept)) & block.used)      \
                                     << block.bit;
+    __m512i accept = _mm512_loadu_si512(vector->accept);
+    if (lanes->alone) {
+        START(0)
+        for (size_t i = 0; i < longest; i++)
+            STEP(0)
+        FINISH(0)
+        return;
+    }
     TN_EACH_LANE(START)
     for (size_t i = 0; i < longest; i++) {
         TN_EACH_LANE(STEP)
     }
-    __m512i accept = _mm512_loadu_si512(vector->accept);
     TN_EACH_LANE(FINISH)
 #undef START
 #undef STEP
@@ -170,11 +177,18 @@ __attribute__((target("avx2"))) static void walk_avx2(const tn_shuffle *vector, 
         bits[(k)*words + low.word] |= (found & low.used) << low.bit;                                                   \
         bits[(k)*words + high.word] |= (found & high.used) >> 16 << high.bit;                                          \
     }
+    __m256i accept = _mm256_loadu_si256((const __m256i *)vector->accept);
+    if (lanes->alone) {
+        START(0)
+        for (size_t i = 0; i < longest; i++)
+            STEP(0)
+        FINISH(0)
+        return;
+    }
     TN_EACH_LANE(START)
     for (size_t i = 0; i < longest; i++) {
         TN_EACH_LANE(STEP)
     }
-    __m256i accept = _mm256_loadu_si256((const __m256i *)vector->accept);
     TN_EACH_LANE(FINISH)
 #undef START
 #undef STEP

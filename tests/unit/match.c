@@ -11,7 +11,7 @@
 
 #define RULES 150 /* three words of bits, many vectors */
 #define WORDS 3
-#define PLANS 61 /* the last lanes are not full */
+#define PLANS 61 /* the last lanes are not full; also one by one */
 
 static const tn_simd sets[] = {TN_SIMD_BEST, TN_SIMD_NONE, TN_SIMD_AVX2, TN_SIMD_AVX512};
 
@@ -91,6 +91,11 @@ static void check(const fixture *f, size_t count, tn_simd simd, uint32_t max_sta
     test_ok(tn_match_all(matcher, &f->plans, bits, &done, &error), &error);
     assert_int_equal(done, PLANS);
     assert_memory_equal(bits, f->expected, PLANS * words * sizeof *bits);
+    tn_plan_array fewer = f->plans;
+    fewer.count = PLANS / TN_LANES * TN_LANES + 1 - TN_LANES; /* one plan is left for the last lanes */
+    memset(bits, 0xff, sizeof bits);
+    test_ok(tn_match_all(matcher, &fewer, bits, &done, &error), &error);
+    assert_memory_equal(bits, f->expected, fewer.count * words * sizeof *bits);
     test_ok(tn_match_any(matcher, &f->plans, matches, &done, &error), &error);
     assert_int_equal(done, PLANS);
     for (size_t i = 0; i < PLANS; i++) {
@@ -98,6 +103,11 @@ static void check(const fixture *f, size_t count, tn_simd simd, uint32_t max_sta
         for (size_t w = 0; w < words; w++)
             expected |= f->expected[i * words + w] != 0;
         assert_int_equal(matches[i], expected);
+        tn_plan_array one = {f->trays, i ? f->ends[i - 1] : f->plans.begin, f->ends + i, 1};
+        test_ok(tn_match_all(matcher, &one, bits, &done, &error), &error);
+        assert_memory_equal(bits, f->expected + i * words, words * sizeof *bits);
+        test_ok(tn_match_any(matcher, &one, matches, &done, &error), &error);
+        assert_int_equal(matches[0], expected);
     }
     tn_matcher_free(matcher);
     tn_rules_free(rules);
