@@ -190,15 +190,96 @@ void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count)
 
 /* ---- counts */
 
-tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
-                           tn_error *error)
+#define FORWARD_LIMBS_MAX 4
+
+/* How many plans of the length reached lead to each state; only to those `active` there are any. */
+typedef struct tn_front {
+    mp_limb_t *value; /* [states][limbs] */
+    uint32_t *active; /* [states] */
+    uint32_t count;
+} tn_front;
+
+static bool front_make(tn_front *front, uint32_t states, size_t limbs)
 {
-    uint64_t *weights = NULL;
+    front->value = calloc((size_t)states * limbs + 1, sizeof *front->value);
+    front->active = malloc(((size_t)states + 1) * sizeof *front->active);
+    return front->value && front->active;
+}
+
+static void front_clear(tn_front *front)
+{
+    free(front->value);
+    free(front->active);
+}
+
+/* Moves the plans on by one tray, and empties the front they were in. Values of active states are not zero. */
+static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, tn_front *from, tn_front *to)
+{
+    to->count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        uint32_t s = from->active[i];
+        mp_limb_t *value = from->value + s * limbs;
+        for (size_t e = sparse->first[s]; e < sparse->first[s + 1]; e++) {
+            mp_limb_t *sum = to->value + sparse->target[e] * limbs;
+            if (weights[sparse->label[e]] == 0)
+                continue;
+            if (mpn_zero_p(sum, (mp_size_t)limbs))
+                to->active[to->count++] = sparse->target[e];
+            add_times(sum, value, limbs, weights[sparse->label[e]]);
+        }
+        memset(value, 0, limbs * sizeof *value);
+    }
+    from->count = 0;
+}
+
+/* Of an automaton without cycles, from its start: each step only meets the states that plans of that length reach.
+ * limbs: hold the number of all plans of `max` trays. */
+static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, uint32_t max,
+                               mpz_t *counts, tn_error *error)
+{
+    tn_front from = {0}, to = {0};
+    bool ok = front_make(&from, sparse->states, limbs) && front_make(&to, sparse->states, limbs);
+    if (ok && sparse->states > 0) {
+        from.value[0] = 1;
+        from.active[from.count++] = 0;
+    }
+    for (uint32_t length = 0; ok && length <= max; length++) {
+        mpz_set_ui(counts[length], 0);
+        for (uint32_t i = 0; i < from.count; i++) {
+            mpz_t value;
+            mpz_roinit_n(value, from.value + from.active[i] * limbs, (mp_size_t)limbs);
+            if (sparse->accept[from.active[i]])
+                mpz_add(counts[length], counts[length], value);
+        }
+        if (length == max)
+            break; /* `limbs` hold no more */
+        front_move(sparse, weights, limbs, &from, &to);
+        tn_front swap = from;
+        from = to;
+        to = swap;
+    }
+    front_clear(&from);
+    front_clear(&to);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* Limbs that hold the number of all plans of `max` trays. */
+static uint64_t limbs_of_all(const uint64_t *weights, uint32_t columns, uint32_t max)
+{
+    uint64_t trays = 0, bits = 1;
+    for (uint32_t c = 0; c < columns; c++)
+        trays += weights[c];
+    while (trays >> bits)
+        bits++;
+    return bits * max / 64 + 1;
+}
+
+static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights, uint32_t max, mpz_t *counts,
+                                tn_error *error)
+{
     tn_edges edges = {0};
     tn_row row = {0};
-    tn_status status = tn_column_weights(classes, sparse->column, sparse->columns, &weights, error);
-    if (status == TN_OK)
-        status = tn_edges_make(&edges, sparse, weights, error);
+    tn_status status = tn_edges_make(&edges, sparse, weights, error);
     if (status == TN_OK)
         status = tn_row_first(&edges, &row, error);
     for (uint32_t length = 0; status == TN_OK; length++) {
@@ -214,6 +295,19 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, u
     }
     tn_row_clear(&row);
     tn_edges_clear(&edges);
+    return status;
+}
+
+tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
+                           tn_error *error)
+{
+    uint64_t *weights = NULL;
+    tn_status status = tn_column_weights(classes, sparse->column, sparse->columns, &weights, error);
+    uint64_t limbs = status == TN_OK ? limbs_of_all(weights, sparse->columns, max) : 0;
+    if (status == TN_OK && sparse->folded && limbs <= FORWARD_LIMBS_MAX)
+        status = count_forward(sparse, weights, limbs, max, counts, error);
+    else if (status == TN_OK)
+        status = count_backward(sparse, weights, max, counts, error);
     free(weights);
     return status;
 }

@@ -31,6 +31,12 @@ typedef struct tn_visit {
     size_t slot;  /* of the pair in the table */
 } tn_visit;
 
+/* All edges of a column: a hash of them, and how many. */
+typedef struct tn_column_look {
+    uint64_t hash;
+    size_t edges;
+} tn_column_look;
+
 typedef struct tn_folding {
     const tn_sparse *a;
     const tn_dfa *b;
@@ -53,7 +59,7 @@ typedef struct tn_folding {
     uint32_t states, state_capacity;
     uint32_t *slots; /* state + 1 by hash; 0 is free */
     uint32_t slot_capacity;
-    uint64_t *look; /* [columns]: a hash of all of a column's edges */
+    tn_column_look *looks; /* [columns] */
     uint64_t work;
 } tn_folding;
 
@@ -148,6 +154,12 @@ static bool reserve_state(tn_folding *f, size_t edges)
     return grow((void **)&f->edges, &f->edge_capacity, f->edge_count + edges, sizeof *f->edges);
 }
 
+static void look_at(tn_column_look *look, uint32_t state, uint32_t target)
+{
+    look->hash = mix(look->hash, (uint64_t)state << 32 | target);
+    look->edges++;
+}
+
 /* The state that has this row: an old one, or a new one. */
 static uint32_t intern_row(tn_folding *f, const tn_edge *row, size_t size, uint8_t accept)
 {
@@ -173,7 +185,7 @@ static uint32_t intern_row(tn_folding *f, const tn_edge *row, size_t size, uint8
     f->edge_count += size;
     f->first[s + 1] = f->edge_count;
     for (size_t i = 0; i < size; i++)
-        f->look[row[i].label] = mix(f->look[row[i].label], (uint64_t)s << 32 | row[i].target);
+        look_at(&f->looks[row[i].label], s, row[i].target);
     return s;
 }
 
@@ -263,33 +275,31 @@ static void check_merges(const tn_folding *f, uint32_t *same, uint32_t *row, uin
 }
 
 /* Says of each column which is the first one equal to it. A column that has all edges of another, and as many, is equal
- * to it; edge counts are part of the look. */
+ * to it. */
 static bool find_merges(const tn_folding *f, uint32_t *same)
 {
     size_t columns = f->splits.columns;
-    uint32_t *row = calloc(3 * columns + 1, sizeof *row), *count = row + 2 * columns;
-    tn_numbering looks = {0};
+    uint32_t *row = calloc(2 * columns + 1, sizeof *row);
+    tn_numbering hashes = {0};
     bool ok = row != NULL, merged = false;
-    for (size_t e = 0; ok && e < f->edge_count; e++)
-        count[f->edges[e].label]++;
     for (uint32_t c = 0; ok && c < columns; c++) {
-        uint32_t before = looks.count, number = tn_number(&looks, f->look[c]);
+        uint32_t before = hashes.count, number = tn_number(&hashes, f->looks[c].hash);
         ok = number != UINT32_MAX;
         if (ok && number == before)
-            row[number] = c; /* until check_merges needs it, the first column of each look */
+            row[number] = c; /* until check_merges needs it, the first column of each hash */
         if (ok)
-            same[c] = count[row[number]] == count[c] ? row[number] : c;
+            same[c] = f->looks[row[number]].edges == f->looks[c].edges ? row[number] : c;
         merged = merged || (ok && same[c] != c);
     }
     if (ok && merged)
         check_merges(f, same, row, row + columns);
     free(row);
-    tn_numbering_clear(&looks);
+    tn_numbering_clear(&hashes);
     return ok;
 }
 
 /* The finished states in reverse, so that the start, finished last, comes first; equal columns merged. */
-static bool write_rows(const tn_folding *f, const uint32_t *same, uint32_t *rank, tn_sparse *made)
+static void write_rows(const tn_folding *f, const uint32_t *same, uint32_t *rank, tn_sparse *made)
 {
     uint32_t columns = 0;
     for (uint32_t c = 0; c < f->splits.columns; c++)
@@ -309,7 +319,6 @@ static bool write_rows(const tn_folding *f, const uint32_t *same, uint32_t *rank
         }
         made->first[s + 1] = used;
     }
-    return true;
 }
 
 static tn_status finish(const tn_folding *f, tn_sparse **out, tn_error *error)
@@ -317,8 +326,8 @@ static tn_status finish(const tn_folding *f, tn_sparse **out, tn_error *error)
     uint32_t *same = malloc(((size_t)f->splits.columns * 2 + 1) * sizeof *same);
     bool ok = same && find_merges(f, same);
     size_t edges = 0;
-    for (size_t e = 0; ok && e < f->edge_count; e++)
-        edges += same[f->edges[e].label] == f->edges[e].label;
+    for (uint32_t c = 0; ok && c < f->splits.columns; c++)
+        edges += same[c] == c ? f->looks[c].edges : 0;
     tn_sparse *made = ok ? tn_sparse_new(f->a->letters, f->splits.columns, f->states, edges) : NULL;
     if (made)
         write_rows(f, same, same + f->splits.columns, made);
@@ -337,8 +346,8 @@ tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation o
     tn_status status = tn_bounds_check(bounds, what, 1, 1, a->letters, error);
     if (status == TN_OK && !tn_splits_make(&f.splits, a, b))
         status = tn_fail_memory(error);
-    f.look = calloc((size_t)f.splits.columns + 1, sizeof *f.look);
-    if (status == TN_OK && !f.look)
+    f.looks = calloc((size_t)f.splits.columns + 1, sizeof *f.looks);
+    if (status == TN_OK && !f.looks)
         status = tn_fail_memory(error);
     if (status == TN_OK && a->states > 0 && f.settled != 0)
         status = walk(&f, what, bounds, error);
@@ -354,7 +363,7 @@ tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation o
     free(f.hash);
     free(f.accept);
     free(f.slots);
-    free(f.look);
+    free(f.looks);
     return status;
 }
 

@@ -11,7 +11,7 @@ static tn_status pass_table(const tn_library *library, uint64_t bytes, uint32_t 
         return TN_OK;
     tn_fail(error, TN_LIMIT, 806, "the table of counts passes the limit of %llu bytes at plans of %u trays (%u states)",
             (unsigned long long)library->max_table, length, library->kept->states);
-    tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-table");
+    tn_error_help(error, "give fewer trays with --trays, or leave out rules that multiply the states");
     return TN_LIMIT;
 }
 

@@ -62,11 +62,10 @@ static tn_status open_rules(void *context, tn_error *error)
     return status;
 }
 
-static tn_status open_library(void *context, tn_error *error)
+static tn_status open_and_use(const test_library *made, uint64_t max_eager, tn_error *error)
 {
-    const test_library *made = context;
     tn_library *library = NULL;
-    tn_library_options options = {.max_states = 2000};
+    tn_library_options options = {.max_states = 2000, .max_eager = max_eager};
     tn_status status = tn_library_new(made->schema, 0, &options, &library, error);
     mpz_t count, only, ranks[3];
     mpz_inits(count, only, ranks[0], ranks[1], ranks[2], NULL);
@@ -131,6 +130,16 @@ static void comparing_runs_out_of_memory(void **state)
     }
 }
 
+static tn_status open_library(void *context, tn_error *error)
+{
+    return open_and_use(context, 0, error);
+}
+
+static tn_status open_library_within(void *context, tn_error *error)
+{
+    return open_and_use(context, 1, error);
+}
+
 static void memory_runs_out(void **state)
 {
     (void)state;
@@ -140,6 +149,7 @@ static void memory_runs_out(void **state)
             expect_robust(open_rules, &made);
             expect_robust(open_library, &made);
             expect_robust(analyse, &made);
+            expect_robust(open_library_within, &made);
         }
         test_library_clear(&made);
     }
