@@ -356,7 +356,9 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
     if (status == TN_OK)
         status = tn_sparse_minimise(sparse, &library->generator, error); /* a copy */
     if (status == TN_OK)
-        status = tn_sparse_complete(sparse, &library->kept, error);
+        status = tn_sparse_minimise(sparse, &library->live, error); /* a copy */
+    if (status == TN_OK)
+        status = tn_sparse_fill(library->live, &library->kept, error);
     if (status == TN_OK)
         status = tn_library_tables(library, error);
     if (status != TN_OK) {
