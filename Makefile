@@ -5,11 +5,13 @@ CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 
-.PHONY: help packages build demo check bench fuzz install uninstall clean
+.PHONY: help packages build demo check package check-package bench fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
 	@echo 'make check       build everything and run every test'
+	@echo 'make package     make a Debian package (into build-package/)'
+	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -30,6 +32,12 @@ demo: build
 check: build
 	@ctest --test-dir build --output-on-failure -j $(JOBS)
 
+package: packages
+	@tools/make-package
+
+check-package: packages
+	@tools/check-package
+
 bench: build
 	@bench/run build
 
@@ -43,4 +51,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-asan build-fuzz demo
+	@rm -rf build build-asan build-fuzz build-package demo

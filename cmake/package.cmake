@@ -1,0 +1,21 @@
+# cpack: a Debian package. Configure with -DCMAKE_INSTALL_PREFIX=/usr for it, as `make package` does, so that libraries go where Debian has them.
+set(TARTAN_MAINTAINER "The Tartan authors <tartan@localhost>" CACHE STRING "Maintainer that the Debian package names")
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME tartan)
+set(CPACK_PACKAGE_CONTACT "${TARTAN_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_SECTION devel)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Rules that say what makes a plan good are compiled, checked against plans,
+and turned into every plan that they allow: counted exactly, ranked, sampled,
+listed and drawn. With the libraries and headers to do so in C.")
+# What the binary and the libraries need, by the libraries that they are linked to; and ldconfig once they are there.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# Programs that are linked to the archives, or by pkg-config --static, need more.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, pkg-config")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
+include(CPack)
