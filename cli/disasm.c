@@ -21,7 +21,8 @@ static bool choose_rules(tn_job *job, uint32_t *rules)
     return job->exit_code == TN_EXIT_DONE;
 }
 
-static void write_listing(tn_job *job, const uint32_t *rules, FILE *out)
+/* False, with the reason reported, where memory ran out; what fails to be written shows when the output is closed. */
+static bool write_listing(tn_job *job, const uint32_t *rules, FILE *out)
 {
     const tn_module *module = job->opened.module;
     bool listed = true;
@@ -29,11 +30,12 @@ static void write_listing(tn_job *job, const uint32_t *rules, FILE *out)
         listed = tn_module_disassemble_rule(module, rules[i], out);
     if (job->settings->rules.count == 0)
         listed = tn_module_disassemble(module, out);
-    if (!listed && !ferror(out)) {
-        tn_error error;
-        tn_fail_memory(&error);
-        tn_job_fail(job, &error);
-    }
+    if (listed || ferror(out))
+        return true;
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    return false;
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -45,8 +47,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&job, settings);
     if (tn_job_open(&job, settings->operands.items[0]) && choose_rules(&job, rules) &&
         tn_job_output(&job, settings->output, &output)) {
-        write_listing(&job, rules, output.stream);
-        tn_job_commit(&job, &output);
+        bool complete = write_listing(&job, rules, output.stream);
+        tn_job_close(&job, &output, complete);
     }
     free(rules);
     return tn_job_end(&job);

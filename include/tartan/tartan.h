@@ -68,7 +68,8 @@ typedef struct tartan_error {
 typedef struct tartan_module tartan_module;
 
 /* Loads a module from memory (copied) or from a file. A damaged one, or one of another format version, is
- * TARTAN_INVALID. */
+ * TARTAN_INVALID; one of more than 256 MiB, 1,000,000 records in a section or a stack of 4,096 in a function
+ * TARTAN_LIMIT. Any bytes may be given: what does not verify never runs. */
 TARTAN_API tartan_status tartan_module_load(const void *bytes, size_t size, tartan_module **module,
                                             tartan_error *error);
 TARTAN_API tartan_status tartan_module_load_file(const char *path, tartan_module **module, tartan_error *error);
@@ -139,9 +140,13 @@ TARTAN_API tartan_status tartan_match_all(const tartan_rules *rules, const uint3
 typedef struct tartan_library tartan_library;
 
 /* Opens a library of the module; name NULL takes its only one (of the named file itself). A library of which a clause
- * passes the limit of 20,000 states, or all together 1,000,000, is TARTAN_LIMIT. */
+ * passes the limit of 20,000 states, or all together 1,000,000, is TARTAN_LIMIT; tartan_library_open_within sets both
+ * limits to `max_states` (0: those), which is what error.help means by --max-states. Memory grows with the states, and
+ * the time of opening may grow faster. */
 TARTAN_API tartan_status tartan_library_open(const tartan_module *module, const char *name, tartan_library **library,
                                              tartan_error *error);
+TARTAN_API tartan_status tartan_library_open_within(const tartan_module *module, const char *name, uint32_t max_states,
+                                                    tartan_library **library, tartan_error *error);
 TARTAN_API void tartan_library_free(tartan_library *library);
 TARTAN_API const tartan_schema *tartan_library_schema(const tartan_library *library);
 TARTAN_API uint32_t tartan_library_max_trays(const tartan_library *library); /* of its longest plan */

@@ -48,6 +48,12 @@ static tartan_status find(const tn_module *module, const char *name, uint32_t *i
 tartan_status tartan_library_open(const tartan_module *module, const char *name, tartan_library **library,
                                   tartan_error *error)
 {
+    return tartan_library_open_within(module, name, 0, library, error);
+}
+
+tartan_status tartan_library_open_within(const tartan_module *module, const char *name, uint32_t max_states,
+                                         tartan_library **library, tartan_error *error)
+{
     uint32_t index = 0;
     tartan_status status = find(module->module, name, &index, error);
     if (status != TARTAN_OK)
@@ -58,8 +64,9 @@ tartan_status tartan_library_open(const tartan_module *module, const char *name,
     tn_error found;
     tn_status opened =
         tn_schema_new(module->module, module->module->LIBRARY_records[index].schema, 0, &made->schema, &found);
+    const tn_library_options options = {.max_states = max_states};
     if (opened == TN_OK)
-        opened = tn_library_new(made->schema, index, NULL, &made->library, &found);
+        opened = tn_library_new(made->schema, index, &options, &made->library, &found);
     if (opened != TN_OK) {
         tartan_library_free(made);
         return tn_api_fail(&found, error);

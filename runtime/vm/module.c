@@ -26,10 +26,20 @@ static tn_status damaged(tn_error *error, const char *what)
     return TN_INVALID;
 }
 
+/* The limits are there so that a damaged or hostile file cannot ask for more than a rule file ever needs: no option
+ * raises them. */
+static tn_status too_much(tn_error *error)
+{
+    tn_error_help(error, "this limit is fixed: divide the rules between several files");
+    return TN_LIMIT;
+}
+
 static tn_status check_header(const uint8_t *bytes, size_t size, const tn_module_limits *limits, tn_error *error)
 {
-    if (size > limits->bytes)
-        return tn_fail(error, TN_LIMIT, 810, "the module is %zu bytes long; the limit is %zu", size, limits->bytes);
+    if (size > limits->bytes) {
+        tn_fail(error, TN_LIMIT, 810, "the module is %zu bytes long; the limit is %zu", size, limits->bytes);
+        return too_much(error);
+    }
     if (!tn_module_has_magic(bytes, size))
         return tn_fail(error, TN_INVALID, 701, "the file is not a compiled module");
     if (size < TN_CONTENTS)
@@ -83,9 +93,11 @@ static tn_status check_counts(const tn_stored *sections, const tn_module_limits 
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     if (sections[NUMBER].size % TN_STORED_##NAME != 0)                                                                 \
         return damaged(error, "its section " #NAME " ends within a record");                                           \
-    if (sections[NUMBER].size / TN_STORED_##NAME > limits->records)                                                    \
-        return tn_fail(error, TN_LIMIT, 810, "the module has %zu records in its section " #NAME "; the limit is %zu",  \
-                       sections[NUMBER].size / TN_STORED_##NAME, limits->records);                                     \
+    if (sections[NUMBER].size / TN_STORED_##NAME > limits->records) {                                                  \
+        tn_fail(error, TN_LIMIT, 810, "the module has %zu records in its section " #NAME "; the limit is %zu",         \
+                sections[NUMBER].size / TN_STORED_##NAME, limits->records);                                            \
+        return too_much(error);                                                                                        \
+    }                                                                                                                  \
     *block += aligned(sections[NUMBER].size / TN_STORED_##NAME * sizeof(TYPE));
 #include "runtime/vm/records.def"
 #undef SECTION

@@ -174,9 +174,12 @@ static tn_status check_function(tn_checker *checker, const tn_module_limits *lim
         return refuse(checker, "%u is no kind of function", function->kind);
     if (function->kind != TN_FUNCTION_CONDITION && function->schema >= checker->module->SCHEMA_count)
         return refuse(checker, "there is no schema %u", function->schema);
-    if (function->stack_max > limits->stack)
-        return tn_fail(checker->error, TN_LIMIT, 810, "function %u declares a stack of %u; the limit is %zu",
-                       checker->function, function->stack_max, limits->stack);
+    if (function->stack_max > limits->stack) {
+        tn_fail(checker->error, TN_LIMIT, 810, "function %u declares a stack of %u; the limit is %zu",
+                checker->function, function->stack_max, limits->stack);
+        tn_error_help(checker->error, "this limit is fixed: give parts of the rule's expression names of their own");
+        return TN_LIMIT;
+    }
     if (function->code_begin != checker->offset || function->code_end < function->code_begin ||
         function->code_end > checker->module->code_size)
         return refuse(checker, "the function's code is not the stretch after the one before");

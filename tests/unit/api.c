@@ -265,6 +265,14 @@ static void opens_a_library(void **state)
                      TARTAN_INVALID);
     assert_int_equal(tartan_library_rank(library, (uint32_t[]){0, 0, 0, 0}, 4, &text, &error), TARTAN_INVALID);
     tartan_library_free(library);
+    assert_int_equal(tartan_library_open_within(module, "rows", 1, &library, &error), TARTAN_LIMIT);
+    assert_int_equal(error.code, 802);
+    assert_non_null(strstr(error.help, "--max-states"));
+    assert_int_equal(tartan_library_open_within(module, "rows", 1000, &library, &error), TARTAN_OK);
+    assert_int_equal(tartan_library_count(library, TARTAN_ANY_LENGTH, &text, &error), TARTAN_OK);
+    assert_string_equal(text, "56");
+    tartan_text_free(text);
+    tartan_library_free(library);
     assert_int_equal(tartan_library_open(module, "columns", &library, &error), TARTAN_INVALID);
     tartan_module_free(module);
 }
