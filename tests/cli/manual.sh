@@ -29,7 +29,7 @@ fi
 # Each notation has one too, made of its page of docs; the overview names it, and every grammar of the compiler has one.
 version=$("$TARTAN" --version | sed 's/^tartan //')
 names=$(sed -n 's/^NOTATION(\([a-z]*\),.*/\1/p' cli/notations.def)
-for name in plan bnf study plans; do
+for name in plan bnf study plans $(find stdlib -type f | sed 's/.*\.//' | sort -u); do
     grep -qx "$name" <<<"$names" || fail "no notation $name"
 done
 while IFS='|' read -r name source summary; do
