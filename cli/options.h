@@ -99,6 +99,7 @@ typedef struct tn_settings {
 
     /* explaining */
     bool full, coverage;
+    bool prolog, regex;
     const char *plan_file;
     tn_option_number nearest;
 } tn_settings;

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# export: Prolog programs decide as the interpreter does, in SWI-Prolog where that is installed; patterns with their legends.
+name=export
+. "$(dirname "$0")/golden.bash"
+
+golden regex 'tartan export sheds.plan --regex --rule wide-end'
+golden regex_never 'tartan export never.plan --regex --rule never'
+golden regex_long 'tartan export never.plan --regex --rule long'
+golden prolog 'tartan export never.plan --prolog | sed -n "/length_of/,\$p"'
+golden nothing_asked 'tartan export sheds.plan'
+golden two_asked 'tartan export sheds.plan --regex --prolog'
+golden no_rule 'tartan export sheds.plan --regex'
+golden rule_of_prolog 'tartan export sheds.plan --prolog --rule wide-end'
+
+if ! command -v swipl >/dev/null; then
+    echo 'swipl is not installed: the Prolog programs are not run'
+    finish
+    exit
+fi
+
+# compare FILE LIBRARY PLANS RULE...: every rule and the library on every plan of a file.
+compare() {
+    local file=$1 library=$2 plans=$3
+    shift 3
+    "$TARTAN" export "$file" --prolog --library "$library" -o "$scratch/rules.pl"
+    awk -v q="'" 'function atom(t) { gsub(q, q q, t); return q t q }
+        { n = split($0, trays, / \| /); line = ""
+          for (i = 1; i <= n; i++) {
+              m = split(trays[i], words, " "); if (m == 0) continue
+              term = atom(words[1]); for (k = 2; k <= m; k++) term = term "," atom(words[k])
+              line = line (line == "" ? "" : ",") "tray(" term ")" }
+          print "[" line "]." }' "$plans" >"$scratch/plans.pl"
+    local rules=
+    for rule in "$@"; do rules="$rules${rules:+,}'$rule'"; done
+    cat >"$scratch/run.pl" <<END
+run :- open('$scratch/plans.pl', read, S), all(S), close(S).
+all(S) :- read(S, P), ( P == end_of_file -> true ; decide(P), nl, all(S) ).
+decide(P) :- forall(member(R, [$rules]), ( call(R, P) -> write(1) ; write(0) )),
+    write(' '), ( keep_plan('$library', P) -> write(1) ; write(0) ).
+END
+    swipl -q -f "$scratch/rules.pl" -l "$scratch/run.pl" -g run -g halt >"$scratch/prolog" 2>"$scratch/errors" ||
+        fail "SWI-Prolog failed on $file: $(head -n 3 "$scratch/errors")"
+    [ -s "$scratch/errors" ] && fail "SWI-Prolog says of $file: $(head -n 3 "$scratch/errors")"
+    local args=()
+    for rule in "$@"; do args+=(--rule "$rule"); done
+    "$TARTAN" match "$file" "$plans" "${args[@]}" --engine vm --format bits >"$scratch/bits"
+    : >"$scratch/kept"
+    while IFS= read -r plan; do
+        "$TARTAN" prune "$file" <(printf '%s\n' "$plan") --library "$library" | wc -l >>"$scratch/kept"
+    done <"$plans"
+    paste -d ' ' "$scratch/bits" "$scratch/kept" | tr -d '\t' >"$scratch/wanted"
+    cmp "$scratch/wanted" "$scratch/prolog" || fail "Prolog decides otherwise about $file"
+    [ "$(wc -l <"$scratch/prolog")" -gt 20 ] || fail "too few plans of $file"
+}
+
+names() { sed -n 's/^rule \([^ ]*\).*/\1/p' "$1"; }
+{ cat "$files/parts.plan"; printf '\nlibrary all { trays 0..7 }\nlibrary some { trays 1..5\n  total 3m..9m\n  prune a-row, far, not a-choice\n}\n'; } >"$scratch/parts.plan"
+"$TARTAN" sample "$scratch/parts.plan" --library all --per-length 8 --seed 3 >"$scratch/random" 2>/dev/null
+# shellcheck disable=SC2046
+compare "$scratch/parts.plan" some "$scratch/random" $(names "$files/parts.plan")
+cat >"$scratch/lahave.plan" <<'END'
+use "lahave"
+library all { trays 1..5 }
+library paper { trays 1..4
+  prune narrow-pair, dense-end, thin-totem, stranded
+}
+END
+"$TARTAN" sample "$scratch/lahave.plan" --library all --per-length 12 --seed 5 >"$scratch/random"
+# shellcheck disable=SC2046
+compare "$scratch/lahave.plan" paper "$scratch/random" $(names stdlib/lahave.plan)
+finish
