@@ -5,13 +5,14 @@ CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 
-.PHONY: help packages build demo check package check-package bench fuzz install uninstall clean
+.PHONY: help packages build demo check check-editor package check-package bench fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
 	@echo 'make check       build everything and run every test'
 	@echo 'make package     make a Debian package (into build-package/)'
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
+	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -37,6 +38,9 @@ package: packages
 
 check-package: packages
 	@tools/check-package
+
+check-editor: build
+	@cd editors/vscode && npm ci --ignore-scripts --loglevel=error && TARTAN='$(CURDIR)/build/tartan' npm test
 
 bench: build
 	@bench/run build

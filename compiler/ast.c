@@ -82,7 +82,7 @@ tn_ast_range tn_ast_range_dash(tn_parse *parse, tn_span span, const tn_ast_word 
     if (low && high) {
         tn_diagnostic *d =
             tn_report(parse->diagnostics, E_RANGE_DASH, span, "a range is written with two dots, not with a dash");
-        tn_help(parse->diagnostics, d, "write `%s..%s`", low->text, high->text);
+        tn_advise(parse->diagnostics, d, "%s..%s", low->text, high->text);
     }
     return tn_ast_range_new(span, low, high);
 }
@@ -148,9 +148,9 @@ tn_ast_cond *tn_ast_chained(tn_parse *parse, tn_span span, tn_ast_cond *first, t
     const tn_ast_word *low = first->left, *middle = first->right;
     bool range = middle->kind == TN_WORD_NAME && low->kind != TN_WORD_NAME && right->kind != TN_WORD_NAME;
     if (range && first->op == TN_AT_MOST && op == TN_AT_MOST)
-        tn_help(parse->diagnostics, d, "write `%s in %s..%s`", middle->text, low->text, right->text);
+        tn_advise(parse->diagnostics, d, "%s in %s..%s", middle->text, low->text, right->text);
     else if (range && first->op == TN_AT_LEAST && op == TN_AT_LEAST)
-        tn_help(parse->diagnostics, d, "write `%s in %s..%s`", middle->text, right->text, low->text);
+        tn_advise(parse->diagnostics, d, "%s in %s..%s", middle->text, right->text, low->text);
     else if (range && upward(first->op) && upward(op))
         tn_help(parse->diagnostics, d, "write `%s %s %s and %s %s %s`, or a range such as `%s in 2..4`", middle->text,
                 first->op == TN_LESS ? ">" : ">=", low->text, middle->text, op == TN_LESS ? "<" : "<=", right->text,

@@ -118,7 +118,7 @@ bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths)
         return good;
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_RANGE_BACKWARDS, range->span, "this range ends before it starts");
-    tn_help(check->diagnostics, d, "write `%s..%s`", range->high->text, range->low->text);
+    tn_advise(check->diagnostics, d, "%s..%s", range->high->text, range->low->text);
     return false;
 }
 

@@ -204,7 +204,7 @@ static tn_checked_schema *named_schema(tn_check *check, size_t unit, const tn_as
         tn_report(check->diagnostics, E_UNKNOWN_SCHEMA, using->node.span, "there is no schema `%s`", using->text);
     const char *near = nearest_schema(check, using->text);
     if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "declare it with `schema %s { ... }`, or `use` the file that does", using->text);
     return NULL;
@@ -275,7 +275,7 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
         tn_help(check->diagnostics, d, "`%s` is a word of schema `%s`: write `tray(%s)`", word->text, schema->name,
                 word->text);
     else if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "write the %s, or `use` the file that has it", wanted_words[want]);
 }

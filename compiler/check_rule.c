@@ -99,7 +99,7 @@ static void help_length_field(tn_check *check, tn_diagnostic *d, const char *wor
     }
     const char *near = tn_nearest(word, names, count);
     if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "the fields that have lengths are %s", list);
 }

@@ -52,7 +52,7 @@ static unsigned find_role(tn_check *check, const tn_ast_word *word, const char *
         tn_report(check->diagnostics, E_UNKNOWN_ROLE, word->node.span, "there is no role `%s` here", word->text);
     const char *near = tn_nearest(word->text, roles + 1, count - 1);
     if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "the role can be %s", list);
     return 0;

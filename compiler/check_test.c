@@ -24,7 +24,7 @@ static bool expectation_fits(tn_check *check, const tn_ast_word *word, const tn_
                                         : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span,
                                                     "a rule matches plans or rejects them, it does not prune");
     tn_note(check->diagnostics, d, &subject->span, "the %s is here", subject->library ? "library" : "rule");
-    tn_help(check->diagnostics, d, "write `%s`", words[others[expectation]]);
+    tn_advise(check->diagnostics, d, "%s", words[others[expectation]]);
     return false;
 }
 
@@ -41,7 +41,7 @@ static void report_clause(tn_check *check, const tn_checked_library *library, co
     tn_note(check->diagnostics, d, &library->ast->name->node.span, "library `%s` is here", library->name);
     const char *near = tn_nearest(word->text, names, library->clause_count + 1);
     if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d,
                 "name a rule that it prunes, `trays`, `total`, or `require@` and `prune@` with a line's number");

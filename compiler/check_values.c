@@ -84,7 +84,7 @@ static void report_unknown_word(tn_check *check, const tn_checked_schema *schema
     for (uint32_t f = 0; f < schema->field_count; f++)
         append(fields, sizeof fields, "%s%s", f == 0 ? "" : ", ", schema->fields[f].name);
     if (near)
-        tn_help(check->diagnostics, d, "did you mean `%s`?", near);
+        tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "the fields are %s", fields);
 }

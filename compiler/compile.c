@@ -36,9 +36,11 @@ static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
 /* Everything after the named file's text is among the sources. */
 static tn_status compile(const tn_compile_options *options, tn_compilation *compilation, tn_error *error)
 {
-    tn_imports imports;
-    tn_checked checked;
+    tn_imports *imports = TN_NEW(compilation->arena, tn_imports);
+    tn_checked *checked = TN_NEW(compilation->arena, tn_checked);
     tn_diagnostics *diagnostics = &compilation->diagnostics;
+    if (!imports || !checked)
+        return tn_fail_memory(error);
     if (tn_is_bnf(compilation->sources.files[0].path))
         return tn_bnf_compile_module(options, compilation, error);
     if (tn_is_evolution(compilation->sources.files[0].path, compilation->sources.files[0].text))
@@ -47,16 +49,18 @@ static tn_status compile(const tn_compile_options *options, tn_compilation *comp
         return tn_compile_growth(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
                                  options->warnings_are_errors, &compilation->module, &compilation->module_size, error);
     tn_status status = tn_import_all(compilation->arena, diagnostics, options->stdlib_dirs, options->stdlib_dir_count,
-                                     ".plan", parse_plan, 0, &imports);
+                                     ".plan", parse_plan, 0, imports);
     if (status == TN_OK)
-        status = tn_check_program(compilation->arena, diagnostics, &imports, &checked);
+        status = tn_check_program(compilation->arena, diagnostics, imports, checked);
     if (status != TN_OK || diagnostics->failed)
         return tn_fail_memory(error);
+    compilation->imports = imports;
+    compilation->checked = checked;
     if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;
-    status = tn_emit_module(&checked, &imports, diagnostics, &compilation->module, &compilation->module_size, error);
+    status = tn_emit_module(checked, imports, diagnostics, &compilation->module, &compilation->module_size, error);
     if (status == TN_OK)
-        compilation->program = checked.program;
+        compilation->program = checked->program;
     return status;
 }
 
@@ -81,6 +85,8 @@ tn_status tn_compile_text(const char *path, const char *text, size_t size, const
     tn_error error = {0};
     uint32_t file;
     start(compilation);
+    compilation->sources.overlay = options->overlay;
+    compilation->sources.overlay_context = options->overlay_context;
     compilation->arena = tn_arena_new();
     tn_status status = compilation->arena ? tn_sources_add(&compilation->sources, path, text, size, &file, &error)
                                           : tn_fail_memory(&error);

@@ -152,6 +152,41 @@ void tn_help(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format
     va_end(args);
 }
 
+void tn_replace_with(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+{
+    free(diagnostic->replacement);
+    va_list args;
+    va_start(args, format);
+    diagnostic->replacement = print(list, format, args);
+    va_end(args);
+}
+
+/* Takes the replacement over. */
+static void set_replacement(tn_diagnostics *list, tn_diagnostic *diagnostic, bool sure, char *replacement)
+{
+    if (!replacement)
+        return;
+    tn_help(list, diagnostic, sure ? "write `%s`" : "did you mean `%s`?", replacement);
+    free(diagnostic->replacement);
+    diagnostic->replacement = replacement;
+}
+
+void tn_suggest(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_replacement(list, diagnostic, false, print(list, format, args));
+    va_end(args);
+}
+
+void tn_advise(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_replacement(list, diagnostic, true, print(list, format, args));
+    va_end(args);
+}
+
 static int order(uint64_t a, uint64_t b)
 {
     return (a > b) - (a < b);

@@ -85,6 +85,16 @@ void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *spa
 void tn_help(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* What to put in the span's place to follow the help: for editors. */
+void tn_replace_with(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Help and replacement in one: "did you mean `...`?" and "write `...`". */
+void tn_suggest(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void tn_advise(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Orders by file, place, code; drops exact repeats. Items without a place come last, in the order they were added. */
 void tn_diagnostics_sort(tn_diagnostics *list);
 
@@ -102,6 +112,5 @@ typedef struct tn_show_options {
  * does not have is null. What is not text (control characters, broken UTF-8, direction overrides) is shown as U+FFFD.
  */
 void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out);
-
 
 #endif

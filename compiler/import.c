@@ -106,6 +106,14 @@ static size_t list_folder(tn_importer *importer, const char *folder, bool bare, 
     return count;
 }
 
+static void suggest_path(tn_importer *importer, tn_diagnostic *d, const tn_use *use, const char *near)
+{
+    const char *last = strrchr(use->path, '/');
+    int folder = last ? (int)(last - use->path) + 1 : 0;
+    tn_help(importer->diagnostics, d, "did you mean `%.*s%s`?", folder, use->path, near);
+    tn_replace_with(importer->diagnostics, d, "\"%.*s%s\"", folder, use->path, near);
+}
+
 static void report_missing(tn_importer *importer, const tn_use *use, const char *user)
 {
     enum { ROOM = 512 };
@@ -132,8 +140,7 @@ static void report_missing(tn_importer *importer, const tn_use *use, const char 
         tn_help(importer->diagnostics, d, "for the file beside this one write `use \"%s%s\"`", use->path,
                 importer->extension);
     else if (near)
-        tn_help(importer->diagnostics, d, "did you mean `%.*s%s`?", last ? (int)(last - use->path) + 1 : 0, use->path,
-                near);
+        suggest_path(importer, d, use, near);
     else if (bare)
         tn_help(importer->diagnostics, d, "for a file of yours write its extension too: `use \"%s%s\"`", use->path,
                 importer->extension);
@@ -163,13 +170,28 @@ static void report_cycle(tn_importer *importer, const tn_use *use, const tn_unit
 static tn_status load(tn_importer *importer, uint32_t file, const char *identity, const char *recorded,
                       tn_unit **result);
 
+/* From what stands in for the file, or from the disk. */
+static tn_status read_source(tn_sources *sources, const char *path, const char *identity, uint32_t *file,
+                             tn_error *error)
+{
+    const char *text;
+    uint8_t *bytes;
+    size_t size;
+    if (sources->overlay && sources->overlay(sources->overlay_context, identity, &text, &size))
+        return tn_sources_add(sources, path, text, size, file, error);
+    tn_status status = tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_sources_add(sources, path, (const char *)bytes, size, file, error);
+    free(bytes);
+    return status;
+}
+
 /* Reads a file that is used into the sources; *unit stays NULL where that fails. */
 static tn_status read_unit(tn_importer *importer, const tn_use *use, const char *path, const char *identity,
                            bool is_stdlib, tn_unit **unit)
 {
     tn_error error;
-    uint8_t *bytes;
-    size_t size;
     uint32_t file;
     if (importer->all_count == TN_FILES_MAX) {
         tn_diagnostic *d = tn_report(importer->diagnostics, E_TOO_MANY, use->span,
@@ -177,11 +199,7 @@ static tn_status read_unit(tn_importer *importer, const tn_use *use, const char 
         tn_help(importer->diagnostics, d, "put the rules into fewer files");
         return TN_OK;
     }
-    tn_status status = tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error);
-    if (status == TN_OK) {
-        status = tn_sources_add(importer->diagnostics->sources, path, (const char *)bytes, size, &file, &error);
-        free(bytes);
-    }
+    tn_status status = read_source(importer->diagnostics->sources, path, identity, &file, &error);
     if (status == TN_MEMORY)
         return status;
     if (status != TN_OK) {

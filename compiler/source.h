@@ -22,10 +22,16 @@ typedef struct tn_source {
     size_t line_count;
 } tn_source;
 
+/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the disk
+ * counts. */
+typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
+
 typedef struct tn_sources {
     tn_source *files;
     size_t count, capacity;
-    size_t bytes; /* of all texts */
+    size_t bytes;        /* of all texts */
+    tn_overlay *overlay; /* or NULL */
+    void *overlay_context;
 } tn_sources;
 
 #define TN_SOURCE_BYTES_MAX (16u << 20)  /* of one text */

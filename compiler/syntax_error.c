@@ -199,7 +199,7 @@ void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const cha
     const char *help = likely_fix(parse, found, &e);
     bool misspelled = strcmp(found, "a name") == 0 || (is_word(found) && size > 3);
     if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
-        tn_help(parse->diagnostics, d, "did you mean `%s`?", meant);
+        tn_suggest(parse->diagnostics, d, "%s", meant);
     else
         tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
 }

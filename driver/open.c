@@ -24,7 +24,9 @@ static tn_status compile(tn_opened *opened, const uint8_t *bytes, size_t size, b
     tn_error error;
     tn_status status = tn_stdlib_dirs_find(&found, &error);
     if (status == TN_OK) {
-        tn_compile_options options = {(const char *const *)found.dirs, found.count, warnings_are_errors};
+        tn_compile_options options = {.stdlib_dirs = (const char *const *)found.dirs,
+                                      .stdlib_dir_count = found.count,
+                                      .warnings_are_errors = warnings_are_errors};
         tn_diagnostics_clear(&opened->compilation.diagnostics);
         status = tn_compile_text(opened->path, (const char *)bytes, size, &options, &opened->compilation);
     } else {

@@ -237,6 +237,14 @@ static void test_clauses_named_by_lines(void **state)
                   "test l {\n  drop [4' | 8'] by prune@7\n}\n");
 }
 
+static void test_tables(void **state)
+{
+    (void)state;
+    assert_format("rule a=any rule b=any test a,b{match reject[4'] \"x\" todo  match match [8' | 4' ]\n}",
+                  "rule a = any\nrule b = any\n\ntest a, b {\n  match reject [4']  \"x\"\n"
+                  "  todo  match match [8' | 4']\n}\n");
+}
+
 static void test_errors_are_left_alone(void **state)
 {
     (void)state;
@@ -261,6 +269,7 @@ int main(void)
         cmocka_unit_test(test_comments),
         cmocka_unit_test(test_lengths_stay_apart),
         cmocka_unit_test(test_clauses_named_by_lines),
+        cmocka_unit_test(test_tables),
         cmocka_unit_test(test_errors_are_left_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,77 @@
+/* Hover: what a name is, in the words of the file that says so. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/format.h"
+#include "lsp/counts.h"
+#include "lsp/features.h"
+
+enum { SHOWN_MAX = 4096 }; /* bytes of a definition that are shown */
+
+static const char *kind_name(const tn_symbol *symbol)
+{
+    static const char *const names[] = {
+        [TN_SYMBOL_SCHEMA] = "schema", [TN_SYMBOL_FIELD] = "field",     [TN_SYMBOL_VALUE] = "value",
+        [TN_SYMBOL_RULE] = "rule",     [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause"};
+    return names[symbol->kind];
+}
+
+static const char *code_of(const tn_analysis *analysis, tn_span span, int *size)
+{
+    const tn_source *source = &analysis->compilation.sources.files[span.file];
+    size_t bytes = span.end - span.begin;
+    *size = (int)(bytes < SHOWN_MAX ? bytes : SHOWN_MAX);
+    return source->text + span.begin;
+}
+
+/* How many of a library's rules name it is told by the index. */
+static json_t *text_of(const tn_document *document, tn_analysis *analysis, const tn_symbol *symbol)
+{
+    int size;
+    const char *code = code_of(analysis, symbol->span, &size);
+    const char *path = analysis->compilation.sources.files[symbol->span.file].path, *slash = strrchr(path, '/');
+    char of[300] = "", where[300] = "";
+    if (symbol->parent)
+        snprintf(of, sizeof of, " of %s `%.200s`", kind_name(symbol->parent), symbol->parent->name);
+    if (symbol->span.file != 0)
+        snprintf(where, sizeof where, ", from `%.200s`", slash ? slash + 1 : path);
+    char *counts = tn_counts_text(document->counts, symbol);
+    json_t *text = json_sprintf("```plan\n%.*s\n```\n%s%s%s%s`%s`%s%s%s%s", size, code, symbol->doc ? symbol->doc : "",
+                                symbol->doc ? "\n\n" : "", kind_name(symbol), " ", symbol->name, of, where,
+                                counts ? "\n\n" : "", counts ? counts : "");
+    free(counts);
+    return text;
+}
+
+json_t *tn_lsp_hover(tn_document *document, tn_analysis *analysis, size_t offset)
+{
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    if (!found)
+        return json_null();
+    return json_pack("{s:{s:s,s:o},s:o}", "contents", "kind", "markdown", "value",
+                     text_of(document, analysis, found->symbol), "range", tn_analysis_range(analysis, found->span));
+}
+
+/* ---- formatting */
+
+json_t *tn_lsp_format(tn_document *document)
+{
+    tn_sources sources = {0};
+    tn_diagnostics diagnostics;
+    char *text;
+    size_t size;
+    json_t *edits = json_array();
+    tn_diagnostics_init(&diagnostics, &sources);
+    tn_format_text(&diagnostics, document->path, document->text, document->size, &text, &size);
+    tn_lines lines;
+    if (text && strcmp(text, document->text) != 0 && tn_lines_make(&lines, document->text, document->size)) {
+        json_array_append_new(
+            edits, json_pack("{s:o,s:s}", "range", tn_lines_range(&lines, 0, document->size), "newText", text));
+        tn_lines_clear(&lines);
+    }
+    free(text);
+    tn_diagnostics_clear(&diagnostics);
+    tn_sources_clear(&sources);
+    return edits;
+}

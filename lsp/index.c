@@ -1,0 +1,297 @@
+#include "lsp/index.h"
+
+#include <string.h>
+
+/* ---- symbols and occurrences */
+
+static tn_symbol *add_symbol(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
+                             const tn_ast_node *ast, const tn_symbol *parent)
+{
+    tn_symbol *symbol = TN_NEW(index->arena, tn_symbol);
+    if (!symbol || !name->text)
+        return NULL;
+    *symbol = (tn_symbol){.kind = kind,
+                          .name = name->text,
+                          .doc = doc ? doc->text : NULL,
+                          .name_span = name->node.span,
+                          .span = ast->span,
+                          .parent = parent,
+                          .ast = ast};
+    if (index->last)
+        index->last->next = symbol;
+    else
+        index->first = symbol;
+    index->last = symbol;
+    return symbol;
+}
+
+static void occur(tn_index *index, tn_span span, const tn_symbol *symbol)
+{
+    if (!symbol)
+        return;
+    if (index->count == index->capacity) {
+        size_t capacity = index->capacity ? 2 * index->capacity : 256;
+        tn_occurrence *grown = TN_NEW_ARRAY(index->arena, tn_occurrence, capacity);
+        if (!grown)
+            return;
+        if (index->count)
+            memcpy(grown, index->occurrences, index->count * sizeof *grown);
+        index->occurrences = grown;
+        index->capacity = capacity;
+    }
+    index->occurrences[index->count++] = (tn_occurrence){span, symbol};
+}
+
+static tn_symbol *define(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
+                         const tn_ast_node *ast, const tn_symbol *parent)
+{
+    tn_symbol *symbol = add_symbol(index, kind, name, doc, ast, parent);
+    occur(index, name->node.span, symbol);
+    return symbol;
+}
+
+const tn_symbol *tn_index_field(const tn_symbol *schema, const char *name)
+{
+    for (const tn_symbol *s = schema ? schema->next : NULL; s && (s->parent == schema || s->kind == TN_SYMBOL_VALUE);
+         s = s->next)
+        if (s->kind == TN_SYMBOL_FIELD && strcmp(s->name, name) == 0)
+            return s;
+    return NULL;
+}
+
+const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field, const char *name)
+{
+    const tn_symbol *found = NULL;
+    for (const tn_symbol *s = schema ? schema->next : NULL; s && (s->parent == schema || s->kind == TN_SYMBOL_VALUE);
+         s = s->next) {
+        if (s->kind != TN_SYMBOL_VALUE || strcmp(s->name, name) != 0 || (field && s->parent != field))
+            continue;
+        if (found)
+            return NULL;
+        found = s;
+    }
+    return found;
+}
+
+const tn_symbol *tn_index_schema(const tn_index *index, const char *owner)
+{
+    const tn_symbol *symbol = owner ? tn_names_get(&index->names, owner) : NULL;
+    if (symbol && symbol->schema)
+        return symbol->schema;
+    const tn_symbol *last = NULL;
+    for (const tn_symbol *s = index->first; s; s = s->next)
+        if (s->kind == TN_SYMBOL_SCHEMA)
+            last = s;
+    return last;
+}
+
+/* ---- definitions */
+
+static void define_schema(tn_index *index, const tn_ast_schema *ast)
+{
+    const tn_symbol *schema = define(index, TN_SYMBOL_SCHEMA, ast->name, ast->doc, &ast->top.node, NULL);
+    if (!schema)
+        return;
+    if (!tn_names_get(&index->schemas, schema->name))
+        tn_names_put(&index->schemas, schema->name, (void *)(uintptr_t)schema);
+    for (TN_EACH(const tn_ast_field, field, ast->body.fields)) {
+        const tn_symbol *symbol = define(index, TN_SYMBOL_FIELD, field->name, field->doc, &field->node, schema);
+        for (TN_EACH(const tn_ast_value, value, field->values))
+            if (value->word->kind == TN_WORD_NAME && symbol)
+                define(index, TN_SYMBOL_VALUE, value->word, value->doc, &value->node, symbol);
+    }
+}
+
+static void define_named(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
+                         const tn_ast_node *ast)
+{
+    tn_symbol *symbol = define(index, kind, name, doc, ast, NULL);
+    if (symbol && !tn_names_get(&index->names, symbol->name))
+        tn_names_put(&index->names, symbol->name, symbol);
+}
+
+static void define_items(tn_index *index, const tn_ast_file *file)
+{
+    for (TN_EACH(const tn_ast_top, item, file->items)) {
+        if (item->kind == TN_ITEM_SCHEMA)
+            define_schema(index, (const tn_ast_schema *)item);
+        if (item->kind == TN_ITEM_RULE) {
+            const tn_ast_rule *rule = (const tn_ast_rule *)item;
+            define_named(index, TN_SYMBOL_RULE, rule->name, rule->doc, &item->node);
+        }
+        if (item->kind == TN_ITEM_LIBRARY) {
+            const tn_ast_library *library = (const tn_ast_library *)item;
+            define_named(index, TN_SYMBOL_LIBRARY, library->name, library->doc, &item->node);
+        }
+    }
+}
+
+/* ---- uses */
+
+static const tn_symbol *use_name(tn_index *index, const tn_names *names, const tn_ast_word *word)
+{
+    const tn_symbol *symbol = word && word->text ? tn_names_get(names, word->text) : NULL;
+    if (symbol)
+        occur(index, word->node.span, symbol);
+    return symbol;
+}
+
+/* The words of one alternative of a specifier, or of one tray of a plan: fields, and values after their field or alone.
+ */
+static const tn_symbol *use_words(tn_index *index, const tn_symbol *schema, const tn_symbol *field,
+                                  const tn_ast_list *words)
+{
+    for (TN_EACH(const tn_ast_word, word, *words)) {
+        if (word->kind != TN_WORD_NAME || !word->text)
+            continue;
+        const tn_symbol *value = field ? tn_index_value(schema, field, word->text) : NULL;
+        const tn_symbol *named = value ? NULL : tn_index_field(schema, word->text);
+        if (!value && !named)
+            value = tn_index_value(schema, NULL, word->text);
+        occur(index, word->node.span, named ? named : value);
+        field = named ? named : value ? value->parent : field;
+    }
+    return field;
+}
+
+static void use_specifier(tn_index *index, const tn_symbol *schema, const tn_ast_expr *tray)
+{
+    for (TN_EACH(const tn_ast_item, item, tray->items)) {
+        const tn_symbol *field = NULL;
+        for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
+            field = use_words(index, schema, field, &alternative->words);
+    }
+}
+
+static void use_field(tn_index *index, const tn_symbol *schema, const tn_ast_word *word)
+{
+    if (word && word->text)
+        occur(index, word->node.span, tn_index_field(schema, word->text));
+}
+
+/* As deep as expressions nest, at most TN_NESTING_MAX. */
+static void use_expression(tn_index *index, const tn_symbol *schema, const tn_ast_expr *expr)
+{
+    if (!expr)
+        return;
+    if (expr->kind == TN_EXPR_NAME)
+        use_name(index, &index->names, expr->name);
+    else if (expr->kind == TN_EXPR_SUM)
+        use_field(index, schema, expr->name);
+    use_specifier(index, schema, expr);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        use_expression(index, schema, part);
+}
+
+static void use_library(tn_index *index, tn_symbol *library, const tn_ast_library *ast)
+{
+    for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
+        use_field(index, library->schema, clause->field);
+        use_expression(index, library->schema, clause->expr);
+        if (clause->form != TN_FORM_PRUNE || !clause->name)
+            continue;
+        const tn_symbol *symbol = define(index, TN_SYMBOL_CLAUSE, clause->name, clause->doc, &clause->node, library);
+        if (symbol && !tn_names_get(&index->clauses, symbol->name))
+            tn_names_put(&index->clauses, symbol->name, (void *)(uintptr_t)symbol);
+    }
+}
+
+static void use_test(tn_index *index, const tn_ast_test *test)
+{
+    const tn_symbol *subject = NULL;
+    for (TN_EACH(const tn_ast_word, name, test->subjects)) {
+        const tn_symbol *named = use_name(index, &index->names, name);
+        subject = subject ? subject : named;
+    }
+    const tn_symbol *schema = tn_index_schema(index, subject ? subject->name : NULL);
+    for (TN_EACH(const tn_ast_case, test_case, test->cases)) {
+        for (TN_EACH(const tn_ast_tray, tray, test_case->trays))
+            use_words(index, schema, NULL, &tray->words);
+        for (TN_EACH(const tn_ast_word, name, test_case->by))
+            if (!use_name(index, &index->clauses, name))
+                use_name(index, &index->names, name);
+    }
+}
+
+/* The symbol of this very item, not of another of the same name. */
+static tn_symbol *own_symbol(const tn_index *index, const tn_ast_node *item)
+{
+    for (tn_symbol *s = index->first; s; s = s->next)
+        if (s->ast == item)
+            return s;
+    return NULL;
+}
+
+static void use_item(tn_index *index, const tn_ast_top *item)
+{
+    if (item->kind == TN_ITEM_SCHEMA) {
+        const tn_ast_schema *schema = (const tn_ast_schema *)item;
+        for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
+            use_specifier(index, own_symbol(index, &item->node), forbid->tray);
+    } else if (item->kind == TN_ITEM_RULE) {
+        const tn_ast_rule *rule = (const tn_ast_rule *)item;
+        use_name(index, &index->schemas, rule->using);
+        use_expression(index, tn_index_schema(index, rule->name->text), rule->body);
+    } else if (item->kind == TN_ITEM_TEST) {
+        use_test(index, (const tn_ast_test *)item);
+    }
+}
+
+/* Which schema rules and libraries are about, as far as checking has found out. */
+static void set_schemas(tn_index *index, const tn_checked *checked)
+{
+    for (size_t i = 0; checked && i < checked->rule_count; i++) {
+        const tn_checked_rule *rule = checked->rules[i];
+        tn_symbol *symbol = tn_names_get(&index->names, rule->name);
+        if (symbol && rule->schema)
+            symbol->schema = tn_names_get(&index->schemas, rule->schema->name);
+    }
+    for (size_t i = 0; checked && i < checked->library_count; i++) {
+        const tn_checked_library *library = checked->libraries[i];
+        tn_symbol *symbol = tn_names_get(&index->names, library->name);
+        if (symbol && library->schema)
+            symbol->schema = tn_names_get(&index->schemas, library->schema->name);
+    }
+}
+
+static void use_libraries(tn_index *index, const tn_ast_file *file)
+{
+    for (TN_EACH(const tn_ast_top, item, file->items)) {
+        const tn_ast_library *library = (const tn_ast_library *)item;
+        if (item->kind != TN_ITEM_LIBRARY)
+            continue;
+        tn_symbol *symbol = tn_names_get(&index->names, library->name->text);
+        use_name(index, &index->schemas, library->using);
+        use_name(index, &index->names, library->from);
+        if (symbol)
+            use_library(index, symbol, library);
+    }
+}
+
+bool tn_index_build(tn_index *index, const tn_compilation *compilation)
+{
+    const tn_imports *imports = compilation->imports;
+    *index = (tn_index){.arena = compilation->arena};
+    index->schemas.arena = index->names.arena = index->clauses.arena = compilation->arena;
+    for (size_t i = 0; imports && i < imports->count; i++)
+        define_items(index, imports->units[i]->tree);
+    set_schemas(index, compilation->checked);
+    for (size_t i = 0; imports && i < imports->count; i++)
+        use_libraries(index, imports->units[i]->tree);
+    for (size_t i = 0; imports && i < imports->count; i++) {
+        const tn_ast_file *file = imports->units[i]->tree;
+        for (TN_EACH(const tn_ast_top, item, file->items))
+            use_item(index, item);
+    }
+    return compilation->arena && !tn_arena_failed(compilation->arena);
+}
+
+const tn_occurrence *tn_index_at(const tn_index *index, uint32_t file, size_t offset)
+{
+    for (size_t i = 0; i < index->count; i++) {
+        tn_span span = index->occurrences[i].span;
+        if (span.file == file && span.begin <= offset && offset <= span.end)
+            return &index->occurrences[i];
+    }
+    return NULL;
+}

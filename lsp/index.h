@@ -1,0 +1,55 @@
+/* What the names in a compilation's files mean, and where they stand: from the syntax trees, so that a file with errors
+ * has an index too. Lives in the compilation's arena. */
+#ifndef TARTAN_LSP_INDEX_H
+#define TARTAN_LSP_INDEX_H
+
+#include "compiler/check.h"
+#include "compiler/compile.h"
+
+typedef enum tn_symbol_kind {
+    TN_SYMBOL_SCHEMA,
+    TN_SYMBOL_FIELD,
+    TN_SYMBOL_VALUE,
+    TN_SYMBOL_RULE,
+    TN_SYMBOL_LIBRARY,
+    TN_SYMBOL_CLAUSE, /* `prune ... as NAME` */
+} tn_symbol_kind;
+
+typedef struct tn_symbol {
+    struct tn_symbol *next;
+    tn_symbol_kind kind;
+    const char *name, *doc; /* doc may be NULL */
+    tn_span name_span, span;
+    const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library */
+    const struct tn_symbol *schema; /* of a rule or library; NULL where it is not known */
+    const tn_ast_node *ast;
+} tn_symbol;
+
+typedef struct tn_occurrence {
+    tn_span span;
+    const tn_symbol *symbol;
+} tn_occurrence;
+
+typedef struct tn_index {
+    tn_arena *arena;
+    tn_symbol *first, *last; /* all symbols, in the order of files and text */
+    tn_occurrence *occurrences;
+    size_t count, capacity;
+    tn_names schemas, names, clauses; /* names: rules and libraries */
+} tn_index;
+
+/* Does nothing where there is nothing to index. False where out of memory. */
+bool tn_index_build(tn_index *index, const tn_compilation *compilation);
+
+/* The occurrence at a byte of a file (or just before it); NULL where there is none. */
+const tn_occurrence *tn_index_at(const tn_index *index, uint32_t file, size_t offset);
+
+/* Of a schema; NULL where it has none of that name. A value is looked for in one field, or, where that is NULL, in the
+ * one field that has it. */
+const tn_symbol *tn_index_field(const tn_symbol *schema, const char *name);
+const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field, const char *name);
+
+/* The schema that a specifier in a rule or library of that name is about; else the last schema there is; or NULL. */
+const tn_symbol *tn_index_schema(const tn_index *index, const char *owner);
+
+#endif

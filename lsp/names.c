@@ -1,0 +1,275 @@
+/* Definition, references, highlights, renaming, and the outline: what the index knows. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/parse.h"
+#include "lsp/features.h"
+
+json_t *tn_lsp_definition(tn_document *document, tn_analysis *analysis, size_t offset)
+{
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    if (found)
+        return tn_analysis_location(document, found->symbol->name_span);
+    const tn_imports *imports = analysis->compilation.imports;
+    const tn_ast_file *tree = imports && imports->count ? imports->units[imports->count - 1]->tree : NULL;
+    if (!tree)
+        return json_null();
+    size_t used = 0; /* a file that is used comes before; the n-th `use` need not be the n-th file: names tell */
+    for (TN_EACH(const tn_ast_top, item, tree->items)) {
+        const tn_ast_use *use = (const tn_ast_use *)item;
+        if (item->kind != TN_ITEM_USE || offset < item->node.span.begin || offset > item->node.span.end)
+            continue;
+        for (used = 0; used + 1 < imports->count; used++) {
+            uint32_t file = imports->units[used]->file;
+            const char *path = analysis->compilation.sources.files[file].path;
+            const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+            const char *last = strrchr(use->path->text, '/'), *wanted = last ? last + 1 : use->path->text;
+            size_t size = strlen(wanted);
+            if (strncmp(name, wanted, size) == 0 && (name[size] == '\0' || name[size] == '.'))
+                return tn_analysis_location(document, (tn_span){file, 0, 0});
+        }
+    }
+    return json_null();
+}
+
+/* ---- the same name in other documents that are open */
+
+typedef bool visit_occurrence(void *context, tn_document *document, tn_span span);
+
+static const char *path_of(const tn_analysis *analysis, uint32_t file)
+{
+    return analysis->compilation.sources.files[file].path;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0)
+        return true;
+    char *real_a = realpath(a, NULL), *real_b = realpath(b, NULL);
+    bool same = real_a && real_b && strcmp(real_a, real_b) == 0;
+    free(real_a);
+    free(real_b);
+    return same;
+}
+
+/* The symbol of another document's analysis that is defined at the same place. */
+static const tn_symbol *same_symbol(const tn_analysis *analysis, const tn_symbol *symbol, const tn_analysis *other)
+{
+    if (other == analysis)
+        return symbol;
+    for (const tn_symbol *s = other->index.first; s; s = s->next)
+        if (s->kind == symbol->kind && s->name_span.begin == symbol->name_span.begin &&
+            strcmp(s->name, symbol->name) == 0 &&
+            same_file(path_of(analysis, symbol->name_span.file), path_of(other, s->name_span.file)))
+            return s;
+    return NULL;
+}
+
+/* Is the file of an occurrence open as a document? Then that document's own analysis has it. */
+static bool is_open(const tn_workspace *workspace, const char *path)
+{
+    for (const tn_document *document = workspace->documents; document; document = document->next)
+        if (same_file(document->path, path))
+            return true;
+    return false;
+}
+
+/* Visits every occurrence once: those of a document in its own analysis, those of files that are not open in the
+ * analysis of the document asked. */
+static bool each_occurrence(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol,
+                            visit_occurrence *visit, void *context)
+{
+    tn_analysis *analysis = asked->analysis;
+    for (tn_document *document = workspace->documents; document; document = document->next) {
+        tn_analysis *other = tn_workspace_analyse(workspace, document);
+        const tn_symbol *same = other ? same_symbol(analysis, symbol, other) : NULL;
+        for (size_t i = 0; same && i < other->index.count; i++) {
+            const tn_occurrence *occurrence = &other->index.occurrences[i];
+            bool own = occurrence->span.file == 0;
+            if (occurrence->symbol != same || (!own && document != asked))
+                continue;
+            if (!own && is_open(workspace, path_of(other, occurrence->span.file)))
+                continue;
+            if (!visit(context, document, occurrence->span))
+                return false;
+        }
+    }
+    return true;
+}
+
+typedef struct collected {
+    json_t *list;
+    const tn_document *asked;
+    tn_span skip; /* the definition, where it is not wanted */
+    bool skips;
+} collected;
+
+static bool collect(void *context, tn_document *document, tn_span span)
+{
+    collected *c = context;
+    bool definition = span.begin == c->skip.begin && span.end == c->skip.end &&
+                      same_file(path_of(document->analysis, span.file), path_of(c->asked->analysis, c->skip.file));
+    if (!c->skips || !definition)
+        json_array_append_new(c->list, tn_analysis_location(document, span));
+    return true;
+}
+
+json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+                          bool declaration)
+{
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    collected c = {.list = json_array(), .asked = document, .skips = !declaration};
+    if (!found)
+        return c.list;
+    c.skip = found->symbol->name_span;
+    each_occurrence(workspace, document, found->symbol, collect, &c);
+    return c.list;
+}
+
+json_t *tn_lsp_highlight(tn_document *document, tn_analysis *analysis, size_t offset)
+{
+    (void)document;
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    json_t *list = json_array();
+    for (size_t i = 0; found && i < analysis->index.count; i++) {
+        const tn_occurrence *occurrence = &analysis->index.occurrences[i];
+        if (occurrence->symbol == found->symbol && occurrence->span.file == 0)
+            json_array_append_new(list, json_pack("{s:o}", "range", tn_analysis_range(analysis, occurrence->span)));
+    }
+    return list;
+}
+
+/* ---- renaming */
+
+json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset)
+{
+    (void)document;
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    if (!found || tn_workspace_is_stdlib(workspace, path_of(analysis, found->symbol->name_span.file)))
+        return json_null();
+    return tn_analysis_range(analysis, found->span);
+}
+
+/* Would the lexer read the text as a name, where a rule's stands? */
+static bool is_name(const char *text)
+{
+    tn_sources sources = {0};
+    tn_diagnostics diagnostics;
+    tn_error error;
+    uint32_t file;
+    char line[300];
+    int size = snprintf(line, sizeof line, "rule %s = any", text);
+    bool good = false;
+    tn_arena *arena = tn_arena_new();
+    tn_diagnostics_init(&diagnostics, &sources);
+    if (arena && size > 0 && (size_t)size < sizeof line && *text &&
+        tn_sources_add(&sources, "name", line, (size_t)size, &file, &error) == TN_OK) {
+        tn_tokens tokens = {.arena = arena};
+        tn_parse_plan(arena, &diagnostics, file, &tokens);
+        good = diagnostics.error_count == 0 && tokens.count == 4 && tokens.items[1].kind == TN_TOKEN_NAME &&
+               tokens.items[1].span.end - tokens.items[1].span.begin == strlen(text);
+    }
+    tn_diagnostics_clear(&diagnostics);
+    tn_sources_clear(&sources);
+    tn_arena_free(arena);
+    return good;
+}
+
+/* Has something of the same kind that name already? */
+static bool is_taken(const tn_index *index, const tn_symbol *symbol, const char *name)
+{
+    bool named = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_LIBRARY;
+    for (const tn_symbol *s = index->first; s; s = s->next) {
+        bool rival = named ? s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY
+                           : s->kind == symbol->kind && s->parent == symbol->parent;
+        if (rival && s != symbol && strcmp(s->name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+typedef struct renaming {
+    json_t *changes;
+    const char *name;
+} renaming;
+
+static bool add_edit(void *context, tn_document *document, tn_span span)
+{
+    renaming *r = context;
+    char *uri = tn_document_source_uri(document, span.file);
+    if (!uri)
+        return false;
+    json_t *edits = json_object_get(r->changes, uri);
+    if (!edits) {
+        edits = json_array();
+        json_object_set_new(r->changes, uri, edits);
+    }
+    json_array_append_new(
+        edits, json_pack("{s:o,s:s}", "range", tn_analysis_range(document->analysis, span), "newText", r->name));
+    free(uri);
+    return true;
+}
+
+json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+                      const char *name, const char **reason)
+{
+    const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
+    *reason = NULL;
+    if (!found)
+        *reason = "there is no name here";
+    else if (tn_workspace_is_stdlib(workspace, path_of(analysis, found->symbol->name_span.file)))
+        *reason = "the name is the standard library's";
+    else if (!is_name(name))
+        *reason = "a name is letters, digits, _ and, inside, -, and no word of the language";
+    else if (is_taken(&analysis->index, found->symbol, name))
+        *reason = "something else has this name already";
+    if (*reason)
+        return NULL;
+    renaming r = {json_object(), name};
+    each_occurrence(workspace, document, found->symbol, add_edit, &r);
+    return json_pack("{s:o}", "changes", r.changes);
+}
+
+/* ---- outline */
+
+/* SymbolKind of the protocol. */
+static int outline_kind(tn_symbol_kind kind)
+{
+    static const int kinds[] = {[TN_SYMBOL_SCHEMA] = 23, /* Struct */
+                                [TN_SYMBOL_FIELD] = 8,   /* Field */
+                                [TN_SYMBOL_VALUE] = 22,  /* EnumMember */
+                                [TN_SYMBOL_RULE] = 12,   /* Function */
+                                [TN_SYMBOL_LIBRARY] = 2, /* Module */
+                                [TN_SYMBOL_CLAUSE] = 20 /* Key */};
+    return kinds[kind];
+}
+
+static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
+{
+    json_t *item = json_pack("{s:s,s:i,s:o,s:o}", "name", symbol->name, "kind", outline_kind(symbol->kind), "range",
+                             tn_analysis_range(analysis, symbol->span), "selectionRange",
+                             tn_analysis_range(analysis, symbol->name_span));
+    if (symbol->doc)
+        json_object_set_new(item, "detail", json_string(symbol->doc));
+    json_t *children = json_array();
+    for (const tn_symbol *s = symbol->next; s && symbol->kind != TN_SYMBOL_RULE; s = s->next) {
+        if (s->parent == symbol)
+            json_array_append_new(children, outline_item(analysis, s));
+        else if (s->kind != TN_SYMBOL_VALUE && symbol->kind != TN_SYMBOL_LIBRARY && s->parent != symbol)
+            break;
+    }
+    if (json_array_size(children) > 0)
+        json_object_set(item, "children", children);
+    json_decref(children);
+    return item;
+}
+
+json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis)
+{
+    (void)document;
+    json_t *list = json_array();
+    for (const tn_symbol *s = analysis->index.first; s; s = s->next)
+        if (s->span.file == 0 && !s->parent)
+            json_array_append_new(list, outline_item(analysis, s));
+    return list;
+}

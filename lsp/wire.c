@@ -1,0 +1,133 @@
+#include "lsp/wire.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+enum { CHUNK = 65536, HEADER_MAX = 8192 };
+
+/* More bytes from the input; false at its end. */
+static bool fill(tn_wire *wire)
+{
+    if (wire->begin > 0) {
+        memmove(wire->buffer, wire->buffer + wire->begin, wire->end - wire->begin);
+        wire->end -= wire->begin;
+        wire->begin = 0;
+    }
+    if (wire->capacity - wire->end < CHUNK) {
+        size_t capacity = 2 * wire->capacity + CHUNK;
+        char *grown = realloc(wire->buffer, capacity);
+        if (!grown) {
+            wire->failed = true;
+            return false;
+        }
+        wire->buffer = grown;
+        wire->capacity = capacity;
+    }
+    ssize_t got;
+    do
+        got = read(wire->input, wire->buffer + wire->end, wire->capacity - wire->end);
+    while (got < 0 && errno == EINTR);
+    if (got <= 0)
+        return false;
+    wire->end += (size_t)got;
+    return true;
+}
+
+/* The value of Content-Length in a header of lines; false where it has none. */
+static bool content_length(const char *header, size_t size, size_t *length)
+{
+    static const char name[] = "content-length:";
+    for (const char *line = header; line < header + size;) {
+        const char *end = memchr(line, '\n', (size_t)(header + size - line));
+        size_t line_size = end ? (size_t)(end - line) : (size_t)(header + size - line);
+        if (line_size > sizeof name && strncasecmp(line, name, sizeof name - 1) == 0) {
+            char *after;
+            unsigned long long value = strtoull(line + sizeof name - 1, &after, 10);
+            *length = (size_t)value;
+            return after > line + sizeof name - 1;
+        }
+        line += line_size + 1;
+    }
+    return false;
+}
+
+/* The bytes of the header with the empty line after it; 0 where that has not come yet. */
+static size_t header_size(const char *text, size_t size)
+{
+    for (size_t i = 0; i + 1 < size; i++) {
+        if (text[i] == '\n' && text[i + 1] == '\n')
+            return i + 2;
+        if (i + 3 < size && memcmp(text + i, "\r\n\r\n", 4) == 0)
+            return i + 4;
+    }
+    return 0;
+}
+
+/* Leaves out so many bytes of the input. */
+static bool skip(tn_wire *wire, size_t size)
+{
+    while (size > wire->end - wire->begin) {
+        size -= wire->end - wire->begin;
+        wire->begin = wire->end = 0;
+        if (!fill(wire))
+            return false;
+    }
+    wire->begin += size;
+    return true;
+}
+
+tn_wire_result tn_wire_read(tn_wire *wire, json_t **message)
+{
+    size_t header, length = 0;
+    *message = NULL;
+    if (!wire->buffer && !fill(wire))
+        return TN_WIRE_END;
+    while ((header = header_size(wire->buffer + wire->begin, wire->end - wire->begin)) == 0) {
+        if (wire->end - wire->begin > HEADER_MAX)
+            return skip(wire, wire->end - wire->begin) ? TN_WIRE_MALFORMED : TN_WIRE_END;
+        if (!fill(wire))
+            return TN_WIRE_END;
+    }
+    bool known = content_length(wire->buffer + wire->begin, header, &length);
+    wire->begin += header;
+    if (!known)
+        return TN_WIRE_MALFORMED;
+    if (length > TN_WIRE_BYTES_MAX)
+        return skip(wire, length) ? TN_WIRE_MALFORMED : TN_WIRE_END;
+    while (wire->end - wire->begin < length)
+        if (!fill(wire))
+            return TN_WIRE_END;
+    *message = json_loadb(wire->buffer + wire->begin, length, JSON_ALLOW_NUL, NULL);
+    wire->begin += length;
+    return *message ? TN_WIRE_MESSAGE : TN_WIRE_MALFORMED;
+}
+
+bool tn_wire_waiting(const tn_wire *wire)
+{
+    struct pollfd ready = {.fd = wire->input, .events = POLLIN};
+    return wire->end > wire->begin || poll(&ready, 1, 0) > 0;
+}
+
+void tn_wire_send(tn_wire *wire, json_t *message)
+{
+    char *text = message ? json_dumps(message, JSON_COMPACT | JSON_ENSURE_ASCII) : NULL;
+    json_decref(message);
+    if (!text) {
+        wire->failed = true;
+        return;
+    }
+    fprintf(wire->output, "Content-Length: %zu\r\n\r\n%s", strlen(text), text);
+    free(text);
+    if (fflush(wire->output) != 0)
+        wire->failed = true;
+}
+
+void tn_wire_clear(tn_wire *wire)
+{
+    free(wire->buffer);
+    wire->buffer = NULL;
+}

@@ -1,0 +1,32 @@
+/* Messages on the wire: a header that says how long, then JSON (Base Protocol). Owns its buffer. */
+#ifndef TARTAN_LSP_WIRE_H
+#define TARTAN_LSP_WIRE_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#define TN_WIRE_BYTES_MAX (64u << 20) /* of one message; longer ones are skipped */
+
+typedef struct tn_wire {
+    int input;
+    FILE *output;
+    char *buffer;
+    size_t begin, end, capacity; /* unread bytes are [begin, end) */
+    bool failed;                 /* out of memory, or the output cannot be written */
+} tn_wire;
+
+typedef enum tn_wire_result { TN_WIRE_MESSAGE, TN_WIRE_MALFORMED, TN_WIRE_END } tn_wire_result;
+
+/* Waits for the next message, which the caller releases. TN_WIRE_MALFORMED: it was skipped. */
+tn_wire_result tn_wire_read(tn_wire *wire, json_t **message);
+
+/* Is there input to be read at once? */
+bool tn_wire_waiting(const tn_wire *wire);
+
+/* Sends a message and releases it; NULL (out of memory) is a failure. */
+void tn_wire_send(tn_wire *wire, json_t *message);
+
+void tn_wire_clear(tn_wire *wire);
+
+#endif
