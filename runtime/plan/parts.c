@@ -86,10 +86,10 @@ static void adopt(reading *r, uint32_t parent, uint32_t child)
     parts[parent].child_count++;
 }
 
-/* A new part of the last `count` ones on the stack. */
+/* A new part of the last `count` ones on the stack, one to three. */
 static tn_status wrap(reading *r, tn_part part, uint32_t count)
 {
-    uint32_t children[3];
+    uint32_t children[3] = {0};
     for (uint32_t i = count; i-- > 0;)
         children[i] = r->stack[--r->depth];
     part.code_begin = r->parts->parts[children[0]].code_begin;
