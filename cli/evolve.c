@@ -47,6 +47,11 @@ static void evolve(tn_evolution_session *e)
         tn_job_fail(e->command, &error);
 }
 
+static const char *why_no_score(const tn_individual *individual)
+{
+    return individual->reason != TN_MAP_VALID ? tn_map_reason_text(individual->reason) : individual->message;
+}
+
 static void summarise(const tn_evolution_session *e, FILE *out)
 {
     size_t count;
@@ -56,9 +61,11 @@ static void summarise(const tn_evolution_session *e, FILE *out)
         return;
     fprintf(out, "%u generations, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation, s.evaluations,
             s.births);
-    fprintf(out,
-            "last generation: best %.6g, mean %.6g, %u distinct, %u without sentence, %u failed, %u past a limit\n",
-            s.best[0], s.mean, s.distinct, s.no_sentence, s.failed, s.limited);
+    if (s.scored)
+        fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct", s.best[0], s.mean, s.distinct);
+    else
+        fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
+    fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
     if (count && members[0]->score.state == TN_SCORED)
         fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
     fprintf(out, "results are in %s\n", e->run.dir);

@@ -121,7 +121,7 @@ static void map_genome(mapping_run *run)
         return;
     }
     bool tree_alone = settings->tree && strcmp(settings->tree, "json") == 0;
-    if (run->json && !tree_alone && !settings->trace)
+    if (run->json && !tree_alone)
         write_json(run, &mapping);
     else if (!tree_alone)
         write_text(run, &mapping);
@@ -220,6 +220,22 @@ static void invert(mapping_run *run)
 
 /* ---- the command */
 
+/* Nothing that was asked for is left out without a word. */
+static bool formats_agree(tn_job *job)
+{
+    const tn_settings *s = job->settings;
+    bool json = s->format == 1;
+    if (s->invert && (json || s->tree || s->trace)) {
+        tn_job_usage(job, "--invert writes a genome, and nothing else: map it for --tree, --trace or --format json");
+        return false;
+    }
+    if (json && (s->trace || (s->tree && strcmp(s->tree, "text") == 0))) {
+        tn_job_usage(job, "--trace and --tree text are text: leave out --format json, or say --tree json");
+        return false;
+    }
+    return true;
+}
+
 static bool check_options(tn_job *job)
 {
     const tn_settings *s = job->settings;
@@ -235,11 +251,11 @@ static bool check_options(tn_job *job)
         tn_job_fail(job, &error);
         return false;
     }
-    if (picture && !s->genome) {
+    if (picture && !s->genome && s->random.value != 1) {
         tn_job_usage(job, "a picture is of one genome: give it with --genome");
         return false;
     }
-    return true;
+    return formats_agree(job);
 }
 
 static bool prepare(mapping_run *run)

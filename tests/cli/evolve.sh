@@ -34,6 +34,10 @@ grep -q 'E1250' err.txt || fail "does not say that there is a run"
 "$TARTAN" evolve hello.study -o short --resume > /dev/null || fail "cannot be extended"
 cmp -s one/run.sqlite short/run.sqlite || fail "an extended run differs from one made at once"
 
+# ---- a run in which nothing has a score says why
+sed 's/seed 7/max-depth 1/' hello.study > shallow.study
+"$TARTAN" evolve shallow.study --generations 1 | grep -q 'no individual has a score (too deep), 60 without' || fail "does not say why nothing has a score"
+
 # ---- killed at any moment and resumed: the same bytes
 cat > slow.study <<'X'
 evolution {

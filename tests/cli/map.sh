@@ -27,6 +27,8 @@ golden file "tartan map $scratch/e.bnf --genomes $scratch/genomes"
 golden nothing_to_map "tartan map $scratch/e.bnf"
 golden not_a_grammar "tartan map ../../../stdlib/lahave.plan --genome 1"
 golden picture_of_many "tartan map $scratch/e.bnf --random 3 --tree x.svg"
+golden trace_json "tartan map $scratch/e.bnf --genome '0 2 0 3 1' --trace --format json"
+golden invert_tree "tartan map $scratch/e.bnf --invert '(x+y)' --tree text"
 golden random "tartan map $scratch/e.bnf --random 3 --seed 4 --codons 12"
 golden figures "tartan check $scratch/e.bnf --figures"
 printf '<e> ::= <e><e> | x\n' >"$scratch/even.bnf"
@@ -45,5 +47,7 @@ for format in svg png pdf; do
     "$TARTAN" map stdlib/genr8.bnf --genome "$(seq -s ' ' 7 13 2000)" --tree "$scratch/two.$format" >/dev/null
     cmp "$scratch/one.$format" "$scratch/two.$format" || fail "a $format differs"
 done
+
+"$TARTAN" map "$scratch/e.bnf" --random 1 --tree "$scratch/random.svg" >/dev/null || fail "no picture of a random genome"
 
 finish
