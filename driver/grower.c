@@ -199,7 +199,7 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_
             status = tn_view_take(surface.growth, &camera, &views[drawn++], error);
         grown_clear(&surface);
     }
-    tn_view_options options = {.title = title};
+    tn_view_options options = {.title = title, .numbered = count > 1};
     if (status == TN_OK && drawn)
         status = tn_views_draw(views, drawn, &options, path, format, error);
     for (size_t i = 0; views && i < drawn; i++)

@@ -204,10 +204,11 @@ static void paint_face(cairo_t *cr, const tn_view *view, const seen_face *face, 
     }
 }
 
-static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double x, double y, bool numbered)
+/* `label` is written below the view; NULL for none. */
+static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double x, double y, const char *label)
 {
     double wide = (view->high[0] - view->low[0]) * s->scale, high = (view->high[1] - view->low[1]) * s->scale;
-    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (numbered ? LABEL_HEIGHT : 0) - high) / 2;
+    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (label ? LABEL_HEIGHT : 0) - high) / 2;
     double line = 0.8;
     if (view->face_count > 300)
         line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
@@ -220,12 +221,10 @@ static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double 
     for (size_t f = 0; f < view->face_count; f++)
         paint_face(cr, view, &view->faces[f], line / s->scale);
     cairo_restore(cr);
-    if (numbered) {
-        char text[32];
-        snprintf(text, sizeof text, "step %u", view->step);
+    if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
         tn_type_face(cr, 9, false);
-        tn_type_line(cr, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, text);
+        tn_type_line(cr, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, label);
     }
 }
 
@@ -259,9 +258,15 @@ static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const 
         tn_type_line(cr, MARGIN, 18, TN_ALIGN_LEFT, options->title);
         top = TITLE_HEIGHT;
     }
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        char label[32];
+        if (options->numbered)
+            snprintf(label, sizeof label, "%zu", i + 1);
+        else
+            snprintf(label, sizeof label, "step %u", views[i]->step);
         paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
-                   count > 1);
+                   count > 1 ? label : NULL);
+    }
     write_foot(cr, views[count - 1], s, options);
 }
 
