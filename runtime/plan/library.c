@@ -52,7 +52,7 @@ static tn_status name_clause(const tn_library *library, size_t i, tn_error *erro
     return inner.status;
 }
 
-static tn_status lower_clauses(tn_library *library, tn_error *error)
+static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error *error)
 {
     size_t count = library->record->clause_count;
     uint32_t *functions = calloc(count + 1, sizeof *functions);
@@ -64,7 +64,7 @@ static tn_status lower_clauses(tn_library *library, tn_error *error)
     }
     for (size_t i = 0; i < count; i++) {
         functions[i] = clause_record(library, i)->holds;
-        if (is_prune(library, i))
+        if (is_prune(library, i) && !all_generated)
             library->prunes[library->prune_count++] = i;
     }
     tn_lowering *lowering = NULL;
@@ -326,7 +326,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     if (status == TN_OK)
         status = add_late(library, error);
     if (status == TN_OK)
-        status = lower_clauses(library, error);
+        status = lower_clauses(library, options->all_generated, error);
     if (status == TN_OK)
         status = combine(library, error);
     if (status == TN_OK)

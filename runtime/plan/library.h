@@ -21,6 +21,7 @@ typedef struct tn_library tn_library;
 typedef struct tn_library_options {
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT for
                                  each clause, 1,000,000 for the clauses together */
+    bool all_generated;  /* leave pruning out: the plans are all that are generated */
     bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
     uint32_t max_length; /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
