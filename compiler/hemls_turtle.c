@@ -299,13 +299,17 @@ static vector point(const tn_checked_template *template, uint32_t j)
     return (vector){end[0], end[1], end[2]};
 }
 
-/* Which side of the path a branch leaves on, from directions projected on the plane of the surface. */
+static bool is_upright(vector a)
+{
+    return a.x * a.x + a.y * a.y < 1e-18;
+}
+
+/* Which side of the path a branch leaves on, from directions projected on the plane of the surface. Where one of them
+ * stands straight out of the surface nothing tells the sides apart: the branch belongs to no region. */
 static void classify(const tn_checked_template *template, tn_checked_branch *branch)
 {
     vector d = {branch->direction[0], branch->direction[1], 0}, out, back;
     branch->side = TN_SIDE_NONE;
-    if (length(d) < 1e-9) /* straight out of the surface */
-        return;
     if (branch->at < template->segment_count)
         out = combine(point(template, branch->at + 1), 1, point(template, branch->at), -1);
     if (branch->at > 0)
@@ -314,6 +318,8 @@ static void classify(const tn_checked_template *template, tn_checked_branch *bra
         out = combine(back, -1, back, 0);
     else if (branch->at == 0)
         back = combine(out, -1, out, 0);
+    if (is_upright(d) || is_upright(out) || is_upright(back))
+        return;
     double turn = turn_between(out, d), behind = turn_between(out, back);
     if (turn == 0 || turn_between(back, d) == 0)
         return;

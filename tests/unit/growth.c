@@ -407,6 +407,27 @@ static void test_why_branches_do_not_join(void **state)
     uproot(&g);
 }
 
+/* Where the path itself stands upright at a branch, its sides cannot be told: the module stays one that loads. */
+static void test_branches_of_upright_paths_have_no_side(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"[ + B ] & A ^ A [ + B ] [ - B ] ^ A [ + B ] & A; Angle 90",
+                                        "[ + B ] & & A ^ ^ A [ + B ] [ - B ] ^ ^ A [ + B ] & & A; Angle 45"};
+    for (size_t i = 0; i < 2; i++) {
+        char text[200];
+        grown g;
+        snprintf(text, sizeof text, "A + A + A + A; A -> %s; Sync", paths[i]);
+        plant_text(&g, "t.hemls", text);
+        g.study.options.explain = true;
+        replant(&g);
+        step(&g);
+        tn_growth_counts counts = tn_growth_last_counts(g.growth);
+        assert_int_equal(counts.failures[TN_FAIL_SIDE], 16);
+        assert_int_equal(counts.joins, 0);
+        uproot(&g);
+    }
+}
+
 static void test_the_total_fitness(void **state)
 {
     (void)state;
@@ -457,6 +478,7 @@ int main(void)
         cmocka_unit_test(test_edges_without_length_are_divided),
         cmocka_unit_test(test_options_are_checked),
         cmocka_unit_test(test_why_branches_do_not_join),
+        cmocka_unit_test(test_branches_of_upright_paths_have_no_side),
         cmocka_unit_test(test_the_total_fitness),
         cmocka_unit_test(test_faces_of_a_mesh_start_at_their_lowest_edge),
     };
