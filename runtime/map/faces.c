@@ -237,8 +237,8 @@ static bool place_buffer(const buffer *out, places *place, places *mine)
     return true;
 }
 
-/* Copies a placed buffer into the new map. Joined edges have no numbers yet: their state waits at their first dart. New
- * faces have no ranks yet: the n-th join's parent waits where its edge's state will be. */
+/* Copies a placed buffer into the new map. Joined edges have no numbers yet: their first dart tells the second, where
+ * their state waits. New faces have no ranks yet: the n-th join's parent waits where its edge's state will be. */
 static void copy_buffer(const tn_pass *pass, const buffer *out, const places *mine)
 {
     tn_map *new = pass->new;
@@ -266,8 +266,9 @@ static void copy_buffer(const tn_pass *pass, const buffer *out, const places *mi
     }
     for (size_t i = 0; i < out->joint_count; i++) {
         const out_joint *joint = &out->joints[i];
-        pass->joints[joint->branch] = (tn_joint){mine->darts + joint->start, mine->darts + joint->end};
-        new->side[mine->darts + joint->start] = joint->state;
+        pass->joints[joint->branch] = mine->darts + joint->start;
+        new->side[mine->darts + joint->start] = mine->darts + joint->end;
+        new->side[mine->darts + joint->end] = joint->state;
     }
 }
 
@@ -397,7 +398,7 @@ static tn_status number_joints(tn_pass *pass, tn_error *error)
     for (uint32_t c = 0; c < chunks; c++) {
         uint32_t begin = c * TN_CHUNK_EDGES, end = numbers - begin < TN_CHUNK_EDGES ? numbers : begin + TN_CHUNK_EDGES;
         for (uint32_t b = begin; b < end; b++)
-            first[c + 1] += pass->joints[b].start != TN_NONE;
+            first[c + 1] += pass->joints[b] != TN_NONE;
     }
     first[0] = pass->edges;
     for (uint32_t c = 0; c < chunks; c++)
@@ -407,12 +408,13 @@ static tn_status number_joints(tn_pass *pass, tn_error *error)
         uint32_t begin = c * TN_CHUNK_EDGES, end = numbers - begin < TN_CHUNK_EDGES ? numbers : begin + TN_CHUNK_EDGES;
         uint32_t edge = first[c];
         for (uint32_t b = begin; b < end; b++) {
-            tn_joint joint = pass->joints[b];
-            if (joint.start == TN_NONE)
+            uint32_t start = pass->joints[b];
+            if (start == TN_NONE)
                 continue;
-            pass->new->states[edge] = pass->new->side[joint.start];
-            pass->new->side[joint.start] = 2 * edge;
-            pass->new->side[joint.end] = 2 * edge + 1;
+            uint32_t end = pass->new->side[start];
+            pass->new->states[edge] = pass->new->side[end];
+            pass->new->side[start] = 2 * edge;
+            pass->new->side[end] = 2 * edge + 1;
             edge++;
         }
     }

@@ -69,11 +69,6 @@ typedef struct tn_pending_list {
     uint32_t *face_first; /* [face_count + 1] */
 } tn_pending_list;
 
-/* The two darts of a joined edge, at its lower branch's number; TN_NONE where that branch did not join. */
-typedef struct tn_joint {
-    uint32_t start, end;
-} tn_joint;
-
 /* Memory that steps use again and again. Of what is read and written anew, two each: `current` says which is the map's.
  */
 typedef struct tn_workspace {
@@ -132,7 +127,7 @@ typedef struct tn_pass {
     uint32_t branch_first, branch_count; /* numbers of this pass's branches: [first, first + count) */
     bool out_of_range;
     /* faces */
-    tn_joint *joints;        /* [branch number] */
+    uint32_t *joints;        /* [branch number] of the lower branch: the joined edge's first dart; TN_NONE: none */
     uint32_t *made_first;    /* [old face's rank] the number of its first join, in the order of storage */
     uint32_t *made_count;    /* [old face's rank] its joins; then the rank of the first face that they made */
     uint32_t *pending_first; /* [new face] where its waiting branches begin; only where joins are tried again */

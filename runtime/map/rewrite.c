@@ -128,7 +128,7 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     uint64_t vertices = (uint64_t)old->vertex_count + total->vertices;
     uint64_t most = edges + (total->branches + growth->pending.count) / 2;
     uint64_t bytes = 24 * vertices + 4 * most + (8 * (uint64_t)sizeof(uint32_t) / 2) * most +
-                     sizeof(tn_record) * total->records + sizeof(tn_joint) * total->branches +
+                     sizeof(tn_record) * total->records + sizeof(uint32_t) * total->branches +
                      40 * (uint64_t)old->edge_count;
     if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
         tn_fail(error, TN_LIMIT, 841, "step %u would need about %llu MB of memory; the limit is %llu MB",

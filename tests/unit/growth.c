@@ -84,12 +84,14 @@ static void test_square_and_triangle_have_their_closed_forms(void **state)
     grown square, triangle;
     plant_text(&square, "t.study", "rules \"square\"");
     plant_text(&triangle, "t.study", "rules \"triangle\"");
-    for (uint64_t n = 0; n <= 8; n++) {
+    for (uint64_t n = 0; n <= 10; n++) {
         uint64_t m = UINT64_C(1) << n;
         assert_counts(&square, (m + 1) * (m + 1), 2 * m * (m + 1), m * m);
         assert_counts(&triangle, (m + 1) * (m + 2) / 2, n ? 3 * (m / 2) * (m + 1) : 3, m * m);
-        step(&square);
-        step(&triangle);
+        if (n < 10) {
+            step(&square);
+            step(&triangle);
+        }
     }
     uproot(&square);
     uproot(&triangle);
