@@ -1,0 +1,81 @@
+/* Edge types while a sentence is written: which occur, which have a rule, and how they are spelled (Genr8 paper, 4.5
+ * and 5.1). */
+#ifndef TARTAN_GENE_MAPPER_EDGES_H
+#define TARTAN_GENE_MAPPER_EDGES_H
+
+#include "runtime/gene/mapper_state.h"
+
+static inline bool mark_id(tn_mapper *m, uint32_t id, bool ruled)
+{
+    size_t old = m->id_capacity, capacity = old;
+    if (id >= old) {
+        if (!reserve(&m->seen, &capacity, id, 1, 1))
+            return false;
+        size_t other = old;
+        if (!reserve(&m->ruled, &other, id, 1, 1))
+            return false;
+        memset(m->seen + old, 0, capacity - old);
+        memset(m->ruled + old, 0, capacity - old);
+        m->id_capacity = capacity;
+    }
+    (ruled ? m->ruled : m->seen)[id] = 1;
+    return true;
+}
+
+static inline bool edge_in_predecessor(tn_mapper *m, uint32_t id)
+{
+    if (!reserve(&m->predecessor, &m->predecessor_capacity, m->predecessor_count, 1, sizeof *m->predecessor))
+        return false;
+    m->predecessor[m->predecessor_count++] = id;
+    return true;
+}
+
+static inline void predecessor_begins(tn_mapper *m)
+{
+    m->in_predecessor = true;
+    m->has_less = m->has_greater = false;
+    m->predecessor_count = 0;
+}
+
+/* The edges that a predecessor rewrites, its contexts left out (4.5): A in `A > B`, B in `A < B` and in `A < B > C`,
+ * all without. */
+static inline bool predecessor_ends(tn_mapper *m)
+{
+    size_t from = m->has_less ? 1 : 0;
+    size_t to = m->has_less || m->has_greater ? from + 1 : m->predecessor_count;
+    m->in_predecessor = false;
+    for (size_t i = from; i < to && i < m->predecessor_count; i++)
+        if (!mark_id(m, m->predecessor[i], true))
+            return false;
+    return true;
+}
+
+static inline bool rule_ends(tn_mapper *m, uint32_t mark)
+{
+    if (mark == TN_MARK_PREDECESSOR)
+        return predecessor_ends(m);
+    m->rule_end = m->text.size;
+    return true;
+}
+
+/* Writes the digits of `value` before `end`; returns the first. */
+static inline char *digits(uint32_t value, char *end)
+{
+    do
+        *--end = (char)('0' + value % 10);
+    while (value /= 10);
+    return end;
+}
+
+/* Room for an edge is the caller's to have made. */
+static inline size_t write_edge(char *text, size_t size, uint32_t id)
+{
+    char number[10], *end = number + sizeof number, *start = digits(id, end);
+    if (size)
+        text[size++] = ' ';
+    memcpy(text + size, "Edge", 4);
+    memcpy(text + size + 4, start, (size_t)(end - start));
+    return size + 4 + (size_t)(end - start);
+}
+
+#endif
