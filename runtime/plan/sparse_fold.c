@@ -240,7 +240,9 @@ static tn_status walk(tn_folding *f, const char *what, tn_bounds *bounds, tn_err
     f->done_capacity = f->hashed ? 0 : (size_t)all;
     f->done = f->hashed ? NULL : calloc((size_t)all + 1, sizeof *f->done);
     size_t slot = f->hashed || f->done ? find_slot(f, 0, 0) : SIZE_MAX;
-    if (slot == SIZE_MAX || !visit(f, 0, 0, slot))
+    /* Room for an edge at least, so that the row of a state without edges has a place as well. */
+    bool room = grow((void **)&f->stack, &f->stack_capacity, 1, sizeof *f->stack);
+    if (slot == SIZE_MAX || !room || !visit(f, 0, 0, slot))
         return tn_fail_memory(error);
     while (f->visit_count > 0) {
         if (!proceed(f))
