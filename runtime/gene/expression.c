@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/vm/numeric.h"
+
 void tn_expression_clear(tn_expression *expression)
 {
     free(expression->steps);
@@ -112,11 +114,11 @@ typedef struct function {
 
 static void read_call(reader *r, const char *name, size_t length)
 {
-    static const function functions[] = {{"sqrt", TN_EXPRESSION_SQRT, 1},
-                                         {"abs", TN_EXPRESSION_ABS, 1},
-                                         {"square", TN_EXPRESSION_SQUARE, 1},
-                                         {"min", TN_EXPRESSION_MIN, 2},
-                                         {"max", TN_EXPRESSION_MAX, 2}};
+    static const function functions[] = {{"sqrt", TN_EXPRESSION_SQRT, 1},     {"abs", TN_EXPRESSION_ABS, 1},
+                                         {"square", TN_EXPRESSION_SQUARE, 1}, {"sin", TN_EXPRESSION_SIN, 1},
+                                         {"cos", TN_EXPRESSION_COS, 1},       {"exp", TN_EXPRESSION_EXP, 1},
+                                         {"log", TN_EXPRESSION_LOG, 1},       {"tanh", TN_EXPRESSION_TANH, 1},
+                                         {"min", TN_EXPRESSION_MIN, 2},       {"max", TN_EXPRESSION_MAX, 2}};
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         if (strlen(functions[i].name) != length || memcmp(functions[i].name, name, length) != 0)
             continue;
@@ -130,7 +132,7 @@ static void read_call(reader *r, const char *name, size_t length)
         emit(r, (tn_expression_step){.op = functions[i].op}, functions[i].arguments);
         return;
     }
-    refuse(r, "there is no such function: sqrt, abs, square, min and max there are");
+    refuse(r, "there is no such function: there are sqrt, abs, square, sin, cos, exp, log, tanh, min and max");
 }
 
 static void read_name(reader *r)
@@ -270,10 +272,22 @@ ANY_WIDTH static void compute(tn_expression_op op, const double *a, const double
     }
 }
 
+static double protected_log(double x)
+{
+    return x == 0 ? 0 : tn_log(__builtin_fabs(x));
+}
+
+/* Functions that are more than one operation, element by element. */
+static void compute_function(tn_expression_op op, const double *a, double *restrict out)
+{
+    static double (*const functions[])(double) = {tn_sin, tn_cos, tn_exp, protected_log, tn_tanh};
+    double (*const apply)(double) = functions[op - TN_EXPRESSION_SIN];
+    EACH out[i] = apply(a[i]);
+}
+
 static bool takes_one(tn_expression_op op)
 {
-    return op == TN_EXPRESSION_NEGATE || op == TN_EXPRESSION_SQRT || op == TN_EXPRESSION_ABS ||
-           op == TN_EXPRESSION_SQUARE;
+    return op != TN_EXPRESSION_MIN && op != TN_EXPRESSION_MAX && op >= TN_EXPRESSION_NEGATE;
 }
 
 /* One row of results, from rows of variables. `out` may be no operand: results of one level of the stack are written to
@@ -297,7 +311,10 @@ static const double *evaluate_row(const tn_expression *e, const double *const *c
         top -= takes_one(step->op) ? 1 : 2;
         double *row = e->stack + 2 * top * ROW;
         row = e->operands[top] == row ? row + ROW : row;
-        compute(step->op, e->operands[top], takes_one(step->op) ? NULL : e->operands[top + 1], row);
+        if (step->op >= TN_EXPRESSION_SIN && step->op <= TN_EXPRESSION_TANH)
+            compute_function(step->op, e->operands[top], row);
+        else
+            compute(step->op, e->operands[top], takes_one(step->op) ? NULL : e->operands[top + 1], row);
         e->operands[top++] = row;
     }
     return e->operands[0];

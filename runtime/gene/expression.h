@@ -4,8 +4,9 @@
  *   expression: term {(+|-) term}   term: factor {(*|/) factor}   factor: number | name | name(expression, ...) |
  * (expression) | -factor
  *
- * Functions: sqrt (of the absolute value), abs, square, min, max. Division is protected: a / b is 1 where b is 0. No
- * operation depends on the machine: each is one IEEE 754 operation, or a choice.
+ * Functions: sqrt (of the absolute value), abs, square, min, max, sin, cos, exp, log (of the absolute value, and 0 of
+ * 0), tanh. Division is protected: a / b is 1 where b is 0. No operation depends on the machine: each is one IEEE 754
+ * operation, a choice, or of runtime/vm/numeric.h.
  */
 #ifndef TARTAN_GENE_EXPRESSION_H
 #define TARTAN_GENE_EXPRESSION_H
@@ -23,6 +24,11 @@ typedef enum tn_expression_op {
     TN_EXPRESSION_SQRT,
     TN_EXPRESSION_ABS,
     TN_EXPRESSION_SQUARE,
+    TN_EXPRESSION_SIN,
+    TN_EXPRESSION_COS,
+    TN_EXPRESSION_EXP,
+    TN_EXPRESSION_LOG,
+    TN_EXPRESSION_TANH,
     TN_EXPRESSION_MIN,
     TN_EXPRESSION_MAX,
 } tn_expression_op;

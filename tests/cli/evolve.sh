@@ -108,6 +108,9 @@ X
 grep -q '^best: individual' fit.txt || fail "finds nothing"
 grep -qE ' [1-9][0-9]* failed' fit.txt || sqlite3 fit.run/run.sqlite 'SELECT count(*) FROM birth WHERE state=2' 2> /dev/null | grep -qv '^0$' ||
   fail "no evaluation failed, though the data have no x2"
+sed 's/"arithmetic"/"arithmetic-functions"/' fit.study > curve.study
+"$TARTAN" evolve curve.study -o curve > curve.txt || fail "does not fit with functions"
+grep -q '^best: individual' curve.txt || fail "finds nothing with functions"
 printf 'x0,y\n1,two\n' > data.csv
 "$TARTAN" evolve fit.study -o bad > /dev/null 2>&1; [ $? -eq 1 ] || fail "wrong data are no error"
 

@@ -5,6 +5,7 @@
 #include "runtime/gene/evolve.h"
 #include "runtime/gene/expression.h"
 #include "runtime/gene/problem.h"
+#include "runtime/vm/numeric.h"
 #include "tests/support/test_grammar.h"
 
 #define STDLIB TARTAN_SOURCE_DIR "/stdlib/"
@@ -43,6 +44,10 @@ static void test_expressions(void **state)
     assert_true(value_of("-x * -2.50") == 7.5);
     assert_true(value_of("sqrt(-4) + abs(-1) + square(x)") == 12);
     assert_true(value_of("min(x, 2) + max(x, y)") == 5);
+    assert_true(value_of("sin(y) + cos(y) + exp(y) + tanh(y)") == 2);
+    assert_true(value_of("log(y) + log(-x)") == tn_log(3));
+    assert_true(value_of("exp(sin(x)) / tanh(x)") == tn_exp(tn_sin(3)) / tn_tanh(3));
+    assert_true(value_of("x - cos(-x)") == 3 - tn_cos(3));
     assert_true(value_of("0.1") == 0.1);
     assert_true(value_of("123456.789") == 123456.789);
     refused("", 1);
@@ -50,7 +55,7 @@ static void test_expressions(void **state)
     refused("x y", 3);
     refused("(x", 3);
     refused("z", 1);
-    refused("sin(x)", 5);
+    refused("tan(x)", 5);
     refused("min(x)", 6);
     refused("1.5.2", 4);
     char deep[3001];
