@@ -7,6 +7,13 @@
 #include "cli/option_rows.h"
 #include "compiler/format.h"
 
+/* Notations that have no canonical layout: all but plans. */
+static bool has_layout(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return !dot || (strcmp(dot, ".hemls") != 0 && strcmp(dot, ".study") != 0 && strcmp(dot, ".bnf") != 0);
+}
+
 static void write_text(tn_job *job, const char *path, const char *text, size_t size)
 {
     tn_output output;
@@ -55,6 +62,12 @@ static void format_file(tn_job *job, const char *path)
     size_t size, formatted_size;
     char *formatted;
     tn_error error;
+    if (!has_layout(path)) {
+        tn_fail(&error, TN_INVALID, 905, "%.300s cannot be laid out: only rule files for plans (.plan) have a layout",
+                path);
+        tn_job_fail(job, &error);
+        return;
+    }
     if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
         tn_job_fail(job, &error);
         return;
@@ -90,7 +103,7 @@ const tn_command tn_command_fmt = {
     .summary = "lay rule files out in the canonical way",
     .usage = "FILE...",
     .description =
-        "Lays out each rule file in the one canonical way, in place: written beside the file, then renamed over it. "
+        "Lays out each rule file (.plan) in the one canonical way, in place: written beside the file, then renamed over it. "
         "Comments, parentheses and the spelling of lengths stay as they are, and so does, up to one, an empty line "
         "between two things. What the file means is never changed, and a file with an error of syntax is not touched. "
         "For - standard input is laid out on standard output.",

@@ -411,10 +411,10 @@ static tn_status number_joints(tn_pass *pass, tn_error *error)
             uint32_t start = pass->joints[b];
             if (start == TN_NONE)
                 continue;
-            uint32_t end = pass->new->side[start];
-            pass->new->states[edge] = pass->new->side[end];
+            uint32_t opposite = pass->new->side[start];
+            pass->new->states[edge] = pass->new->side[opposite];
             pass->new->side[start] = 2 * edge;
-            pass->new->side[end] = 2 * edge + 1;
+            pass->new->side[opposite] = 2 * edge + 1;
             edge++;
         }
     }
