@@ -1,39 +1,13 @@
-#include "runtime/gene/evolve.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "runtime/gene/score_cache.h"
-#include "runtime/vm/crew.h"
+#include "runtime/gene/evolve_state.h"
 
 const char *const tn_initialisation_names[TN_INITIALISE_COUNT] = {"random", "ramped", "grow", "pi-grow"};
 const char *const tn_replacement_names[TN_REPLACE_COUNT] = {"generational", "steady-state"};
-
-struct tn_evolution {
-    const tn_grammar *grammar;
-    tn_analysis analysis;
-    tn_evolution_settings settings;
-    tn_evaluator evaluator;
-    unsigned threads;
-    tn_crew *crew;
-    tn_breeder **breeders; /* by thread */
-    tn_individual *all;    /* twice the population */
-    tn_individual **members, **born, **pool;
-    size_t member_count, born_count;
-    tn_merit *merits; /* of pool, or of members */
-    uint32_t *scratch;
-    uint32_t *todo; /* places in born that wait for their score */
-    tn_score_cache cache;
-    uint32_t generation; /* of the members */
-    uint32_t *chosen;    /* by a person, or NULL */
-    size_t chosen_count;
-    tn_recall *recall;
-    void *recall_context;
-    uint64_t evaluations, births;
-};
 
 tn_evolution_settings tn_evolution_settings_default(void)
 {
@@ -519,80 +493,4 @@ tn_status tn_evolution_rescore(tn_evolution *e, tn_error *error)
     memcpy(e->pool, e->members, e->member_count * sizeof *e->pool);
     keep_best(e, e->pool, e->member_count, e->member_count);
     return TN_OK;
-}
-
-/* ---- looking at it */
-
-const tn_individual *const *tn_evolution_members(const tn_evolution *e, size_t *count)
-{
-    *count = e->member_count;
-    return (const tn_individual *const *)e->members;
-}
-
-const tn_individual *const *tn_evolution_born(const tn_evolution *e, size_t *count)
-{
-    *count = e->born_count;
-    return (const tn_individual *const *)e->born;
-}
-
-size_t tn_evolution_front(const tn_evolution *e)
-{
-    size_t count = 0;
-    while (count < e->member_count && e->merits[count].front == 0 && e->evaluator.objectives > 1)
-        count++;
-    return e->evaluator.objectives > 1 ? count : e->member_count > 0;
-}
-
-static int compare_hashes(const void *left, const void *right)
-{
-    const uint64_t *a = left, *b = right;
-    return *a < *b ? -1 : *a > *b;
-}
-
-static uint32_t count_distinct(const tn_evolution *e)
-{
-    uint64_t *hashes = malloc((e->member_count + 1) * sizeof *hashes);
-    size_t count = 0;
-    uint32_t distinct = 0;
-    if (!hashes)
-        return 0;
-    for (size_t i = 0; i < e->member_count; i++)
-        if (e->members[i]->reason == TN_MAP_VALID)
-            hashes[count++] = e->members[i]->hash[0];
-    qsort(hashes, count, sizeof *hashes, compare_hashes);
-    for (size_t i = 0; i < count; i++)
-        distinct += i == 0 || hashes[i] != hashes[i - 1];
-    free(hashes);
-    return distinct;
-}
-
-tn_generation_stats tn_evolution_stats(const tn_evolution *e)
-{
-    tn_generation_stats s = {.generation = e->generation, .evaluations = e->evaluations, .births = e->births};
-    for (size_t o = 0; o < TN_OBJECTIVES_MAX; o++)
-        s.best[o] = o < e->evaluator.objectives ? HUGE_VAL : 0;
-    double sum = 0, codons = 0, depths = 0;
-    for (size_t i = 0; i < e->member_count; i++) {
-        const tn_individual *m = e->members[i];
-        s.no_sentence += m->score.state == TN_SCORE_NO_SENTENCE;
-        s.failed += m->score.state == TN_SCORE_FAILED;
-        s.limited += m->score.state == TN_SCORE_LIMIT;
-        if (m->reason == TN_MAP_VALID) {
-            codons += (double)m->used;
-            depths += m->depth;
-        }
-        if (m->score.state != TN_SCORED)
-            continue;
-        s.scored++;
-        sum += m->score.objectives[0];
-        for (size_t o = 0; o < e->evaluator.objectives; o++)
-            if (m->score.objectives[o] < s.best[o])
-                s.best[o] = m->score.objectives[o];
-    }
-    uint32_t sentences = (uint32_t)e->member_count - s.no_sentence;
-    s.mean = s.scored ? sum / s.scored : 0;
-    s.mean_codons = sentences ? codons / sentences : 0;
-    s.mean_depth = sentences ? depths / sentences : 0;
-    s.distinct = count_distinct(e);
-    return s;
 }
