@@ -349,6 +349,14 @@ const char *tn_part_word(tn_part_kind kind)
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }
 
+/* How many of the `used` bytes stay when the text is cut before the byte `next`: none of a character that `next` goes on with. */
+static size_t whole_characters(const char *text, size_t used, char next)
+{
+    while (used > 0 && ((unsigned char)next & 0xc0) == 0x80)
+        next = text[--used];
+    return used;
+}
+
 /* Copies source text with comments left out and every run of blanks as one. */
 static void copy_text(const char *from, size_t length, char *text, size_t size)
 {
@@ -365,9 +373,7 @@ static void copy_text(const char *from, size_t length, char *text, size_t size)
             continue;
         }
         if (used + 6 > size) {
-            while (used > 0 && ((unsigned char)text[used] & 0xc0) == 0x80)
-                used--;
-            memcpy(text + used, "...", 4);
+            memcpy(text + whole_characters(text, used, c), "...", 4);
             return;
         }
         if (blank)
