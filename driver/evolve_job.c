@@ -139,7 +139,8 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
 {
     char *study = beside(path, job->study.grow);
     bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
-    tn_status status = study ? tn_grower_new(study, separately, &job->grower, error) : tn_fail_memory(error);
+    tn_status status =
+        study ? tn_grower_new(study, separately, job->settings.threads, &job->grower, error) : tn_fail_memory(error);
     free(study);
     return status;
 }

@@ -15,12 +15,17 @@ struct tn_grower {
     bool separately;
     tn_fitness_term terms[TN_FITNESS_TERM_COUNT]; /* that are wanted */
     size_t term_count;
+    tn_growth **growths; /* by thread: each grows one surface after another in the same memory; NULL before the first */
+    unsigned threads;
 };
 
 void tn_grower_free(tn_grower *g)
 {
     if (!g)
         return;
+    for (unsigned t = 0; g->growths && t < g->threads; t++)
+        tn_growth_free(g->growths[t]);
+    free(g->growths);
     tn_study_clear(&g->study);
     tn_close(&g->opened);
     free(g);
@@ -47,14 +52,16 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
     return status;
 }
 
-tn_status tn_grower_new(const char *study, bool separately, tn_grower **grower, tn_error *error)
+tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error)
 {
     tn_grower *g = calloc(1, sizeof *g);
     *grower = g;
     if (!g)
         return tn_fail_memory(error);
     g->separately = separately;
-    tn_status status = open_study(g, study, error);
+    g->threads = threads;
+    g->growths = calloc(threads, sizeof(tn_growth *));
+    tn_status status = g->growths ? open_study(g, study, error) : tn_fail_memory(error);
     if (status != TN_OK) {
         tn_grower_free(g);
         *grower = NULL;
@@ -64,17 +71,16 @@ tn_status tn_grower_new(const char *study, bool separately, tn_grower **grower, 
 
 /* ---- one growth */
 
-typedef struct grown {
+/* A sentence compiled. */
+typedef struct rules {
     tn_opened opened;
     tn_growth_system *system;
-    tn_growth *growth;
-} grown;
+} rules;
 
-static void grown_clear(grown *g)
+static void rules_clear(rules *r)
 {
-    tn_growth_free(g->growth);
-    tn_growth_system_free(g->system);
-    tn_close(&g->opened);
+    tn_growth_system_free(r->system);
+    tn_close(&r->opened);
 }
 
 static const char *first_error(const tn_opened *opened)
@@ -86,17 +92,21 @@ static const char *first_error(const tn_opened *opened)
     return "it does not compile";
 }
 
-static tn_status grow(const tn_grower *g, const char *sentence, size_t size, grown *out, tn_error *error)
+/* Compiles a sentence and grows its surface; *growth, where there is one, is used again. */
+static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rules *r, tn_growth **growth,
+                      tn_error *error)
 {
-    *out = (grown){0};
-    tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &out->opened);
+    const tn_study *study = &g->study;
+    *r = (rules){0};
+    tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &r->opened);
     if (status != TN_OK)
-        return tn_fail(error, TN_INVALID, 0, "%.400s", first_error(&out->opened));
-    status = tn_growth_system_read(out->opened.module, &out->system, error);
+        return tn_fail(error, TN_INVALID, 0, "%.400s", first_error(&r->opened));
+    status = tn_growth_system_read(r->opened.module, &r->system, error);
     if (status == TN_OK)
-        status = tn_growth_new(out->system, &g->study.environment, &g->study.options, &out->growth, error);
-    for (uint32_t step = 0; status == TN_OK && step < g->study.steps && !tn_growth_at_rest(out->growth); step++)
-        status = tn_growth_step(out->growth, error);
+        status = *growth ? tn_growth_renew(*growth, r->system, &study->environment, &study->options, error)
+                         : tn_growth_new(r->system, &study->environment, &study->options, growth, error);
+    for (uint32_t step = 0; status == TN_OK && step < study->steps && !tn_growth_at_rest(*growth); step++)
+        status = tn_growth_step(*growth, error);
     return status;
 }
 
@@ -120,16 +130,13 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
 {
     const tn_grower *g = context;
     tn_error own = {0};
-    tn_stats stats = {0};
-    grown surface;
-    (void)thread;
-    tn_status status = grow(g, sentence, size, &surface, &own);
-    if (status == TN_OK)
-        status = tn_stats_measure(surface.growth, &stats, &own);
-    if (status == TN_OK)
-        score_terms(g, &stats.fitness, score);
-    tn_stats_clear(&stats);
-    grown_clear(&surface);
+    rules compiled;
+    tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
+    if (status == TN_OK) {
+        tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
+        score_terms(g, &fitness, score);
+    }
+    rules_clear(&compiled);
     if (status == TN_MEMORY || status == TN_INTERNAL) {
         *error = own;
         return status;
@@ -189,21 +196,23 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_
     tn_canvas_format format;
     tn_view **views = calloc(count + 1, sizeof *views);
     tn_camera camera = tn_camera_default();
+    tn_growth *growth = NULL;
     size_t drawn = 0;
     if (count > 1)
         camera.width = 200;
     tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++) {
-        grown surface;
-        if (grow(g, sentences[i], strlen(sentences[i]), &surface, NULL) == TN_OK)
-            status = tn_view_take(surface.growth, &camera, &views[drawn++], error);
-        grown_clear(&surface);
+        rules compiled;
+        if (grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, NULL) == TN_OK)
+            status = tn_view_take(growth, &camera, &views[drawn++], error);
+        rules_clear(&compiled);
     }
     tn_view_options options = {.title = title, .numbered = count > 1};
     if (status == TN_OK && drawn)
         status = tn_views_draw(views, drawn, &options, path, format, error);
     for (size_t i = 0; views && i < drawn; i++)
         tn_view_free(views[i]);
+    tn_growth_free(growth);
     free(views);
     return status;
 }

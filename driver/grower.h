@@ -10,9 +10,9 @@ typedef struct tn_grower tn_grower;
 #define TN_GROWER_EDGES 50000u /* edges of one growth, where the study has no limit of its own */
 
 /* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are
- * not grown. With `separately`, each term is an objective; else their sum is the one. TN_INVALID (E1245) where it
- * cannot be used. */
-tn_status tn_grower_new(const char *study, bool separately, tn_grower **grower, tn_error *error);
+ * not grown. With `separately`, each term is an objective; else their sum is the one. Sentences are scored by up to
+ * `threads` threads. TN_INVALID (E1245) where it cannot be used. */
+tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error);
 void tn_grower_free(tn_grower *grower);
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower);

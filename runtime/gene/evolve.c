@@ -247,7 +247,7 @@ static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t 
     }
     e->evaluations += todo;
     scoring s = {e, individuals};
-    return recalled ? TN_OK : tn_crew_run(e->crew, todo, 4, score_item, &s, error);
+    return recalled ? TN_OK : tn_crew_run(e->crew, todo, 1, score_item, &s, error);
 }
 
 /* Gives scores to individuals that are mapped. */

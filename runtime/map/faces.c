@@ -273,13 +273,13 @@ static void copy_buffer(const tn_pass *pass, const buffer *out, const places *mi
 }
 
 /* A chunk of faces on its way: worked out by any thread, placed in its turn, copied by any thread. */
-typedef struct chunk {
+typedef struct tn_chunk {
     buffer out;
     places mine;
     bool failed;
-} chunk;
+} tn_chunk;
 
-static void work_out(const tn_pass *pass, chunk *work, uint32_t number)
+static void work_out(const tn_pass *pass, tn_chunk *work, uint32_t number)
 {
     uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
@@ -291,7 +291,7 @@ static void work_out(const tn_pass *pass, chunk *work, uint32_t number)
     }
 }
 
-static void run_batch(const tn_pass *pass, places *place, chunk *batch, uint32_t first, uint32_t count)
+static void run_batch(const tn_pass *pass, places *place, tn_chunk *batch, uint32_t first, uint32_t count)
 {
 #pragma omp parallel for num_threads(pass->threads) schedule(dynamic, 1) if (count > 1)
     for (uint32_t i = 0; i < count; i++)
@@ -305,19 +305,36 @@ static void run_batch(const tn_pass *pass, places *place, chunk *batch, uint32_t
         copy_buffer(pass, &batch[i].out, &batch[i].mine);
 }
 
+void tn_chunks_free(tn_chunk *chunks, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        clear_buffer(&chunks[i].out);
+    free(chunks);
+}
+
+static bool reserve_chunks(tn_workspace *space, uint32_t count)
+{
+    if (count <= space->chunk_count)
+        return true;
+    tn_chunk *grown = realloc(space->chunks, count * sizeof *grown);
+    if (!grown)
+        return false;
+    memset(grown + space->chunk_count, 0, (count - space->chunk_count) * sizeof *grown);
+    space->chunks = grown;
+    space->chunk_count = count;
+    return true;
+}
+
 /* In batches, so that threads meet seldom and few buffers are needed; one thread keeps its one buffer in the cache. */
 static void run_chunks(const tn_pass *pass, places *place)
 {
+    tn_workspace *space = &pass->growth->space;
     uint32_t chunks = (pass->old->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES;
     uint32_t room = pass->threads > 1 ? BATCH_CHUNKS * (uint32_t)pass->threads : 1;
     room = room < chunks ? room : chunks;
-    chunk *batch = calloc(room, sizeof *batch);
-    place->failed = !batch;
+    place->failed = !reserve_chunks(space, room);
     for (uint32_t c = 0; c < chunks && !place->failed; c += room)
-        run_batch(pass, place, batch, c, chunks - c < room ? chunks - c : room);
-    for (uint32_t i = 0; batch && i < room; i++)
-        clear_buffer(&batch[i].out);
-    free(batch);
+        run_batch(pass, place, space->chunks, c, chunks - c < room ? chunks - c : room);
 }
 
 static void sift_by_rank(const uint32_t *rank, uint32_t *heap, size_t at, size_t count)
@@ -349,20 +366,19 @@ static void sort_by_rank(const uint32_t *rank, uint32_t *faces, size_t count)
 static void run_later(const tn_pass *pass, places *place)
 {
     sort_by_rank(pass->old->face_rank, place->later, place->later_count);
-    buffer out = {0};
+    buffer *out = &pass->growth->space.chunks[0].out;
     size_t next = 0, count = place->later_count;
     while (next < count && !place->failed) {
         places mine;
-        empty_buffer(&out);
+        empty_buffer(out);
         bool fine = true;
-        while (next < count && out.face_count < TN_CHUNK_FACES && fine)
-            fine = take_face(pass, &out, place->later[next++], &place->taken);
-        fine = fine && place_buffer(&out, place, &mine);
+        while (next < count && out->face_count < TN_CHUNK_FACES && fine)
+            fine = take_face(pass, out, place->later[next++], &place->taken);
+        fine = fine && place_buffer(out, place, &mine);
         if (fine)
-            copy_buffer(pass, &out, &mine);
+            copy_buffer(pass, out, &mine);
         place->failed = !fine;
     }
-    clear_buffer(&out);
 }
 
 /* New faces rank after all old ones: by their parents' ranks, then in the order of the joins that made them. */

@@ -173,38 +173,53 @@ static tn_status plant(tn_growth *growth, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_growth_new(const tn_growth_system *system, const tn_environment *environment,
-                        const tn_growth_options *options, tn_growth **result, tn_error *error)
+static void clear_pending(tn_growth *growth)
 {
-    *result = NULL;
+    free(growth->pending.items);
+    free(growth->pending.face_first);
+    growth->pending = (tn_pending_list){0};
+}
+
+static void clear_shapes(tn_growth *growth)
+{
+    clear_pending(growth);
+    free(growth->shapes);
+    free(growth->walks);
+    free(growth->group_of);
+}
+
+tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
+                          const tn_growth_options *options, tn_error *error)
+{
+    clear_shapes(growth);
+    *growth = (tn_growth){.system = system,
+                          .environment = environment,
+                          .options = *options,
+                          .hard = tn_environment_has_hard(environment),
+                          .space = growth->space};
     tn_status status = check_options(options, error);
     if (status != TN_OK)
         return status;
-    tn_growth *growth = calloc(1, sizeof *growth);
-    if (!growth)
-        return tn_fail_memory(error);
-    growth->system = system;
-    growth->environment = environment;
-    growth->options = *options;
-    growth->hard = tn_environment_has_hard(environment);
     double angle = options->branch_angle >= 0 ? options->branch_angle : system->branch_angle;
     growth->branch_cosine = -tn_cos_degrees(angle) + 1e-9;
     status = make_shapes(growth, error);
-    if (status == TN_OK)
-        status = plant(growth, error);
+    return status == TN_OK ? plant(growth, error) : status;
+}
+
+tn_status tn_growth_new(const tn_growth_system *system, const tn_environment *environment,
+                        const tn_growth_options *options, tn_growth **result, tn_error *error)
+{
+    tn_growth *growth = calloc(1, sizeof *growth);
+    *result = NULL;
+    if (!growth)
+        return tn_fail_memory(error);
+    tn_status status = tn_growth_renew(growth, system, environment, options, error);
     if (status != TN_OK) {
         tn_growth_free(growth);
         return status;
     }
     *result = growth;
     return TN_OK;
-}
-
-static void clear_pending(tn_growth *growth)
-{
-    free(growth->pending.items);
-    free(growth->pending.face_first);
-    growth->pending = (tn_pending_list){0};
 }
 
 void tn_growth_free(tn_growth *growth)
@@ -217,10 +232,8 @@ void tn_growth_free(tn_growth *growth)
                        &space->slots,     &space->records,   &space->joints,    &space->made};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         tn_pages_release(all[i]);
-    clear_pending(growth);
-    free(growth->shapes);
-    free(growth->walks);
-    free(growth->group_of);
+    tn_chunks_free(space->chunks, space->chunk_count);
+    clear_shapes(growth);
     free(growth);
 }
 

@@ -59,6 +59,11 @@ tn_status tn_growth_new(const tn_growth_system *system, const tn_environment *en
                         const tn_growth_options *options, tn_growth **growth, tn_error *error);
 void tn_growth_free(tn_growth *growth);
 
+/* The seed of another growth in the memory of this one, whose map is gone: growing many surfaces one after another so
+ * takes fresh memory only where one is larger than all before. After a failure it can be renewed again, or freed. */
+tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
+                          const tn_growth_options *options, tn_error *error);
+
 /* One derivation step. TN_LIMIT: more edges or memory than the options allow, an age beyond 32,767, or a coordinate
  * that is no longer finite; the map is then unusable. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error);

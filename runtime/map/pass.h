@@ -74,6 +74,8 @@ typedef struct tn_pending_list {
 typedef struct tn_workspace {
     tn_pages positions, states[2], darts[2], faces[2];
     tn_pages ends, slots, records, joints, made;
+    struct tn_chunk *chunks; /* of faces being worked out */
+    uint32_t chunk_count;
     int current;
 } tn_workspace;
 
@@ -144,6 +146,7 @@ tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
 tn_status tn_pass_match(tn_pass *pass, tn_error *error);
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
+void tn_chunks_free(struct tn_chunk *chunks, uint32_t count);
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error);
 
 #endif

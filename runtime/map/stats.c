@@ -127,19 +127,23 @@ static tn_status count_sides(const tn_map *map, tn_stats *stats, tn_error *error
 
 /* ---- fitness */
 
-static void bounds(const tn_map *map, tn_stats *stats)
+/* The least and greatest coordinates, and the sums of all. */
+typedef struct extent {
+    double low[3], high[3], sum[3];
+} extent;
+
+static extent measure_extent(const tn_map *map)
 {
-    for (int k = 0; k < 3; k++) {
-        stats->low[k] = INFINITY;
-        stats->high[k] = -INFINITY;
-    }
+    extent e = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (uint32_t v = 0; v < map->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
             double p = map->positions[3 * (size_t)v + (size_t)k];
-            stats->low[k] = fmin(stats->low[k], p);
-            stats->high[k] = fmax(stats->high[k], p);
+            e.low[k] = p < e.low[k] ? p : e.low[k];
+            e.high[k] = p > e.high[k] ? p : e.high[k];
+            e.sum[k] += p;
         }
     }
+    return e;
 }
 
 /* Each edge once: the dart that runs along it. */
@@ -172,26 +176,31 @@ static double balance(const tn_map *map, int k, double middle, double slack)
     return most ? (double)least / (double)most : 1;
 }
 
-static void measure_fitness(const tn_growth *growth, tn_stats *stats)
+static uint64_t count_trespassers(const tn_map *map, const tn_environment *environment)
+{
+    uint64_t count = 0;
+    for (uint32_t v = 0; tn_environment_has_soft(environment) && v < map->vertex_count; v++)
+        count += tn_environment_trespasses(environment, tn_vector_at(map->positions + 3 * (size_t)v));
+    return count;
+}
+
+static tn_fitness measure_fitness(const tn_growth *growth, const extent *e)
 {
     const tn_map *map = tn_growth_map(growth);
-    const tn_environment *environment = tn_growth_surroundings(growth);
-    tn_fitness *fitness = &stats->fitness;
-    fitness->size = (stats->high[0] - stats->low[0]) + (stats->high[1] - stats->low[1]);
-    fitness->smoothness = smoothness(map);
-    fitness->subdivisions = (double)map->vertex_count / map->edge_count;
-    fitness->undulation = stats->high[2] - stats->low[2];
-    double sum[2] = {0, 0}, slack = 1e-9 * fmax(1, fitness->size);
-    bool soft = tn_environment_has_soft(environment);
-    for (uint32_t v = 0; v < map->vertex_count; v++) {
-        const double *p = map->positions + 3 * (size_t)v;
-        sum[0] += p[0];
-        sum[1] += p[1];
-        if (soft && tn_environment_trespasses(environment, tn_vector_at(p)))
-            fitness->soft_boundary_nodes++;
-    }
-    fitness->symmetry =
-        0.5 * (balance(map, 1, sum[1] / map->vertex_count, slack) + balance(map, 0, sum[0] / map->vertex_count, slack));
+    double size = (e->high[0] - e->low[0]) + (e->high[1] - e->low[1]), slack = 1e-9 * fmax(1, size);
+    return (tn_fitness){.size = size,
+                        .smoothness = smoothness(map),
+                        .soft_boundary_nodes = (double)count_trespassers(map, tn_growth_surroundings(growth)),
+                        .subdivisions = (double)map->vertex_count / map->edge_count,
+                        .symmetry = 0.5 * (balance(map, 1, e->sum[1] / map->vertex_count, slack) +
+                                           balance(map, 0, e->sum[0] / map->vertex_count, slack)),
+                        .undulation = e->high[2] - e->low[2]};
+}
+
+tn_fitness tn_fitness_measure(const tn_growth *growth)
+{
+    extent e = measure_extent(tn_growth_map(growth));
+    return measure_fitness(growth, &e);
 }
 
 tn_status tn_stats_measure(const tn_growth *growth, tn_stats *stats, tn_error *error)
@@ -206,8 +215,10 @@ tn_status tn_stats_measure(const tn_growth *growth, tn_stats *stats, tn_error *e
         status = count_sides(map, stats, error);
     if (status != TN_OK)
         return status;
-    bounds(map, stats);
-    measure_fitness(growth, stats);
+    extent e = measure_extent(map);
+    memcpy(stats->low, e.low, sizeof e.low);
+    memcpy(stats->high, e.high, sizeof e.high);
+    stats->fitness = measure_fitness(growth, &e);
     return TN_OK;
 }
 

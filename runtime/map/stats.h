@@ -41,6 +41,9 @@ typedef struct tn_stats {
 tn_status tn_stats_measure(const tn_growth *growth, tn_stats *stats, tn_error *error);
 void tn_stats_clear(tn_stats *stats);
 
+/* The fitness terms alone, which is much less work. */
+tn_fitness tn_fitness_measure(const tn_growth *growth);
+
 /* The targets that a growth is measured against. A term counts where it is wanted; soft boundaries' target is 0. */
 typedef struct tn_fitness_goal {
     bool wanted[TN_FITNESS_TERM_COUNT];

@@ -178,6 +178,40 @@ static void test_growing_again_gives_the_same_bytes(void **state)
     uproot(&g);
 }
 
+/* Also after a growth that failed half-way, and after one that was refused. */
+static void test_growing_in_used_memory_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    static const char *const studies[] = {"rules \"square\" steps 6",
+                                          "rules \"probabilistic\" seed 5 steps 4",
+                                          "rules \"square\" edge-limit 100 steps 4",
+                                          "rules \"context\" steps 5 gravity 0 0 -1",
+                                          "rules \"koch\" steps 0",
+                                          "rules \"triangle\" steps 5"};
+    tn_error error;
+    grown used, fresh;
+    plant_text(&used, "t.study", "rules \"square\"");
+    for (size_t i = 0; i < sizeof studies / sizeof *studies; i++) {
+        plant_text(&fresh, "t.study", studies[i]);
+        tn_growth_options bad = fresh.study.options;
+        bad.scale[2] = -1;
+        assert_int_equal(tn_growth_renew(used.growth, fresh.system, &fresh.study.environment, &bad, &error),
+                         TN_INVALID);
+        assert_int_equal(
+            tn_growth_renew(used.growth, fresh.system, &fresh.study.environment, &fresh.study.options, &error), TN_OK);
+        tn_status status[2] = {TN_OK, TN_OK};
+        for (uint32_t n = 0; n < fresh.study.steps; n++) {
+            status[0] = status[0] == TN_OK ? tn_growth_step(fresh.growth, &error) : status[0];
+            status[1] = status[1] == TN_OK ? tn_growth_step(used.growth, &error) : status[1];
+        }
+        assert_int_equal(status[0], status[1]);
+        if (status[0] == TN_OK)
+            assert_true(bytes_hash(&fresh) == bytes_hash(&used));
+        uproot(&fresh);
+    }
+    uproot(&used);
+}
+
 static void test_limits_stop_a_step(void **state)
 {
     (void)state;
@@ -363,6 +397,8 @@ static void test_edges_without_length_are_divided(void **state)
     tn_error error;
     assert_int_equal(tn_stats_measure(g.growth, &stats, &error), TN_OK);
     assert_true(stats.fitness.size < 1e-6 && isfinite(stats.fitness.smoothness));
+    tn_fitness alone = tn_fitness_measure(g.growth);
+    assert_memory_equal(&alone, &stats.fitness, sizeof alone);
     tn_stats_clear(&stats);
     uproot(&g);
 }
@@ -470,6 +506,7 @@ int main(void)
         cmocka_unit_test(test_other_closed_forms),
         cmocka_unit_test(test_any_number_of_threads_gives_the_same_bytes),
         cmocka_unit_test(test_growing_again_gives_the_same_bytes),
+        cmocka_unit_test(test_growing_in_used_memory_gives_the_same_bytes),
         cmocka_unit_test(test_limits_stop_a_step),
         cmocka_unit_test(test_rest_is_noticed),
         cmocka_unit_test(test_a_vertex_at_an_attractor_stays),
