@@ -4,6 +4,7 @@
 
 #include "cli/grow.h"
 #include "compiler/study.h"
+#include "driver/stdlib_find.h"
 
 static void say_quoted(FILE *out, const char *text)
 {
@@ -60,17 +61,18 @@ static bool say_statements(FILE *out, const tn_settings *s)
     return any;
 }
 
-static bool open_study(tn_job *job, const char *path, char *text, size_t size)
+static bool open_study(tn_job *job, const char *path, bool has_source, char *text, size_t size)
 {
-    if (!tn_is_hemls(path) && !tn_is_study(path)) {
-        tn_diagnostic *d = tn_job_usage(job, "a module is grown as it was compiled");
-        tn_help(tn_job_diagnostics(job), d,
-                "for other steps, scales or surroundings name the .hemls or .study file");
-        return false;
+    if (has_source) {
+        tn_job_status(job,
+                      tn_open_bytes("options.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
+        return job->opened.module != NULL;
     }
-    tn_job_status(job, tn_open_bytes("options.study", (const uint8_t *)text, size, job->settings->werror,
-                                             &job->opened));
-    return job->opened.module != NULL;
+    if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)
+        return job->opened.module != NULL;
+    tn_diagnostic *d = tn_job_usage(job, "a module is grown as it was compiled");
+    tn_help(tn_job_diagnostics(job), d, "for other steps, scales or surroundings name the .hemls or .study file");
+    return false;
 }
 
 bool tn_grow_open(tn_job *job)
@@ -80,12 +82,19 @@ bool tn_grow_open(tn_job *job)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     tn_error error;
-    if (!out) {
+    tn_stdlib_file found = {0};
+    if (!out || (tn_stdlib_may_mean(path) && tn_stdlib_find(path, &found, &error) != TN_OK)) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
+        if (out)
+            fclose(out);
+        free(text);
         return false;
     }
-    fputs(tn_is_hemls(path) ? "rules " : "use ", out);
+    const char *named = found.path ? found.recorded : path;
+    bool is_hemls = tn_is_hemls(named), has_source = is_hemls || tn_is_study(named);
+    tn_stdlib_file_clear(&found);
+    fputs(is_hemls ? "rules " : "use ", out);
     say_quoted(out, path);
     bool any = say_statements(out, job->settings), written = !ferror(out);
     fclose(out);
@@ -94,7 +103,7 @@ bool tn_grow_open(tn_job *job)
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
     } else {
-        opened = any ? open_study(job, path, text, size) : tn_job_open(job, path);
+        opened = any ? open_study(job, path, has_source, text, size) : tn_job_open(job, path);
     }
     free(text);
     return opened;

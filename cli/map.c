@@ -353,7 +353,7 @@ const tn_command tn_command_map = {
         "JSON: one object a line with valid, reason, phenotype, used_codons, nodes, depth, wraps; for the genr8 "
         "dialect also "
         "max_id, repaired_phenotype, repaired_used_codons and repaired_ids.",
-    .example = "$ tartan map genr8-example.bnf --genome \"212 187 632 832 800 517 338 39\" --trace",
+    .example = "$ tartan map genr8-example --genome \"212 187 632 832 800 517 338 39\" --trace",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "one GRAMMAR.bnf",

@@ -2,8 +2,10 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "driver/stdlib_dirs.h"
+#include "driver/stdlib_find.h"
 #include "runtime/vm/file.h"
 
 static void start(const char *path, tn_opened *opened)
@@ -63,17 +65,35 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
                                             : compile(opened, bytes, size, warnings_are_errors);
 }
 
+/* Reads the file that the path names, or the one of the standard library. */
+static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    *found = (tn_stdlib_file){0};
+    bool name = tn_stdlib_may_mean(path);
+    tn_status status = name ? tn_stdlib_find(path, found, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    status = tn_file_read(found->path ? found->path : path, tn_module_limits_default().bytes, bytes, size, error);
+    if (status == TN_IO && !found->path && access(path, F_OK) != 0)
+        tn_stdlib_suggest(path, error);
+    return status;
+}
+
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 {
-    uint8_t *bytes;
+    uint8_t *bytes = NULL;
     size_t size;
     tn_error error;
-    tn_status status = tn_file_read(path, tn_module_limits_default().bytes, &bytes, &size, &error);
-    if (status != TN_OK) {
+    tn_stdlib_file found;
+    tn_status status = read_named(path, &found, &bytes, &size, &error);
+    if (status == TN_OK) {
+        status = tn_open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, opened);
+        opened->path = path; /* the recorded path ends here */
+    } else {
         start(path, opened);
-        return refuse(opened, &error);
+        status = refuse(opened, &error);
     }
-    status = tn_open_bytes(path, bytes, size, warnings_are_errors, opened);
+    tn_stdlib_file_clear(&found);
     free(bytes);
     return status;
 }

@@ -17,7 +17,8 @@ typedef struct tn_opened {
     bool compiled;
 } tn_opened;
 
-/* Opens the file at `path` ("-": standard input). The diagnostics of `opened` say what is wrong. TN_INVALID where the
+/* Opens the file at `path` ("-": standard input); a name that no file has, without folder and extension, means a file
+ * of the standard library. The diagnostics of `opened` say what is wrong. TN_INVALID where the
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 

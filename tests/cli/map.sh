@@ -35,11 +35,24 @@ printf '<e> ::= <e><e> | x\n' >"$scratch/even.bnf"
 golden no_growth "tartan check $scratch/even.bnf"
 printf '<e> ::= <e><e> | <e><e><e> | x\n' >"$scratch/growing.bnf"
 golden growth "tartan check $scratch/growing.bnf"
+golden stdlib_name "tartan map genr8-example --genome '212 187 632 832 800 517 338 39' --wraps 0"
+golden stdlib_near "tartan map genr9 --random 1"
+golden stdlib_extension "tartan map genr8.bnf --random 1"
+golden stdlib_other "tartan map lahave --random 1"
+golden stdlib_grown "tartan grow squares --steps 2"
 golden disasm "tartan disasm ../../../stdlib/words.bnf | head -n 12 | grep -v '^module:\|^written'"
 
 # a grammar as a module maps as its source does
 "$TARTAN" build "$scratch/e.bnf" -o "$scratch/e.tnb"
 cmp <("$TARTAN" map "$scratch/e.bnf" --random 50) <("$TARTAN" map "$scratch/e.tnb" --random 50) || fail "a module maps otherwise"
+
+# a file of the same name as one of the standard library is meant before it; a module does not say where the standard library is
+cp "$scratch/e.bnf" "$scratch/words"
+(cd "$scratch" && "$TARTAN" check words >/dev/null 2>&1) && fail "a file without extension is taken for the standard library's"
+"$TARTAN" build words -o "$scratch/words.tnb" || fail "cannot build the standard library's words"
+grep -qa "$(dirname "$TARTAN")" "$scratch/words.tnb" && fail "a module of the standard library says where it lay"
+grown() { "$TARTAN" grow "$1" --steps 2 -o - --format obj | grep -v '^#'; }
+cmp <(grown square) <(grown stdlib/square.hemls) || fail "the standard library's square grows otherwise by its name"
 
 # pictures are the same each time
 for format in svg png pdf; do
