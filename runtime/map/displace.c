@@ -1,36 +1,55 @@
 /* Growing in size: every vertex moves away from the centre by the scale, and by the forces, as far as the boundaries
  * let it ("Genr8", 4.3 and 4.7). */
 #include <omp.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "runtime/map/pass.h"
+#include "runtime/map/share.h"
 
 static int thread_count(const tn_growth *growth)
 {
     return growth->options.threads > 0 ? growth->options.threads : omp_get_max_threads();
 }
 
+static uint32_t chunk_count(const tn_map *map)
+{
+    return (map->vertex_count + TN_CHUNK_VERTICES - 1) / TN_CHUNK_VERTICES;
+}
+
+static uint32_t chunk_end(const tn_map *map, uint32_t chunk)
+{
+    uint32_t begin = chunk * TN_CHUNK_VERTICES;
+    return map->vertex_count - begin < TN_CHUNK_VERTICES ? map->vertex_count : begin + TN_CHUNK_VERTICES;
+}
+
+typedef struct summing {
+    const tn_map *map;
+    tn_vector *sums; /* [chunk] */
+} summing;
+
+static void sum_chunk(void *context, uint32_t chunk)
+{
+    const summing *s = context;
+    tn_vector sum = {0, 0, 0};
+    for (uint32_t v = chunk * TN_CHUNK_VERTICES, end = chunk_end(s->map, chunk); v < end; v++)
+        sum = tn_add(sum, tn_vector_at(s->map->positions + 3 * (size_t)v));
+    s->sums[chunk] = sum;
+}
+
 /* The mean of the vertices: sums of fixed stretches, added in order, so that it does not depend on threads. */
 static tn_status mean(const tn_growth *growth, tn_vector *centre, tn_error *error)
 {
     const tn_map *map = &growth->map;
-    uint32_t chunks = (map->vertex_count + TN_CHUNK_VERTICES - 1) / TN_CHUNK_VERTICES;
-    tn_vector *sums = malloc(chunks * sizeof *sums);
-    if (!sums)
+    uint32_t chunks = chunk_count(map);
+    summing s = {map, malloc(chunks * sizeof *s.sums)};
+    if (!s.sums)
         return tn_fail_memory(error);
-#pragma omp parallel for num_threads(thread_count(growth)) schedule(static) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++) {
-        uint32_t begin = c * TN_CHUNK_VERTICES;
-        uint32_t end = map->vertex_count - begin < TN_CHUNK_VERTICES ? map->vertex_count : begin + TN_CHUNK_VERTICES;
-        tn_vector sum = {0, 0, 0};
-        for (uint32_t v = begin; v < end; v++)
-            sum = tn_add(sum, tn_vector_at(map->positions + 3 * (size_t)v));
-        sums[c] = sum;
-    }
+    tn_share(thread_count(growth), chunks, TN_SHARE_EVENLY, sum_chunk, &s);
     tn_vector sum = {0, 0, 0};
     for (uint32_t c = 0; c < chunks; c++)
-        sum = tn_add(sum, sums[c]);
-    free(sums);
+        sum = tn_add(sum, s.sums[c]);
+    free(s.sums);
     *centre = tn_scale(sum, 1.0 / map->vertex_count);
     return TN_OK;
 }
@@ -68,30 +87,47 @@ static outcome displace(const tn_growth *growth, double *position, tn_vector cen
     return (outcome){isfinite(y.x + y.y + y.z), y.x != x.x || y.y != x.y || y.z != x.z};
 }
 
+typedef struct displacing {
+    tn_growth *growth;
+    tn_vector centre;
+    const unsigned char *fixed; /* [vertex] or NULL */
+    atomic_bool infinite, moved;
+} displacing;
+
+static void displace_chunk(void *context, uint32_t chunk)
+{
+    displacing *d = context;
+    const tn_map *map = &d->growth->map;
+    outcome all = {true, false};
+    for (uint32_t v = chunk * TN_CHUNK_VERTICES, end = chunk_end(map, chunk); v < end; v++) {
+        if (d->fixed && d->fixed[v])
+            continue;
+        outcome one = displace(d->growth, map->positions + 3 * (size_t)v, d->centre);
+        all.finite = all.finite && one.finite;
+        all.moved = all.moved || one.moved;
+    }
+    if (!all.finite)
+        atomic_store(&d->infinite, true);
+    if (all.moved)
+        atomic_store(&d->moved, true);
+}
+
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error)
 {
-    tn_map *map = &growth->map;
-    tn_vector centre = tn_vector_at(growth->options.start);
+    displacing d = {.growth = growth, .centre = tn_vector_at(growth->options.start)};
     unsigned char *fixed;
     tn_status status = TN_OK;
     if (!growth->options.fixed_centre)
-        status = mean(growth, &centre, error);
+        status = mean(growth, &d.centre, error);
     if (status == TN_OK)
         status = find_fixed(growth, &fixed, error);
     if (status != TN_OK)
         return status;
-    bool finite = isfinite(growth->length), moved = false;
-#pragma omp parallel for num_threads(thread_count(growth)) schedule(dynamic, TN_CHUNK_VERTICES) reduction(&& : finite) reduction(|| : moved) if (map->vertex_count > TN_CHUNK_VERTICES)
-    for (uint32_t v = 0; v < map->vertex_count; v++) {
-        if (fixed && fixed[v])
-            continue;
-        outcome one = displace(growth, map->positions + 3 * (size_t)v, centre);
-        finite = finite && one.finite;
-        moved = moved || one.moved;
-    }
+    d.fixed = fixed;
+    tn_share(thread_count(growth), chunk_count(&growth->map), TN_SHARE_UNEVEN, displace_chunk, &d);
     free(fixed);
-    growth->moved = moved;
-    if (!finite) {
+    growth->moved = d.moved;
+    if (d.infinite || !isfinite(growth->length)) {
         tn_fail(error, TN_LIMIT, 842, "in step %u a coordinate leaves the range of numbers", growth->steps + 1);
         tn_error_help(error, "take fewer steps, or a scale nearer to 1");
         return TN_LIMIT;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/map/join.h"
+#include "runtime/map/share.h"
 
 #define BATCH_CHUNKS 12u /* for each thread */
 
@@ -279,9 +280,19 @@ typedef struct tn_chunk {
     bool failed;
 } tn_chunk;
 
-static void work_out(const tn_pass *pass, tn_chunk *work, uint32_t number)
+/* Chunks [first, ...) of the pass, that are on their way together. */
+typedef struct batch {
+    const tn_pass *pass;
+    tn_chunk *chunks;
+    uint32_t first;
+} batch;
+
+static void work_out(void *context, uint32_t i)
 {
-    uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
+    const batch *b = context;
+    const tn_pass *pass = b->pass;
+    tn_chunk *work = &b->chunks[i];
+    uint32_t faces = pass->old->face_count, begin = (b->first + i) * TN_CHUNK_FACES;
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
     empty_buffer(&work->out);
     work->failed = false;
@@ -291,18 +302,20 @@ static void work_out(const tn_pass *pass, tn_chunk *work, uint32_t number)
     }
 }
 
-static void run_batch(const tn_pass *pass, places *place, tn_chunk *batch, uint32_t first, uint32_t count)
+static void copy_chunk(void *context, uint32_t i)
 {
-#pragma omp parallel for num_threads(pass->threads) schedule(dynamic, 1) if (count > 1)
-    for (uint32_t i = 0; i < count; i++)
-        work_out(pass, &batch[i], first + i);
+    const batch *b = context;
+    copy_buffer(b->pass, &b->chunks[i].out, &b->chunks[i].mine);
+}
+
+static void run_batch(batch *b, places *place, uint32_t count)
+{
+    int threads = b->pass->threads;
+    tn_share(threads, count, TN_SHARE_UNEVEN, work_out, b);
     for (uint32_t i = 0; i < count && !place->failed; i++)
-        place->failed = batch[i].failed || !place_buffer(&batch[i].out, place, &batch[i].mine);
-    if (place->failed)
-        return;
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (count > 1)
-    for (uint32_t i = 0; i < count; i++)
-        copy_buffer(pass, &batch[i].out, &batch[i].mine);
+        place->failed = b->chunks[i].failed || !place_buffer(&b->chunks[i].out, place, &b->chunks[i].mine);
+    if (!place->failed)
+        tn_share(threads, count, TN_SHARE_EVENLY, copy_chunk, b);
 }
 
 void tn_chunks_free(tn_chunk *chunks, uint32_t count)
@@ -333,8 +346,9 @@ static void run_chunks(const tn_pass *pass, places *place)
     uint32_t room = pass->threads > 1 ? BATCH_CHUNKS * (uint32_t)pass->threads : 1;
     room = room < chunks ? room : chunks;
     place->failed = !reserve_chunks(space, room);
-    for (uint32_t c = 0; c < chunks && !place->failed; c += room)
-        run_batch(pass, place, space->chunks, c, chunks - c < room ? chunks - c : room);
+    batch b = {pass, space->chunks, 0};
+    for (; b.first < chunks && !place->failed; b.first += room)
+        run_batch(&b, place, chunks - b.first < room ? chunks - b.first : room);
 }
 
 static void sift_by_rank(const uint32_t *rank, uint32_t *heap, size_t at, size_t count)
@@ -399,43 +413,6 @@ static void rank_faces(const tn_pass *pass)
         uint32_t join = new->face_rank[f] - old_faces, parent = new->states[pass->edges + join];
         new->face_rank[f] = pass->made_count[parent] + join - pass->made_first[parent];
     }
-}
-
-/* ---- numbers of joined edges: by their lower branch */
-
-static tn_status number_joints(tn_pass *pass, tn_error *error)
-{
-    uint32_t numbers = pass->branch_first + pass->branch_count;
-    uint32_t chunks = (numbers + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
-    uint32_t *first = calloc(chunks + 1, sizeof *first);
-    if (!first)
-        return tn_fail_memory(error);
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++) {
-        uint32_t begin = c * TN_CHUNK_EDGES, end = numbers - begin < TN_CHUNK_EDGES ? numbers : begin + TN_CHUNK_EDGES;
-        for (uint32_t b = begin; b < end; b++)
-            first[c + 1] += pass->joints[b] != TN_NONE;
-    }
-    first[0] = pass->edges;
-    for (uint32_t c = 0; c < chunks; c++)
-        first[c + 1] += first[c];
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++) {
-        uint32_t begin = c * TN_CHUNK_EDGES, end = numbers - begin < TN_CHUNK_EDGES ? numbers : begin + TN_CHUNK_EDGES;
-        uint32_t edge = first[c];
-        for (uint32_t b = begin; b < end; b++) {
-            uint32_t start = pass->joints[b];
-            if (start == TN_NONE)
-                continue;
-            uint32_t opposite = pass->new->side[start];
-            pass->new->states[edge] = pass->new->side[opposite];
-            pass->new->side[start] = 2 * edge;
-            pass->new->side[opposite] = 2 * edge + 1;
-            edge++;
-        }
-    }
-    free(first);
-    return TN_OK;
 }
 
 /* ---- the whole pass */
@@ -503,7 +480,7 @@ tn_status tn_pass_faces(tn_pass *pass, tn_error *error)
     status = place.failed ? tn_fail_memory(error) : TN_OK;
     if (status == TN_OK) {
         rank_faces(pass);
-        status = number_joints(pass, error);
+        status = tn_pass_number_joints(pass, error);
         hand_over_pending(pass, &place);
     }
     free(place.pending.items);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/map/pass.h"
+#include "runtime/map/share.h"
 #include "runtime/vm/random.h"
 
 #define NEEDS_DRAW (TN_NO_TEMPLATE - 1)
@@ -147,9 +148,19 @@ static uint32_t group_of(const tn_pass *pass, tn_edge_state state)
     return group >= pass->group_first && group < pass->group_last ? group : TN_NONE;
 }
 
-static void match_chunk(tn_pass *pass, const contexts *around, uint32_t chunk, uint64_t *ordinals)
+typedef struct single_match {
+    tn_pass *pass;
+    const contexts *around;
+    uint64_t *ordinals; /* of the next draw: by chunk, then group; NULL: no draws yet */
+} single_match;
+
+static void match_chunk(void *context, uint32_t chunk)
 {
+    const single_match *match = context;
+    tn_pass *pass = match->pass;
     const tn_map *map = pass->old;
+    uint64_t *ordinals =
+        match->ordinals ? match->ordinals + (size_t)chunk * (pass->group_last - pass->group_first) : NULL;
     uint32_t begin = chunk * TN_CHUNK_EDGES;
     uint32_t end = map->edge_count - begin < TN_CHUNK_EDGES ? map->edge_count : begin + TN_CHUNK_EDGES;
     for (uint32_t e = begin; e < end; e++) {
@@ -159,7 +170,7 @@ static void match_chunk(tn_pass *pass, const contexts *around, uint32_t chunk, u
             continue;
         }
         uint64_t *ordinal = ordinals ? &ordinals[g - pass->group_first] : NULL;
-        pass->choice[e] = select_template(pass, around, &pass->growth->system->groups[g], e, ordinal);
+        pass->choice[e] = select_template(pass, match->around, &pass->growth->system->groups[g], e, ordinal);
     }
 }
 
@@ -189,20 +200,15 @@ static tn_status number_draws(tn_pass *pass, uint32_t chunks, uint64_t **ordinal
 static tn_status match_singly(tn_pass *pass, const contexts *around, tn_error *error)
 {
     uint32_t chunks = (pass->old->edge_count + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
-    uint32_t groups = pass->group_last - pass->group_first;
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++)
-        match_chunk(pass, around, c, NULL);
+    single_match match = {pass, around, NULL};
+    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
     if (!pass->growth->weighted)
         return TN_OK;
-    uint64_t *ordinals;
-    tn_status status = number_draws(pass, chunks, &ordinals, error);
+    tn_status status = number_draws(pass, chunks, &match.ordinals, error);
     if (status != TN_OK)
         return status;
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++)
-        match_chunk(pass, around, c, ordinals + (size_t)c * groups);
-    free(ordinals);
+    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
+    free(match.ordinals);
     return TN_OK;
 }
 

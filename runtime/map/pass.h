@@ -8,7 +8,7 @@
  *   rewrite  numbers, states and new vertices of what replaces each edge  (rewrite.c)
  *   faces    each face's loop with its pieces and branches; branches      (faces.c, join.c)
  *            joined; the loops that result written out
- *   number   joined edges numbered by their lower branch                  (faces.c)
+ *   number   joined edges numbered by their lower branch                  (number.c)
  */
 #ifndef TARTAN_MAP_PASS_H
 #define TARTAN_MAP_PASS_H
@@ -146,6 +146,7 @@ tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
 tn_status tn_pass_match(tn_pass *pass, tn_error *error);
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
+tn_status tn_pass_number_joints(tn_pass *pass, tn_error *error);
 void tn_chunks_free(struct tn_chunk *chunks, uint32_t count);
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error);
 

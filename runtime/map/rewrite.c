@@ -1,9 +1,11 @@
 /* What replaces each edge: numbers of its pieces, vertices and branches, its frame, the new vertices' positions and the
  * pieces' states. New edges are numbered: kept ones in their order, then pieces in the order of replacement. */
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/map/pass.h"
+#include "runtime/map/share.h"
 
 #define AHEAD 12u /* edges */
 
@@ -227,30 +229,50 @@ static tally_counts number(tn_pass *pass, tally_counts *counts, uint32_t chunks,
     return next;
 }
 
+typedef struct single_rewrite {
+    tn_pass *pass;
+    tally_counts *counts; /* by chunk, then group */
+    atomic_bool out_of_range;
+} single_rewrite;
+
+static uint32_t chunk_end(const tn_pass *pass, uint32_t chunk)
+{
+    uint32_t edges = pass->old->edge_count, begin = chunk * TN_CHUNK_EDGES;
+    return edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
+}
+
+static tally_counts *counts_of(const single_rewrite *r, uint32_t chunk)
+{
+    return r->counts + (size_t)chunk * (r->pass->group_last - r->pass->group_first);
+}
+
+static void count_piece(void *context, uint32_t chunk)
+{
+    const single_rewrite *r = context;
+    count_chunk(r->pass, chunk * TN_CHUNK_EDGES, chunk_end(r->pass, chunk), counts_of(r, chunk));
+}
+
+static void rewrite_piece(void *context, uint32_t chunk)
+{
+    single_rewrite *r = context;
+    if (!rewrite_chunk(r->pass, chunk * TN_CHUNK_EDGES, chunk_end(r->pass, chunk), counts_of(r, chunk)))
+        atomic_store(&r->out_of_range, true);
+}
+
 static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
 {
     uint32_t edges = pass->old->edge_count, chunks = (edges + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
     uint32_t groups = pass->group_last - pass->group_first;
-    tally_counts *counts = calloc((size_t)chunks * groups, sizeof *counts);
-    if (!counts)
+    single_rewrite r = {.pass = pass, .counts = calloc((size_t)chunks * groups, sizeof *r.counts)};
+    if (!r.counts)
         return tn_fail_memory(error);
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) if (chunks > 1)
-    for (uint32_t c = 0; c < chunks; c++) {
-        uint32_t begin = c * TN_CHUNK_EDGES, end = edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
-        count_chunk(pass, begin, end, counts + (size_t)c * groups);
-    }
-    tally_counts total = number(pass, counts, chunks, groups);
+    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, count_piece, &r);
+    tally_counts total = number(pass, r.counts, chunks, groups);
     tn_status status = make_room(pass, &total, error);
-    bool fine = true;
-    if (status == TN_OK) {
-#pragma omp parallel for num_threads(pass->threads) schedule(static, 1) reduction(&& : fine) if (chunks > 1)
-        for (uint32_t c = 0; c < chunks; c++) {
-            uint32_t begin = c * TN_CHUNK_EDGES, end = edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
-            fine = rewrite_chunk(pass, begin, end, counts + (size_t)c * groups) && fine;
-        }
-    }
-    pass->out_of_range = !fine;
-    free(counts);
+    if (status == TN_OK)
+        tn_share(pass->threads, chunks, TN_SHARE_EVENLY, rewrite_piece, &r);
+    pass->out_of_range = r.out_of_range;
+    free(r.counts);
     return status;
 }
 

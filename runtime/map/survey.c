@@ -1,4 +1,5 @@
 #include "runtime/map/pass.h"
+#include "runtime/map/share.h"
 
 #define FLAT 1e-12 /* of the squares of a face's extent */
 
@@ -37,6 +38,15 @@ static void survey_face(tn_pass *pass, uint32_t face)
     tn_vector_put(pass->normal + 3 * (size_t)face, n);
 }
 
+static void survey_chunk(void *context, uint32_t chunk)
+{
+    tn_pass *pass = context;
+    uint32_t faces = pass->old->face_count, begin = chunk * TN_CHUNK_FACES;
+    uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
+    for (uint32_t f = begin; f < end; f++)
+        survey_face(pass, f);
+}
+
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error)
 {
     const tn_map *map = pass->old;
@@ -53,9 +63,7 @@ tn_status tn_pass_survey(tn_pass *pass, tn_error *error)
     pass->face = pass->end + sides;
     if (pass->walks_vertices)
         pass->dart = pass->face + sides;
-#pragma omp parallel for num_threads(pass->threads)                                                                    \
-    schedule(static, TN_CHUNK_FACES) if (map->face_count > TN_CHUNK_FACES)
-    for (uint32_t f = 0; f < map->face_count; f++)
-        survey_face(pass, f);
+    tn_share(pass->threads, (map->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES, TN_SHARE_EVENLY, survey_chunk,
+             pass);
     return TN_OK;
 }
