@@ -7,11 +7,13 @@
 #include "cli/option_rows.h"
 #include "compiler/format.h"
 
-/* Notations that have no canonical layout: all but plans. */
-static bool has_layout(const char *path)
+/* What the option says, in the order of its choices; else what the name does; else plans. */
+static tn_notation notation_of(const tn_settings *settings, const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    return !dot || (strcmp(dot, ".hemls") != 0 && strcmp(dot, ".study") != 0 && strcmp(dot, ".bnf") != 0);
+    if (settings->notation)
+        return (tn_notation)(settings->notation - 1);
+    tn_notation notation = tn_notation_of(path);
+    return notation == TN_NOTATION_COUNT ? TN_NOTATION_PLAN : notation;
 }
 
 static void write_text(tn_job *job, const char *path, const char *text, size_t size)
@@ -62,18 +64,12 @@ static void format_file(tn_job *job, const char *path)
     size_t size, formatted_size;
     char *formatted;
     tn_error error;
-    if (!has_layout(path)) {
-        tn_fail(&error, TN_INVALID, 905, "%.300s cannot be laid out: only rule files for plans (.plan) have a layout",
-                path);
-        tn_job_fail(job, &error);
-        return;
-    }
     if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
         tn_job_fail(job, &error);
         return;
     }
-    tn_job_status(
-        job, tn_format_text(tn_job_diagnostics(job), path, (const char *)bytes, size, &formatted, &formatted_size));
+    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path), path,
+                                      (const char *)bytes, size, &formatted, &formatted_size));
     if (formatted)
         deliver(job, path, (const char *)bytes, formatted, formatted_size);
     free(formatted);
@@ -96,6 +92,9 @@ static int run(const tn_command *command, const tn_settings *settings)
 static const tn_option options[] = {
     FLAG("check", 0, check, "change nothing; say which files are laid out otherwise, and exit with 1 where one is"),
     FLAG("diff", 0, diff, "change nothing; show what would be changed"),
+    CHOICE("notation", 0, "NAME", notation, "auto|plan|hemls|study|bnf",
+           "which notation it is: for standard input, and where a file's name does not say (auto: by the name, else "
+           "plan)"),
 };
 
 const tn_command tn_command_fmt = {
@@ -103,11 +102,12 @@ const tn_command tn_command_fmt = {
     .summary = "lay rule files out in the canonical way",
     .usage = "FILE...",
     .description =
-        "Lays out each rule file (.plan) in the one canonical way, in place: written beside the file, then renamed over it. "
-        "Comments, parentheses and the spelling of lengths stay as they are, and so does, up to one, an empty line "
-        "between two things. What the file means is never changed, and a file with an error of syntax is not touched. "
-        "For - standard input is laid out on standard output.",
-    .example = "$ tartan fmt houses.plan\n$ tartan fmt --check *.plan",
+        "Lays out each rule file (.plan, .hemls, .study, .bnf) in its notation's one canonical way, in place: written "
+        "beside the file, then renamed over it. Comments, parentheses and the spelling of lengths stay as they are, "
+        "and so does, up to one, an empty line between two things. What the file means is never changed, and a file "
+        "with an error of syntax is not touched. For - standard input is laid out on standard output.",
+    .example = "$ tartan fmt houses.plan\n$ tartan fmt --check *.plan *.study\n"
+               "$ tartan fmt --notation hemls - <square.hemls",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "at least one FILE",

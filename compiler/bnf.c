@@ -4,7 +4,7 @@
 
 #include "compiler/bnf_check.h"
 
-static bool collect_rules(tn_bnf_grammar *g)
+bool tn_bnf_collect_rules(tn_bnf_grammar *g)
 {
     tn_bnf_reader *reader = g->reader;
     g->rule_count = reader->ast.rule_count;
@@ -155,7 +155,7 @@ tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *dia
         return tn_fail(error, TN_INVALID, E_STRAY_CHARACTER, "the grammar has errors");
     }
     tn_bnf_read(&reader, source->text, source->size);
-    if (!collect_rules(&g))
+    if (!tn_bnf_collect_rules(&g))
         return tn_fail_memory(error);
     if (g.rule_count == 0 && !reader.failed) {
         tn_diagnostic *diagnostic =

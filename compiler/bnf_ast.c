@@ -90,6 +90,39 @@ tn_bnf_alternatives tn_bnf_next(tn_bnf_reader *reader, tn_bnf_alternatives list,
     return list;
 }
 
+/* ---- tokens */
+
+void tn_bnf_note_head(tn_bnf_reader *reader, tn_span span, const char *text)
+{
+    uint32_t name = span.begin + (uint32_t)(strchr(text, '>') - text) + 1;
+    tn_token_add(reader->tokens, TN_TOKEN_NAME, (tn_span){span.file, span.begin, name});
+    tn_token_add(reader->tokens, TN_TOKEN_SIGN, (tn_span){span.file, span.end - 3, span.end});
+}
+
+/* What is passed over is one token a line, with the blanks in it. */
+void tn_bnf_note_stray(tn_bnf_reader *reader, tn_span span, const char *text)
+{
+    tn_tokens *tokens = reader->tokens;
+    tn_token *last = tokens && tokens->count ? &tokens->items[tokens->count - 1] : NULL;
+    bool goes_on = last && last->kind == TN_TOKEN_STRAY;
+    for (uint32_t at = goes_on ? last->span.end : span.begin; at < span.begin; at++)
+        goes_on &= text[(ptrdiff_t)at - span.begin] != '\n' && text[(ptrdiff_t)at - span.begin] != '\r';
+    if (goes_on)
+        last->span.end = span.end;
+    else
+        tn_token_add(tokens, TN_TOKEN_STRAY, span);
+}
+
+/* A directive is a line, which a comment may end. */
+void tn_bnf_note_directive(tn_bnf_reader *reader, tn_span span, const char *text)
+{
+    uint32_t comment = span.begin + (uint32_t)strcspn(text, "#");
+    tn_token_add(reader->tokens, TN_TOKEN_WORD, (tn_span){span.file, span.begin, comment});
+    tn_token_add(reader->tokens, TN_TOKEN_COMMENT, (tn_span){span.file, comment, span.end});
+}
+
+/* ---- rules */
+
 static tn_bnf_rule *rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head)
 {
     tn_bnf_rule *rule = TN_NEW(reader->arena, tn_bnf_rule);

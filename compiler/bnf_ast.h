@@ -8,6 +8,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/token.h"
 #include "runtime/vm/module.h"
 
 /* A token's text, in the source. */
@@ -85,6 +86,7 @@ typedef struct tn_bnf_reader {
     uint32_t at; /* where the next token starts */
     bool genr8;
     bool prelude_reported, failed;
+    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL: a rule's name is a NAME, its ::= a SIGN */
     tn_bnf_file ast;
 } tn_bnf_reader;
 
@@ -95,6 +97,9 @@ void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size);
 /* ---- for the grammar */
 
 bool tn_bnf_says_genr8(const char *line, size_t length);
+void tn_bnf_note_head(tn_bnf_reader *reader, tn_span span, const char *text);
+void tn_bnf_note_stray(tn_bnf_reader *reader, tn_span span, const char *text);
+void tn_bnf_note_directive(tn_bnf_reader *reader, tn_span span, const char *text);
 void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line);
 void tn_bnf_stray(tn_bnf_reader *reader, tn_span span);
 tn_bnf_item *tn_bnf_item_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_text text);

@@ -17,6 +17,9 @@ typedef struct tn_bnf_grammar {
     size_t names_size;
 } tn_bnf_grammar;
 
+/* Lists the rules that were read (bnf.c). False where out of memory. */
+bool tn_bnf_collect_rules(tn_bnf_grammar *grammar);
+
 /* Makes every alternative's pieces into terminals and drops the empty ones (bnf_terminals.c). */
 void tn_bnf_make_terminals(tn_bnf_grammar *grammar);
 

@@ -14,6 +14,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/compile.h"
+#include "compiler/token.h"
 
 /* ---- the checked study: names are as the engine's own lists have them */
 
@@ -93,6 +94,7 @@ typedef struct tn_evolution_reader {
     size_t blocks;
     tn_span block;
     bool failed;
+    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
 } tn_evolution_reader;
 
 /* Parses the blocks of a text, `size` bytes followed by two zero bytes. */
@@ -116,7 +118,8 @@ tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation
 bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
                                 tn_evolution_study *study);
 
-/* Is it a .study file that has an evolution block? */
+/* Has the text of a study an evolution block? Is it a .study file that has one? */
+bool tn_has_evolution(const char *text);
 bool tn_is_evolution(const char *path, const char *text);
 
 /* What the settings mean, but for the grammar's file. False where there are errors. */

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "compiler/evolution.h"
+#include "compiler/lexical.h"
 
 void tn_evolution_block(tn_evolution_reader *reader, tn_span span)
 {
@@ -61,11 +62,9 @@ void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const ch
     tn_help(reader->diagnostics, diagnostic, "write one setting a line, as `population 500`");
 }
 
-bool tn_is_evolution(const char *path, const char *text)
+bool tn_has_evolution(const char *text)
 {
-    size_t length = strlen(path);
-    if (length < 6 || strcmp(path + length - 6, ".study") != 0)
-        return false;
+    text += tn_text_mark(text, strlen(text));
     for (const char *at = text; (at = strstr(at, "evolution")); at++) {
         const char *next = at + 9, *line = at;
         while (*next == ' ' || *next == '\t' || *next == '\r' || *next == '\n')
@@ -76,4 +75,10 @@ bool tn_is_evolution(const char *path, const char *text)
             return true;
     }
     return false;
+}
+
+bool tn_is_evolution(const char *path, const char *text)
+{
+    size_t length = strlen(path);
+    return length >= 6 && strcmp(path + length - 6, ".study") == 0 && tn_has_evolution(text);
 }

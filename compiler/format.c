@@ -4,187 +4,187 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/evolution.h"
+#include "compiler/format_bnf.h"
 #include "compiler/format_clauses.h"
-#include "compiler/format_tokens.h"
-#include "compiler/limits.h"
+#include "compiler/lexical.h"
+#include "compiler/parse.h"
+#include "compiler/study.h"
 
-enum {
-    BRACKETS_MAX = 4 * TN_NESTING_MAX, /* parentheses that mean nothing do not count as nesting, but are laid out */
-    PASSES_MAX = 8,
-};
+enum { PASSES_MAX = 8 };
 
-/* ---- from the lexer's tokens to the formatter's */
-
-/* Line ends between two places: none, one, or more. */
-static size_t lines_between(const tn_source *source, size_t begin, size_t end)
-{
-    size_t lines = 0;
-    for (size_t i = begin; i < end; i++)
-        lines += source->text[i] == '\n' || (source->text[i] == '\r' && source->text[i + 1] != '\n');
-    return lines;
-}
-
-static size_t without_blanks(const char *text, size_t size)
-{
-    while (size > 0 && (text[size - 1] == ' ' || text[size - 1] == '\t'))
-        size--;
-    return size;
-}
-
-static const char *small_letters(tn_arena *arena, const char *text, size_t size)
-{
-    char *copy = tn_arena_copy(arena, text, size);
-    for (size_t i = 0; copy && i < size; i++)
-        if (copy[i] >= 'A' && copy[i] <= 'Z')
-            copy[i] = (char)(copy[i] - 'A' + 'a');
-    return copy;
-}
-
-static bool is_measure(tn_token_kind kind)
-{
-    return kind == TN_TOKEN_NUMBER || kind == TN_TOKEN_LENGTH;
-}
-
-/* `4'` and `6"` on two lines are two lengths, on one line they are one. */
-static bool would_merge(const tn_format_token *before, tn_token_kind kind, size_t lines)
-{
-    return lines > 0 && is_measure(before->kind) && kind == TN_TOKEN_LENGTH;
-}
-
-static void take_tokens(tn_format *format, tn_arena *arena, const tn_source *source, const tn_tokens *tokens)
-{
-    format->tokens = TN_NEW_ARRAY(arena, tn_format_token, tokens->count + 1);
-    tn_format_comment *comments = TN_NEW_ARRAY(arena, tn_format_comment, tokens->count + 1);
-    if (!format->tokens || !comments)
-        return;
-    size_t end = 0;
-    for (size_t i = 0; i < tokens->count; i++) {
-        tn_span span = tokens->items[i].span;
-        tn_format_token *token = &format->tokens[format->count];
-        const char *text = source->text + span.begin;
-        size_t size = span.end - span.begin, lines = lines_between(source, end, span.begin);
-        end = span.end;
-        if (tokens->items[i].kind == TN_TOKEN_COMMENT) {
-            tn_format_comment comment = {text, without_blanks(text, size), lines > 1};
-            if (format->count > 0 && lines == 0 && !token->comment_count && !token[-1].remark.text) {
-                token[-1].remark = comment;
-            } else {
-                comments[0] = comment;
-                token->comments = token->comment_count++ ? token->comments : comments;
-                comments++;
-            }
-            continue;
-        }
-        token->kind = tokens->items[i].kind;
-        token->text = token->kind == TN_TOKEN_WORD ? small_letters(arena, text, size) : text;
-        token->size = size;
-        token->offset = span.begin;
-        token->width = tn_text_width(text, size);
-        token->blank = lines > 1;
-        if (size == 1 && *text == ',' && format->count > 0 &&
-            !token->comment_count) { /* `a # why , b`: after the comma */
-            token->remark = token[-1].remark;
-            token[-1].remark.text = NULL;
-        }
-        token->breaks = format->count > 0 && would_merge(&token[-1], token->kind, lines);
-        format->count++;
-    }
-    format->tokens[format->count].text = "";
-    format->tokens[format->count].kind = TN_TOKEN_SIGN;
-}
-
-/* Finds the pairs of brackets. False where they are nested too deep, *place is where. */
-static bool match_brackets(tn_format *format, size_t *place)
-{
-    size_t stack[BRACKETS_MAX], depth = 0;
-    for (size_t i = 0; i < format->count; i++) {
-        if (tn_format_is(format, i, "(") || tn_format_is(format, i, "[")) {
-            *place = i;
-            if (depth == BRACKETS_MAX)
-                return false;
-            stack[depth++] = i;
-        } else if ((tn_format_is(format, i, ")") || tn_format_is(format, i, "]")) && depth > 0) {
-            format->tokens[i].match = stack[--depth];
-            format->tokens[stack[depth]].match = i;
-        }
-    }
-    return true;
-}
-
-/* ---- one text */
-
+/* One text being formatted, or formatted. */
 typedef struct format_text {
     uint32_t file;
-    const tn_ast_file *tree;
     tn_tokens tokens;
+    void *tree; /* what the notation's parser made of it */
 } format_text;
 
-static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, const char *path, const char *text, size_t size,
-                       format_text *parsed, tn_error *error)
+/* ---- reading: false where out of memory; what is wrong is in the diagnostics */
+
+static bool read_plan(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
 {
-    size_t errors = diagnostics->error_count;
-    tn_status status = tn_sources_add(diagnostics->sources, path, text, size, &parsed->file, error);
-    if (status != TN_OK)
-        return status;
-    parsed->tokens = (tn_tokens){.arena = arena};
-    parsed->tree = tn_parse_plan(arena, diagnostics, parsed->file, &parsed->tokens);
-    if (!parsed->tree || diagnostics->failed)
-        return tn_fail_memory(error);
-    return diagnostics->error_count > errors ? TN_INVALID : TN_OK;
+    text->tree = tn_parse_plan(arena, diagnostics, text->file, &text->tokens);
+    return text->tree != NULL;
 }
 
-static size_t next_token(const tn_tokens *tokens, size_t i)
+static bool read_hemls(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
 {
-    while (i < tokens->count && tokens->items[i].kind == TN_TOKEN_COMMENT)
-        i++;
+    text->tree = tn_parse_hemls(arena, diagnostics, text->file, &text->tokens);
+    return text->tree != NULL;
+}
+
+static bool read_study(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
+{
+    const tn_source *source = &diagnostics->sources->files[text->file];
+    tn_evolution_reader reader = {
+        .arena = arena, .diagnostics = diagnostics, .file = text->file, .tokens = &text->tokens};
+    if (!tn_has_evolution(source->text)) {
+        text->tree = tn_parse_study(arena, diagnostics, text->file, &text->tokens);
+        return text->tree != NULL;
+    }
+    tn_evolution_read(&reader, source->text, source->size);
+    return !reader.failed;
+}
+
+static bool read_bnf(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
+{
+    const tn_source *source = &diagnostics->sources->files[text->file];
+    size_t errors = diagnostics->error_count;
+    tn_bnf_reader *reader = TN_NEW(arena, tn_bnf_reader);
+    if (!reader)
+        return false;
+    *reader = (tn_bnf_reader){.arena = arena, .diagnostics = diagnostics, .file = text->file, .tokens = &text->tokens};
+    tn_bnf_read(reader, source->text, source->size);
+    tn_format_bnf_trim(source, &text->tokens);
+    text->tree = reader;
+    return !reader->failed || diagnostics->error_count > errors;
+}
+
+/* ---- what was laid out against what it was made from */
+
+/* The next token that is neither a comment nor a line end; *line: there was one of these. */
+static size_t next_token(const tn_tokens *tokens, size_t i, bool *line)
+{
+    *line = false;
+    for (; i < tokens->count && (tokens->items[i].kind == TN_TOKEN_COMMENT || tokens->items[i].kind == TN_TOKEN_LINE);
+         i++)
+        *line |= tokens->items[i].kind == TN_TOKEN_LINE;
     return i;
+}
+
+static const char *text_of(const tn_sources *sources, tn_token token)
+{
+    return sources->files[token.span.file].text + token.span.begin;
 }
 
 static bool same_token(const tn_sources *sources, tn_token one, tn_token other)
 {
-    const char *text = sources->files[one.span.file].text + one.span.begin;
-    const char *other_text = sources->files[other.span.file].text + other.span.begin;
     size_t size = one.span.end - one.span.begin;
     if (one.kind != other.kind)
         return false;
     if (one.kind == TN_TOKEN_CLAUSE_NAME) /* the line that it names is elsewhere now */
         return true;
+    const char *a = text_of(sources, one), *b = text_of(sources, other);
     return size == other.span.end - other.span.begin &&
-           (one.kind == TN_TOKEN_WORD ? strncasecmp(text, other_text, size) : memcmp(text, other_text, size)) == 0;
+           (one.kind == TN_TOKEN_WORD ? strncasecmp(a, b, size) : memcmp(a, b, size)) == 0;
 }
 
-/* Do the two have the same tokens, comments aside? */
-static bool same_tokens(const tn_sources *sources, const tn_tokens *one, const tn_tokens *other)
+/* Beside a brace, a line end means nothing. */
+static bool is_brace(const tn_sources *sources, tn_token token)
 {
-    size_t i = next_token(one, 0), k = next_token(other, 0);
+    return token.kind == TN_TOKEN_SIGN && strchr("{}", *text_of(sources, token));
+}
+
+/* Do the two have the same tokens, comments aside, on the same lines where these mean something? */
+static bool same_tokens(const tn_sources *sources, const format_text *before, const format_text *after)
+{
+    const tn_tokens *one = &before->tokens, *other = &after->tokens;
+    bool line, other_line, free = true;
+    size_t i = next_token(one, 0, &line), k = next_token(other, 0, &other_line);
     while (i < one->count && k < other->count && same_token(sources, one->items[i], other->items[k])) {
-        i = next_token(one, i + 1);
-        k = next_token(other, k + 1);
+        bool brace = is_brace(sources, one->items[i]);
+        if (line != other_line && !free && !brace)
+            return false;
+        free = brace;
+        i = next_token(one, i + 1, &line);
+        k = next_token(other, k + 1, &other_line);
     }
     return i == one->count && k == other->count;
 }
 
-static tn_status report_depth(tn_diagnostics *diagnostics, const format_text *parsed, size_t offset)
+static bool same_grammar(const tn_sources *sources, const format_text *before, const format_text *after)
 {
-    tn_span span = {parsed->file, (uint32_t)offset, (uint32_t)offset + 1};
-    tn_diagnostic *d = tn_report(diagnostics, E_TOO_DEEP, span,
-                                 "brackets are nested more than %u deep, which is the limit", (unsigned)BRACKETS_MAX);
+    (void)sources;
+    return tn_format_bnf_same(before->tree, after->tree);
+}
+
+/* ---- the notations */
+
+static const char *spell_hemls(tn_arena *arena, const char *text, size_t size)
+{
+    static const char *const words[] = {"Angle", "BranchAngle", "Sync", "Weight", "If", "i"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
+            return words[i];
+    return tn_arena_copy(arena, text, size);
+}
+
+typedef struct format_notation {
+    bool (*read)(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text);
+    tn_format_spell *spell;
+    bool nests; /* has brackets that come in pairs, or else an error of syntax */
+    void (*lay_out)(tn_format *format);
+    bool (*same)(const tn_sources *sources, const format_text *before, const format_text *after);
+} format_notation;
+
+static const format_notation notations[TN_NOTATION_COUNT] = {
+    [TN_NOTATION_PLAN] = {read_plan, tn_format_small_letters, true, tn_format_plan, same_tokens},
+    [TN_NOTATION_HEMLS] = {read_hemls, spell_hemls, false, tn_format_hemls, same_tokens},
+    [TN_NOTATION_STUDY] = {read_study, tn_format_small_letters, false, tn_format_study, same_tokens},
+    [TN_NOTATION_BNF] = {read_bnf, tn_format_bnf_directive, true, tn_format_bnf, same_grammar},
+};
+
+/* ---- one text */
+
+static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
+                           const char *text, size_t size, format_text *read, tn_error *error)
+{
+    size_t errors = diagnostics->error_count;
+    tn_status status = tn_sources_add(diagnostics->sources, path, text, size, &read->file, error);
+    if (status != TN_OK)
+        return status;
+    read->tokens = (tn_tokens){.arena = arena};
+    if (!tn_text_check(diagnostics, read->file))
+        return TN_INVALID;
+    bool done = notations[notation].read(arena, diagnostics, read);
+    if (!done || diagnostics->failed || tn_arena_failed(arena))
+        return tn_fail_memory(error);
+    return diagnostics->error_count > errors ? TN_INVALID : TN_OK;
+}
+
+static tn_status report_depth(tn_diagnostics *diagnostics, const format_text *text, size_t offset)
+{
+    tn_span span = {text->file, (uint32_t)offset, (uint32_t)offset + 1};
+    tn_diagnostic *d =
+        tn_report(diagnostics, E_TOO_DEEP, span, "brackets are nested more than %u deep, which is the limit",
+                  (unsigned)TN_FORMAT_BRACKETS_MAX);
     tn_help(diagnostics, d, "leave out those that are not needed");
     return TN_INVALID;
 }
 
 /* Lays the file out, and again until the lines that clauses are named by have come to rest. */
-static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, const format_text *parsed, char **text,
-                         size_t *size, tn_error *error)
+static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const format_text *from,
+                         char **text, size_t *size, tn_error *error)
 {
-    const tn_source *source = &diagnostics->sources->files[parsed->file];
+    const tn_source *source = &diagnostics->sources->files[from->file];
     tn_format format = {0};
     size_t place = 0;
-    take_tokens(&format, arena, source, &parsed->tokens);
+    tn_format_take(&format, arena, source, &from->tokens, notations[notation].spell);
     if (tn_arena_failed(arena))
         return tn_fail_memory(error);
-    if (!match_brackets(&format, &place))
-        return report_depth(diagnostics, parsed, format.tokens[place].offset);
+    if (notations[notation].nests && !tn_format_match_brackets(&format, &place))
+        return report_depth(diagnostics, from, format.tokens[place].offset);
     tn_format_token *tokens = format.tokens;
     size_t bytes = (format.count + 1) * sizeof *tokens;
     bool renamed = true;
@@ -194,26 +194,42 @@ static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, const for
             return tn_fail_memory(error);
         memcpy(format.tokens, tokens, bytes);
         tn_layout_start(&format.layout, arena);
-        tn_format_plan(&format);
-        renamed = tn_format_clause_names(arena, source, parsed->tree, &format, tokens);
+        notations[notation].lay_out(&format);
+        renamed = notation == TN_NOTATION_PLAN && tn_format_clause_names(arena, source, from->tree, &format, tokens);
     }
     *text = tn_layout_finish(&format.layout, size);
     return *text ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, const char *path, const char *text,
-                           size_t size, char **formatted, size_t *formatted_size, tn_error *error)
+/* Reads what was laid out; *same: it is what it was made from. What there is to say about it has been said. */
+static tn_status compare(tn_arena *arena, tn_sources *sources, tn_notation notation, const char *path, const char *text,
+                         size_t size, const format_text *before, bool *same, tn_error *error)
 {
-    format_text before, after;
+    tn_diagnostics scratch;
+    format_text after;
+    tn_diagnostics_init(&scratch, sources);
+    tn_status status = read_text(arena, &scratch, notation, path, text, size, &after, error);
+    *same = status == TN_OK && notations[notation].same(sources, before, &after);
+    tn_diagnostics_clear(&scratch);
+    if (tn_arena_failed(arena))
+        return tn_fail_memory(error);
+    return status == TN_INVALID ? TN_OK : status;
+}
+
+static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
+                           const char *text, size_t size, char **formatted, size_t *formatted_size, tn_error *error)
+{
+    format_text before;
     char *laid_out;
-    tn_status status = parse(arena, diagnostics, path, text, size, &before, error);
+    bool same;
+    tn_status status = read_text(arena, diagnostics, notation, path, text, size, &before, error);
     if (status == TN_OK)
-        status = lay_out(arena, diagnostics, &before, &laid_out, formatted_size, error);
+        status = lay_out(arena, diagnostics, notation, &before, &laid_out, formatted_size, error);
     if (status == TN_OK)
-        status = parse(arena, diagnostics, path, laid_out, *formatted_size, &after, error);
+        status = compare(arena, diagnostics->sources, notation, path, laid_out, *formatted_size, &before, &same, error);
     if (status != TN_OK)
         return status;
-    if (!same_tokens(diagnostics->sources, &before.tokens, &after.tokens))
+    if (!same)
         return tn_fail(error, TN_INTERNAL, 0, "laid out, %s would not mean the same: it stays as it is", path);
     *formatted = malloc(*formatted_size + 1);
     if (!*formatted)
@@ -222,14 +238,15 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, const c
     return TN_OK;
 }
 
-tn_status tn_format_text(tn_diagnostics *diagnostics, const char *path, const char *text, size_t size, char **formatted,
-                         size_t *formatted_size)
+tn_status tn_format_text(tn_diagnostics *diagnostics, tn_notation notation, const char *path, const char *text,
+                         size_t size, char **formatted, size_t *formatted_size)
 {
     tn_error error = {0};
     tn_arena *arena = tn_arena_new();
     *formatted = NULL;
-    tn_status status = arena ? format_in(arena, diagnostics, path, text, size, formatted, formatted_size, &error)
-                             : tn_fail_memory(&error);
+    tn_status status =
+        arena ? format_in(arena, diagnostics, notation, path, text, size, formatted, formatted_size, &error)
+              : tn_fail_memory(&error);
     tn_arena_free(arena);
     if (status != TN_OK && status != TN_INVALID)
         tn_report_error(diagnostics, &error, path, NULL, 0);

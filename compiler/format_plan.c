@@ -12,6 +12,24 @@ enum {
     DOC_GAP = 2,      /* blanks between a test case and its text */
 };
 
+/* Does a bracket stand directly at the word before it? */
+static bool takes_bracket(const tn_format *format, size_t i)
+{
+    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences",
+                                        "sum",  "distance",  "many",     "optional", NULL};
+    return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
+}
+
+/* The blanks between token i and the one before it. */
+static size_t gap_before(const tn_format *format, size_t i)
+{
+    static const char *const tight_before[] = {")", "]", ",", "..", NULL};
+    static const char *const tight_after[] = {"(", "[", "..", "-", NULL};
+    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after))
+        return 0;
+    return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
+}
+
 typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
 static bool starts_item(const tn_format *format, size_t i)
@@ -284,6 +302,7 @@ static void put_item(tn_format *format, size_t first, size_t last, bool one_line
 void tn_format_plan(tn_format *format)
 {
     bool tall = false; /* the item before takes several lines */
+    format->gap_before = gap_before;
     for (size_t first = 0, last; first < format->count; first = last) {
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||

@@ -17,7 +17,7 @@ bool tn_format_is(const tn_format *format, size_t i, const char *text)
            strncasecmp(token->text, text, token->size) == 0;
 }
 
-static bool is_any(const tn_format *format, size_t i, const char *const *texts)
+bool tn_format_is_any(const tn_format *format, size_t i, const char *const *texts)
 {
     for (; *texts; texts++)
         if (tn_format_is(format, i, *texts))
@@ -30,24 +30,6 @@ static bool opens(const tn_format *format, size_t i)
     return tn_format_is(format, i, "(") || tn_format_is(format, i, "[");
 }
 
-/* Does a bracket stand directly at the word before it? */
-static bool takes_bracket(const tn_format *format, size_t i)
-{
-    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences",
-                                        "sum",  "distance",  "many",     "optional", NULL};
-    return format->tokens[i].kind == TN_TOKEN_NAME || is_any(format, i, calls);
-}
-
-/* The blanks between token i and the one before it. */
-static size_t gap_before(const tn_format *format, size_t i)
-{
-    static const char *const tight_before[] = {")", "]", ",", "..", NULL};
-    static const char *const tight_after[] = {"(", "[", "..", "-", NULL};
-    if (is_any(format, i, tight_before) || is_any(format, i - 1, tight_after))
-        return 0;
-    return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
-}
-
 size_t tn_format_width(const tn_format *format, size_t first, size_t last)
 {
     size_t width = 0;
@@ -56,7 +38,7 @@ size_t tn_format_width(const tn_format *format, size_t first, size_t last)
         if (width > TN_FORMAT_WIDTH || token->comment_count || (token->remark.text && i + 1 < last) ||
             (token->breaks && i > first))
             return TN_FORMAT_TOO_WIDE;
-        width += token->width + (i > first ? gap_before(format, i) : 0);
+        width += token->width + (i > first ? format->gap_before(format, i) : 0);
     }
     return width;
 }
@@ -72,6 +54,8 @@ void tn_format_put(tn_format *format, size_t i, size_t gap)
     tn_format_token *token = &format->tokens[i];
     if (layout->remarked || token->comment_count || token->breaks)
         tn_layout_line(layout, layout->indent);
+    if (token->breaks > 1)
+        tn_layout_feed(layout, token->breaks - 1);
     for (size_t k = 0; k < token->comment_count; k++) {
         tn_layout_put(layout, token->comments[k].text, token->comments[k].size);
         tn_layout_line(layout, layout->indent);
@@ -87,7 +71,7 @@ void tn_format_put(tn_format *format, size_t i, size_t gap)
 void tn_format_flat(tn_format *format, size_t first, size_t last)
 {
     for (size_t i = first; i < last; i++)
-        tn_format_put(format, i, i > first ? gap_before(format, i) : 0);
+        tn_format_put(format, i, i > first ? format->gap_before(format, i) : 0);
 }
 
 /* ---- splitting */
@@ -95,7 +79,7 @@ void tn_format_flat(tn_format *format, size_t first, size_t last)
 static bool at_part(const tn_format *format, size_t i)
 {
     static const char *const words[] = {"as", "using", "allow", "from", NULL};
-    return format->tokens[i].kind == TN_TOKEN_STRING || is_any(format, i, words);
+    return format->tokens[i].kind == TN_TOKEN_STRING || tn_format_is_any(format, i, words);
 }
 
 static bool at_or(const tn_format *format, size_t i)
@@ -173,7 +157,7 @@ void tn_format_fill(tn_format *format, size_t first, size_t last, tn_format_spli
     for (size_t begin = first, end; begin < last; begin = end) {
         end = part_end(format, begin, last, splits, after);
         size_t rest = end == last ? tail : 0;
-        size_t gap = begin > first ? gap_before(format, begin) : 0;
+        size_t gap = begin > first ? format->gap_before(format, begin) : 0;
         if (begin > first && (tall || layout->remarked || !fits(format, begin, end, gap, rest)))
             tn_layout_line(layout, indent);
         else
@@ -197,7 +181,7 @@ static void put_list(tn_format *format, size_t first, size_t last, size_t indent
         end = part_end(format, begin, last, at_comma, true);
         if (begin > first)
             tn_layout_line(&format->layout, indent);
-        if (begin > first && tn_format_is(format, first, "from") && is_any(format, begin, short_words)) {
+        if (begin > first && tn_format_is(format, first, "from") && tn_format_is_any(format, begin, short_words)) {
             tn_format_put(format, begin, 0);
             tn_layout_spaces(&format->layout, 3);
             begin++;
@@ -233,7 +217,7 @@ static void put_brackets(tn_format *format, size_t open, size_t tail)
 static void put_sequence(tn_format *format, size_t first, size_t last, size_t tail)
 {
     for (size_t i = first; i < last; i++) {
-        size_t gap = i > first ? gap_before(format, i) : 0;
+        size_t gap = i > first ? format->gap_before(format, i) : 0;
         if (!opens(format, i)) {
             tn_format_put(format, i, gap);
             continue;

@@ -8,10 +8,10 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
 {
     *use_count = 0;
     if (tn_is_hemls(diagnostics->sources->files[file].path)) {
-        *unit = tn_parse_hemls(arena, diagnostics, file);
+        *unit = tn_parse_hemls(arena, diagnostics, file, NULL);
         return *unit != NULL;
     }
-    tn_study_file *study = tn_parse_study(arena, diagnostics, file);
+    tn_study_file *study = tn_parse_study(arena, diagnostics, file, NULL);
     if (!study)
         return false;
     *unit = study;

@@ -9,6 +9,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/token.h"
 #include "runtime/vm/builder.h"
 #include "runtime/vm/growth.h"
 
@@ -101,6 +102,7 @@ typedef struct tn_growth_parse {
     const char *meant; /* what an unknown word was probably meant to be, or NULL */
     bool reported;     /* the token at hand was complained of already */
     void *result;      /* tn_hemls_file or tn_study_file */
+    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
 } tn_growth_parse;
 
 /* The lexers, for their parsers: NULL where out of memory. */
@@ -109,8 +111,9 @@ void tn_hemls_lexer_free(void *scanner);
 void *tn_study_lexer_new(tn_growth_parse *parse);
 void tn_study_lexer_free(void *scanner);
 
-/* Parses the source as a .hemls file. NULL where out of memory; errors are in the diagnostics. */
-tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
+/* Parses the source as a .hemls file. NULL where out of memory; errors are in the diagnostics. Its tokens go to
+ * `tokens` where that is not NULL. */
+tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
 /* Constructors; NULL where out of memory. */
 tn_hemls_symbol *tn_hemls_symbol_new(tn_growth_parse *parse, tn_hemls_kind kind, tn_span span);

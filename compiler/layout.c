@@ -77,13 +77,18 @@ void tn_layout_line(tn_layout *layout, size_t indent)
     layout->gap = 0;
 }
 
+void tn_layout_feed(tn_layout *layout, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        append(layout, "\n", 1);
+    layout->line += count;
+    layout->blank |= count > 0;
+}
+
 void tn_layout_blank(tn_layout *layout)
 {
-    if (layout->blank)
-        return;
-    append(layout, "\n", 1);
-    layout->line++;
-    layout->blank = true;
+    if (!layout->blank)
+        tn_layout_feed(layout, 1);
 }
 
 void tn_layout_remark(tn_layout *layout, const char *text, size_t size)

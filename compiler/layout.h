@@ -43,6 +43,9 @@ void tn_layout_spaces(tn_layout *layout, size_t count);
 /* Goes on in a new line, indented so; a line on which nothing is yet is used. */
 void tn_layout_line(tn_layout *layout, size_t indent);
 
+/* Leaves so many lines empty before the next, where empty lines mean something. */
+void tn_layout_feed(tn_layout *layout, size_t count);
+
 /* Leaves one line empty before the next, but not at the start. The cursor is on a fresh line. */
 void tn_layout_blank(tn_layout *layout);
 

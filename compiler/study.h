@@ -80,7 +80,11 @@ typedef struct tn_study_text {
     tn_span span;
 } tn_study_text;
 
-tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
+/* Parses the source as a .study file without evolution; as tn_parse_hemls. */
+tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
+
+/* Is this a word of the notation, in capitals or not? */
+bool tn_study_has_word(const char *text, size_t size);
 
 /* Constructors; out of memory is the arena's to remember. */
 tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span);

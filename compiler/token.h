@@ -15,6 +15,9 @@ typedef enum tn_token_kind {
     TN_TOKEN_LENGTH,
     TN_TOKEN_STRING,
     TN_TOKEN_SIGN,
+    TN_TOKEN_TEXT,    /* of a sentence of a grammar, as it is written */
+    TN_TOKEN_STRAY,   /* passed over; a warning says so */
+    TN_TOKEN_LINE,    /* one line end or several, where they mean something */
     TN_TOKEN_COMMENT, /* without its line end */
 } tn_token_kind;
 

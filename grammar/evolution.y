@@ -14,6 +14,7 @@
 #include "compiler/evolution.h"
 }
 %code {
+#include "compiler/lexical.h"
 #include "evolution_lexer.h"
 
 int tn_evolution_yy_lex(TN_EVOLUTION_YY_STYPE *value, tn_span *span, void *scanner);
@@ -84,7 +85,8 @@ void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size)
         reader->failed = true;
         return;
     }
-    if (!tn_evolution_yy__scan_buffer(text, size + 2, scanner)) {
+    reader->at = (uint32_t)tn_text_mark(text, size);
+    if (!tn_evolution_yy__scan_buffer(text + reader->at, size - reader->at + 2, scanner)) {
         reader->failed = true;
     } else if (tn_evolution_yy_parse(reader, scanner) != 0) {
         /* the lexer keeps a zero byte behind its last token: at the end of the text, everything is as it was */

@@ -189,11 +189,11 @@ static void tn_hemls_error(const tn_span *span, tn_growth_parse *parse, void *sc
     tn_report(parse->diagnostics, E_TOO_DEEP, *span, "the file cannot be read further: %s", message);
 }
 
-tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file)
+tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
 {
     tn_hemls_file *result = TN_NEW(arena, tn_hemls_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result};
+    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
     if (!result)
         return NULL;
     if (!tn_growth_readable(&parse)) {

@@ -13,13 +13,35 @@ golden diff "tartan fmt --diff $scratch/wild.plan"
 golden diff_json "tartan fmt --check --diagnostics json $scratch/wild.plan"
 golden broken "tartan fmt $scratch/broken.plan $scratch/wild.plan"
 golden missing 'tartan fmt nowhere.plan'
+printf 'A+B+A;A->A[+B]A Weight 2;->B // B\nangle 90' >"$scratch/wild.hemls"
+printf 'rules "square" scale (1,2,3) # why\nattractor at 1 2.5 3 repeller at -1 2 3' >"$scratch/wild.study"
+printf 'evolution { grammar "words"; match "x" # why\n}' >"$scratch/evolution.study"
+printf '<a> ::= x <b>|\n"y" # why\n<b>::=GE_RANGE:3' >"$scratch/wild.bnf"
+for notation in hemls study bnf; do
+    golden "stdin_$notation" "tartan fmt --notation $notation - <$scratch/wild.$notation"
+done
+golden notation_name 'tartan fmt --notation hemsl -'
+golden all "tartan fmt --diff $scratch/wild.hemls $scratch/evolution.study $scratch/wild.bnf"
+golden plain "cp $scratch/wild.bnf $scratch/grammar; tartan fmt --notation bnf $scratch/grammar; cat $scratch/grammar"
+printf '<a> ::= it'"'"'s\n' >"$scratch/broken.bnf"
+cp "$scratch/broken.bnf" "$scratch/kept.bnf"
+golden broken_bnf "tartan fmt $scratch/broken.bnf"
+cmp -s "$scratch/broken.bnf" "$scratch/kept.bnf" || fail 'a grammar with errors was changed'
+# Replaced as a whole: the file that was there is another one, and nothing is left beside it.
+ln "$scratch/wild.study" "$scratch/old.study"
+chmod 640 "$scratch/wild.study"
+exits 0 "$TARTAN" fmt "$scratch/wild.study"
+cmp -s "$scratch/wild.study" "$scratch/old.study" && fail 'the file was written over, not replaced'
+is 'permissions' "$(stat -c %a "$scratch/wild.study")" 640
+is 'files left over' "$(find "$scratch" -name '*.tmp' | wc -l)" 0
 cmp -s "$scratch/broken.plan" "$scratch/kept.plan" || fail 'a file with errors was changed'
 exits 0 "$TARTAN" fmt --check "$scratch/wild.plan"
 touch -d '2001-01-01' "$scratch/wild.plan"
 exits 0 "$TARTAN" fmt "$scratch/wild.plan"
 is 'a formatted file' "$(stat -c %y "$scratch/wild.plan" | cut -c 1-4)" 2001
 cd "$here/../.."
-exits 0 "$TARTAN" fmt --check stdlib/*.plan examples/*/*.plan bench/*.plan
+# What ships is laid out so, in every notation.
+exits 0 "$TARTAN" fmt --check stdlib/*.{plan,hemls,bnf} examples/*/*.{plan,study} bench/*.plan
 # What --diff says, patch can do.
 if command -v patch >/dev/null; then
     cp tests/cli/files/sheds.plan "$scratch/a.plan"
