@@ -232,7 +232,7 @@ static void put_alternatives(tn_format *format, size_t first, size_t last, size_
 static void put_rule(tn_format *format, size_t first, size_t last)
 {
     size_t column = format->tokens[first].width + sizeof "::= ", body = first + 2;
-    for (size_t i = body; i < last; i++)
+    for (size_t i = last; i-- > body;)
         if (is_bar(format, i))
             settle_comments(format, i, last);
     find_breaks(format, body, last);
