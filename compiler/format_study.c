@@ -83,7 +83,7 @@ static bool alike(const tn_format *format, size_t first, size_t last, size_t oth
     for (size_t k = 0; same && k < cells; k++)
         same = alike_cells(format, first + k, other + k, k == 0);
     for (size_t i = first + 1; same && i < last; i++)
-        same = !format->tokens[i].comment_count && !format->tokens[i - 1].remark.text;
+        same = !format->tokens[i].comment_count && !format->tokens[i - 1].remark.text && !format->tokens[i].breaks;
     return same;
 }
 
@@ -199,10 +199,21 @@ static void put_block(tn_format *format, size_t first, size_t last)
     tn_format_put(format, close, 0);
 }
 
+/* Around a block, which is read alone, a text may lack its closing quote: its line ends there. */
+static void find_breaks(tn_format *format)
+{
+    for (size_t i = 0; i + 1 < format->count; i++) {
+        const tn_format_token *token = &format->tokens[i];
+        bool open = token->kind == TN_TOKEN_STRING && (token->size < 2 || token->text[token->size - 1] != '"');
+        format->tokens[i + 1].breaks = open;
+    }
+}
+
 void tn_format_study(tn_format *format)
 {
     bool after_block = false;
     format->gap_before = gap_before;
+    find_breaks(format);
     for (size_t first = 0, last, columns; first < format->count; first = last) {
         bool block = starts_block(format, first);
         tn_format_gap(format, first, 0, first > 0 && (block || after_block));
