@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/digits.h"
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
+#include "driver/digits.h"
 
 /* All counts of a library: one a length, and one (at the end) of all. */
 typedef struct length_counts {

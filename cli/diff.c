@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "cli/diff_report.h"
-#include "cli/digits.h"
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
+#include "driver/digits.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/plan/draw.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/digits.h"
+#include "driver/digits.h"
 #include "runtime/plan/text.h"
 
 const char *const tn_diff_part_names[TN_DIFF_PARTS] = {"removed", "added", "kept"};

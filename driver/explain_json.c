@@ -38,11 +38,9 @@ static json_t *gap_json(const tn_gap *gap)
 
 static void set_place(json_t *made, const tn_explained *explained, const tn_explanation *why, const tn_why *node)
 {
-    tn_span span;
-    if (!tn_code_span(explained->opened, tn_why_part(why, node)->root, &span))
+    tn_place place;
+    if (!tn_code_place(explained->opened, tn_why_part(why, node)->root, &place))
         return;
-    tn_sources *sources = (tn_sources *)(uintptr_t)&explained->opened->compilation.sources; /* finds its lines late */
-    tn_place place = tn_sources_place(sources, span);
     json_object_set_new(made, "file", string(place.path));
     json_object_set_new(made, "line", json_integer((json_int_t)place.line));
     json_object_set_new(made, "column", json_integer((json_int_t)place.column));

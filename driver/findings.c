@@ -10,6 +10,16 @@ bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)
     return true;
 }
 
+bool tn_code_place(const tn_opened *opened, uint32_t offset, tn_place *where)
+{
+    tn_span span;
+    if (!tn_code_span(opened, offset, &span))
+        return false;
+    tn_sources *sources = (tn_sources *)(uintptr_t)&opened->compilation.sources; /* finds its lines late */
+    *where = tn_sources_place(sources, span);
+    return true;
+}
+
 static void place(const tn_opened *opened, const tn_error *error, tn_diagnostic *diagnostic)
 {
     diagnostic->has_span = tn_code_span(opened, error->code_offset, &diagnostic->span);

@@ -14,4 +14,7 @@ tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error);
 /* The source span of the code at `offset`; false where the module does not say. */
 bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span);
 
+/* The same as file, line and column. */
+bool tn_code_place(const tn_opened *opened, uint32_t offset, tn_place *place);
+
 #endif

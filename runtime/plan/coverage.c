@@ -7,7 +7,7 @@
 #include "runtime/plan/count.h"
 #include "runtime/plan/lower.h"
 
-#define JOINT_STATES 1000000u /* of the automata of several clauses together */
+#define JOINT_STATES 1000000u /* of the automata of several clauses together, unless more are asked for */
 
 struct tn_coverage {
     const tn_schema *schema;
@@ -96,10 +96,16 @@ tn_status tn_coverage_without(tn_coverage *c, const uint32_t *offsets, size_t co
     return status;
 }
 
-/* *sparse := *sparse and the clause, or without what it prunes; minimal. */
-static tn_status narrow(tn_sparse **sparse, const tn_dfa *clause, tn_dfa_operation operation, tn_error *error)
+static tn_bounds joint_bounds(const tn_coverage *c)
 {
-    tn_bounds bounds = tn_bounds_make(JOINT_STATES);
+    return tn_bounds_make(c->max_states > JOINT_STATES ? c->max_states : JOINT_STATES);
+}
+
+/* *sparse := *sparse and the clause, or without what it prunes; minimal. */
+static tn_status narrow(const tn_coverage *c, tn_sparse **sparse, const tn_dfa *clause, tn_dfa_operation operation,
+                        tn_error *error)
+{
+    tn_bounds bounds = joint_bounds(c);
     tn_sparse *product = NULL, *small = NULL;
     tn_status status = tn_sparse_product(*sparse, clause, operation, "library", &bounds, &product, error);
     if (status == TN_OK)
@@ -127,7 +133,7 @@ static tn_status make_base(tn_coverage *c, tn_error *error)
     for (int prunes = 0; prunes < 2; prunes++)
         for (size_t i = 0; status == TN_OK && i < c->count; i++)
             if (!c->changed[i] && c->clauses[i].requires == !prunes)
-                status = narrow(&c->base, c->with[i], prunes ? TN_DFA_MINUS : TN_DFA_AND, error);
+                status = narrow(c, &c->base, c->with[i], prunes ? TN_DFA_MINUS : TN_DFA_AND, error);
     memcpy(c->base_of, c->changed, c->count * sizeof *c->changed);
     if (status != TN_OK) {
         tn_sparse_free(c->base);
@@ -137,9 +143,10 @@ static tn_status make_base(tn_coverage *c, tn_error *error)
 }
 
 /* *into := *into and (or less) another. */
-static tn_status join(tn_dfa **into, const tn_dfa *other, tn_dfa_operation operation, tn_error *error)
+static tn_status join(const tn_coverage *c, tn_dfa **into, const tn_dfa *other, tn_dfa_operation operation,
+                      tn_error *error)
 {
-    tn_bounds bounds = tn_bounds_make(JOINT_STATES);
+    tn_bounds bounds = joint_bounds(c);
     tn_dfa *joined = NULL;
     tn_status status = tn_dfa_product(*into, other, operation, "difference", &bounds, &joined, error);
     if (status != TN_OK)
@@ -155,19 +162,19 @@ static tn_status keep(const tn_coverage *c, tn_dfa *const *automata, bool requir
     tn_status status = tn_dfa_constant(c->classes->count, true, kept, error);
     for (size_t i = 0; status == TN_OK && i < c->count; i++)
         if (c->changed[i] && (c->clauses[i].requires || !required))
-            status = join(kept, automata[i], c->clauses[i].requires ? TN_DFA_AND : TN_DFA_MINUS, error);
+            status = join(c, kept, automata[i], c->clauses[i].requires ? TN_DFA_AND : TN_DFA_MINUS, error);
     return status;
 }
 
 /* flips += plans of the base that are in `a` and not in `b`. */
 static tn_status count_less(const tn_coverage *c, tn_dfa *a, const tn_dfa *b, mpz_t flips, tn_error *error)
 {
-    tn_bounds bounds = tn_bounds_make(JOINT_STATES);
+    tn_bounds bounds = joint_bounds(c);
     tn_dfa *less = tn_dfa_share(a);
     tn_sparse *both = NULL;
     mpz_t count;
     mpz_init(count);
-    tn_status status = join(&less, b, TN_DFA_MINUS, error);
+    tn_status status = join(c, &less, b, TN_DFA_MINUS, error);
     if (status == TN_OK)
         status = tn_sparse_product(c->base, less, TN_DFA_AND, "difference", &bounds, &both, error);
     if (status == TN_OK)
@@ -197,7 +204,7 @@ tn_status tn_coverage_flips(tn_coverage *c, mpz_t flips, tn_error *error)
     if (status == TN_OK)
         status = keep(c, c->with, true, &required, error);
     if (status == TN_OK)
-        status = join(&without, required, TN_DFA_AND, error); /* only generated plans count */
+        status = join(c, &without, required, TN_DFA_AND, error); /* only generated plans count */
     if (status == TN_OK)
         status = count_less(c, with, without, flips, error);
     if (status == TN_OK)

@@ -14,6 +14,9 @@ golden todo_done 'tartan test todo-done.plan'
 golden coverage 'tartan test sheds.plan --coverage --library sheds'
 golden coverage_alone 'tartan test todo.plan parts.plan --coverage'
 golden coverage_library 'tartan test failing.plan --coverage 2>/dev/null'
+golden coverage_json 'tartan test todo.plan failing.plan --coverage --json 2>/dev/null'
+golden json 'tartan test sheds.plan --json'
+golden coverage_module "tartan build sheds.plan -o $scratch/sheds.tnb; tartan test --coverage $scratch/sheds.tnb"
 golden coverage_limit 'tartan test parts.plan --coverage --max-states 3'
 
 # What coverage counts is what `count` says where the part is written as one that never matches.

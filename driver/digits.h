@@ -1,6 +1,6 @@
 /* Numbers of any size as text. */
-#ifndef TARTAN_CLI_DIGITS_H
-#define TARTAN_CLI_DIGITS_H
+#ifndef TARTAN_DRIVER_DIGITS_H
+#define TARTAN_DRIVER_DIGITS_H
 
 #include <gmp.h>
 #include <stdbool.h>

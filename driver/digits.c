@@ -1,4 +1,4 @@
-#include "cli/digits.h"
+#include "driver/digits.h"
 
 #include <stdlib.h>
 #include <string.h>
