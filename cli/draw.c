@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/digits.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
 #include "cli/sampled.h"
+#include "driver/digits.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/plan/draw.h"
 #include "runtime/plan/draw_rule.h"
@@ -243,21 +243,27 @@ static void draw_rules(tn_job *job)
     if (!tn_job_open(job, job->settings->operands.items[0]))
         return;
     const tn_module *module = job->opened.module;
-    uint32_t *rules = malloc(sizeof *rules * (asked->count + 1));
+    tn_drawn_rule *rules = malloc(sizeof *rules * (asked->count + 1));
     tn_status status = rules ? TN_OK : tn_fail_memory(&error);
+    uint32_t trays = 0;
     for (size_t i = 0; status == TN_OK && i < asked->count; i++) {
-        status = tn_rule_choose(&job->opened, asked->items[i], &rules[i]);
+        uint32_t rule;
+        status = tn_rule_choose(&job->opened, asked->items[i], &rule);
         tn_job_status(job, status);
-        if (status == TN_OK && module->RULE_records[rules[i]].schema != module->RULE_records[rules[0]].schema) {
+        if (status != TN_OK)
+            break;
+        rules[i] = tn_drawn_rule_of(module, rule);
+        if (i > 0 && module->RULE_records[rule].schema != trays) {
             tn_job_usage(job, "the rules of one picture are about the same trays");
             status = TN_INVALID;
         }
+        trays = module->RULE_records[rule].schema;
     }
     if (status == TN_OK) {
-        status = tn_schema_new(module, module->RULE_records[rules[0]].schema, 0, &schema, &error);
+        status = tn_schema_new(module, trays, 0, &schema, &error);
+        tn_picture to = {.path = job->settings->output, .dpi = (uint32_t)job->settings->dpi.value};
         if (status == TN_OK)
-            status = tn_rules_draw(schema, rules, asked->count, job->settings->output,
-                                   (uint32_t)job->settings->dpi.value, &error);
+            status = tn_rules_draw(schema, rules, asked->count, &to, &error);
         if (status != TN_OK)
             tn_job_fail(job, &error);
     }

@@ -133,8 +133,8 @@ static void write_explained(explaining *e, const tn_explained *explained)
     tn_buffer text = {0};
     const tn_settings *settings = e->settings;
     if (settings->output) {
-        if (tn_explained_draw(explained, settings->full, settings->output, (uint32_t)settings->dpi.value, &error) !=
-            TN_OK)
+        tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
+        if (tn_explained_draw(explained, settings->full, &to, &error) != TN_OK)
             tn_job_fail(e->job, &error);
     } else if (!(settings->json ? tn_explained_json(explained, &text)
                                 : tn_explained_text(explained, settings->full, &text))) {

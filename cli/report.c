@@ -33,22 +33,27 @@ static void write_page(tn_job *job, const char *path, const tn_buffer *page)
 static void report(tn_job *job, const tn_ready_library *ready, const char *folder)
 {
     const tn_settings *settings = job->settings;
-    char page_path[4096], scratch[4096];
+    char path[4096];
     tn_buffer page = {0};
     tn_error error;
-    snprintf(page_path, sizeof page_path, "%s/index.html", folder);
-    snprintf(scratch, sizeof scratch, "%s/.picture.svg", folder);
+    snprintf(path, sizeof path, "%s/index.html", folder);
     tn_report_options options = {.seed = settings->seed.value,
                                  .samples = settings->sample.given ? settings->sample.value : SAMPLES_DEFAULT,
-                                 .max_states = (uint32_t)settings->max_states.value,
-                                 .scratch = scratch};
+                                 .max_states = (uint32_t)settings->max_states.value};
+    const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
+                                          .max_states = options.max_states,
+                                          .imported = true};
     tn_plan_analyses analyses = {0};
+    tn_covered covered = {0};
     tn_status status = tn_plan_analyse(&job->opened, options.max_states, &analyses);
+    if (status == TN_OK)
+        status = tn_coverage_measure(&job->opened, &coverage, &covered);
     tn_job_status(job, status);
-    if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &options, &page, &error) == TN_OK)
-        write_page(job, page_path, &page);
+    if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &covered, &options, &page, &error) == TN_OK)
+        write_page(job, path, &page);
     else if (status == TN_OK)
         tn_job_fail(job, &error);
+    tn_covered_clear(&covered);
     tn_plan_analyses_free(&analyses);
     free(page.data);
 }
@@ -88,7 +93,8 @@ const tn_command tn_command_report = {
     .description =
         "Writes one page that needs no server and no network: the library's counts by length as a chart; every rule "
         "with its "
-        "picture, its text, how much it prunes and how much only it prunes, and how it lies to the others; "
+        "picture, its text, how much it prunes and how much only it prunes, how it lies to the others, the plans that "
+        "show it, and which of its parts the tests notice; "
         "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
         "filtered.",
     .example = "$ tartan report lahave-houses.plan -o report",

@@ -7,6 +7,7 @@
 #define TARTAN_DRIVER_EXPLAIN_H
 
 #include "driver/library.h"
+#include "runtime/draw/canvas.h"
 #include "runtime/plan/explain.h"
 #include "runtime/plan/near.h"
 #include "runtime/plan/text.h"
@@ -54,8 +55,8 @@ bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_ru
 bool tn_explained_json(const tn_explained *explained, tn_buffer *out);
 
 /* As a picture: the plan, and under it a row for each part with the trays that it matched in green, those that it
- * lacked in red. Errors as in tn_canvas_new; dpi: of a PNG, 0 for 150. */
-tn_status tn_explained_draw(const tn_explained *explained, bool full, const char *path, uint32_t dpi, tn_error *error);
+ * lacked in red. Errors as in tn_canvas_begin. */
+tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture *to, tn_error *error);
 
 /* The nodes that are shown, each before what is below it: all, or those that matter. Clear in any case. */
 typedef struct tn_explain_rows {

@@ -71,7 +71,7 @@ static void write_title(const tn_explained *explained, tn_buffer *title)
                          explained->library->trays_min, explained->library->trays_max);
 }
 
-tn_status tn_explained_draw(const tn_explained *explained, bool full, const char *path, uint32_t dpi, tn_error *error)
+tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture *to, tn_error *error)
 {
     gathering g = {0};
     tn_buffer title = {0};
@@ -81,7 +81,7 @@ tn_status tn_explained_draw(const tn_explained *explained, bool full, const char
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
     const tn_drawn_plan plan = {explained->trays, explained->length, NULL};
-    tn_status status = ok ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, path, dpi, error)
+    tn_status status = ok ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
                           : tn_fail_memory(error);
     for (size_t i = 0; i < g.count; i++) {
         free((char *)(uintptr_t)g.reasons[i].text);

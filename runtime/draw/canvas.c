@@ -8,6 +8,8 @@
 #include <strings.h>
 
 #include "runtime/draw/svg_ids.h"
+#include "runtime/draw/svg_page.h"
+#include "runtime/draw/type.h"
 #include "runtime/vm/file.h"
 
 enum { DPI_DEFAULT = 150, SIDE_MAX = 32767 };
@@ -24,6 +26,10 @@ struct tn_canvas {
     char *path;
     char *text; /* of an SVG, until its ids are numbered */
     size_t text_size, text_room;
+    tn_picture *page; /* NULL: a file */
+    FILE *letters;    /* of a page: its lettering as it is set */
+    char *lettering;
+    size_t lettering_size;
     bool out_of_memory;
 };
 
@@ -126,6 +132,36 @@ static tn_status start(tn_canvas *canvas, const tn_canvas_options *options, tn_e
     return status == CAIRO_STATUS_SUCCESS ? TN_OK : cairo_failed(canvas, status, error);
 }
 
+/* A canvas that becomes an element of a page. */
+static tn_status new_element(tn_picture *page, const tn_canvas_options *options, tn_canvas **canvas, tn_error *error)
+{
+    tn_canvas *made = calloc(1, sizeof *made);
+    if (!made)
+        return tn_fail_memory(error);
+    made->format = TN_CANVAS_SVG;
+    made->page = page;
+    made->letters = open_memstream(&made->lettering, &made->lettering_size);
+    tn_status status = made->letters ? start(made, options, error) : tn_fail_memory(error);
+    if (status == TN_OK && !tn_type_as_text(made->context, made->letters))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        *canvas = made;
+    else
+        tn_canvas_free(made);
+    return status;
+}
+
+tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
+                          tn_error *error)
+{
+    tn_canvas_options options = {width, height, picture->dpi, title};
+    tn_canvas_format format;
+    if (!picture->path)
+        return new_element(picture, &options, canvas, error);
+    tn_status status = tn_canvas_format_of(picture->path, &format, error);
+    return status == TN_OK ? tn_canvas_new(picture->path, format, &options, canvas, error) : status;
+}
+
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error)
 {
@@ -169,12 +205,48 @@ static tn_status write_svg(tn_canvas *canvas, tn_error *error)
 {
     char *text;
     size_t size;
-    tn_status status = tn_svg_renumber(canvas->text, canvas->text_size, &text, &size, error);
+    tn_status status = tn_svg_renumber(canvas->text, canvas->text_size, "i", &text, &size, error);
     if (status != TN_OK)
         return status;
     fwrite(text, 1, size, canvas->output.stream); /* committing reports what went wrong */
     free(text);
     return TN_OK;
+}
+
+/* Where a word stands first in a text that ends with a zero byte, or its end. */
+static const char *find(const char *text, const char *word)
+{
+    const char *at = strstr(text, word);
+    return at ? at : text + strlen(text);
+}
+
+/* The element: what cairo wrote, from its <svg> on, with the lettering before its end. */
+static tn_status write_element(tn_canvas *canvas, tn_error *error)
+{
+    static const char opening[] = "<svg stroke-miterlimit=\"10\"";
+    static const char before[] = "<g font-family=\"DejaVu Sans,Verdana,sans-serif\">\n", after[] = "</g>\n</svg>\n";
+    char prefix[32], *text;
+    size_t size;
+    bool lettered = fclose(canvas->letters) == 0;
+    canvas->letters = NULL;
+    if (!lettered)
+        return tn_fail_memory(error);
+    snprintf(prefix, sizeof prefix, "p%u-", canvas->page->number);
+    tn_status status = tn_svg_renumber(canvas->text, canvas->text_size, prefix, &text, &size, error);
+    if (status != TN_OK)
+        return status;
+    tn_svg_shorten(text, size);
+    const char *begin = find(text, "<svg") + strlen("<svg"), *end = find(begin, "</svg>");
+    size_t room = sizeof opening + (size_t)(end - begin) + sizeof before + canvas->lettering_size + sizeof after;
+    char *element = malloc(room);
+    if (element) {
+        int used = snprintf(element, room, "%s%.*s%s%s%s", opening, (int)(end - begin), begin, before,
+                            canvas->lettering, after);
+        canvas->page->element = element;
+        canvas->page->size = (size_t)used;
+    }
+    free(text);
+    return element ? TN_OK : tn_fail_memory(error);
 }
 
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
@@ -189,6 +261,8 @@ tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
     /* A write error is left to the commit, which knows the reason. */
     if (drawn != CAIRO_STATUS_SUCCESS && drawn != CAIRO_STATUS_WRITE_ERROR)
         return cairo_failed(canvas, drawn, error);
+    if (canvas->page)
+        return write_element(canvas, error);
     tn_status status = canvas->format == TN_CANVAS_SVG ? write_svg(canvas, error) : TN_OK;
     if (status == TN_OK)
         status = tn_output_commit(&canvas->output, error);
@@ -206,6 +280,9 @@ void tn_canvas_free(tn_canvas *canvas)
     if (canvas->surface)
         cairo_surface_destroy(canvas->surface);
     tn_output_discard(&canvas->output);
+    if (canvas->letters)
+        fclose(canvas->letters);
+    free(canvas->lettering);
     free(canvas->text);
     free(canvas->path);
     free(canvas);

@@ -31,6 +31,21 @@ typedef struct tn_canvas_options {
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
 
+/* Where a picture goes: to a file, or into an HTML page as an <svg> element whose lettering is text, which makes it a
+ * tenth of the size. */
+typedef struct tn_picture {
+    const char *path; /* its extension says how; NULL: into a page */
+    uint32_t dpi;     /* of a PNG; 0: 150 */
+    unsigned number;  /* into a page: which of its pictures, so that no two ids are the same */
+    char *element;    /* into a page: the element once it is committed, which the caller frees */
+    size_t size;
+} tn_picture;
+
+/* Starts a picture that goes there; `picture` stays the caller's, and is filled when the canvas is committed. Errors
+ * also as in tn_canvas_format_of. */
+tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
+                          tn_error *error);
+
 /* Draw here. White to begin with, black lines. */
 cairo_t *tn_canvas_context(const tn_canvas *canvas);
 

@@ -98,7 +98,7 @@ static size_t prefix_at(const char *at, size_t left)
     return 0;
 }
 
-static bool renumber(renumbering *r, const char *text, size_t size)
+static bool renumber(renumbering *r, const char *text, size_t size, const char *new_prefix)
 {
     size_t copied = 0;
     for (size_t i = 0; i < size; i++) {
@@ -109,10 +109,10 @@ static bool renumber(renumbering *r, const char *text, size_t size)
         while (end < size && text[end] != '"' && text[end] != ')')
             end++;
         size_t number;
-        char name[32];
+        char name[64];
         if (!number_of(r, text + begin, end - begin, &number))
             return false;
-        int length = snprintf(name, sizeof name, "i%zu", number);
+        int length = snprintf(name, sizeof name, "%.32s%zu", new_prefix, number);
         if (!append(r, text + copied, begin - copied) || !append(r, name, (size_t)length))
             return false;
         copied = end;
@@ -121,10 +121,11 @@ static bool renumber(renumbering *r, const char *text, size_t size)
     return append(r, text + copied, size - copied);
 }
 
-tn_status tn_svg_renumber(const char *text, size_t size, char **renumbered, size_t *renumbered_size, tn_error *error)
+tn_status tn_svg_renumber(const char *text, size_t size, const char *prefix, char **renumbered, size_t *renumbered_size,
+                          tn_error *error)
 {
     renumbering r = {0};
-    bool done = renumber(&r, text, size);
+    bool done = renumber(&r, text, size, prefix);
     free(r.names);
     free(r.slots);
     if (!done) {

@@ -5,7 +5,8 @@
 
 #include "runtime/vm/error.h"
 
-/* A new text, ended by a zero byte, that the caller frees with free(). */
-tn_status tn_svg_renumber(const char *text, size_t size, char **renumbered, size_t *renumbered_size, tn_error *error);
+/* A new text, ended by a zero byte, that the caller frees with free(); ids are `prefix` and a number. */
+tn_status tn_svg_renumber(const char *text, size_t size, const char *prefix, char **renumbered, size_t *renumbered_size,
+                          tn_error *error);
 
 #endif

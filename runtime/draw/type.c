@@ -1,7 +1,9 @@
 #include "runtime/draw/type.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { TEXT_ROOM = 1024 };
@@ -64,10 +66,101 @@ static double clean_width(cairo_t *context, const char *cleaned)
     return extents.x_advance;
 }
 
+/* ---- lettering as text */
+
+/* Its address is what a context keeps the stream under. */
+static const cairo_user_data_key_t letters_key;
+
+bool tn_type_as_text(cairo_t *context, FILE *letters)
+{
+    return cairo_set_user_data(context, &letters_key, letters, NULL) == CAIRO_STATUS_SUCCESS;
+}
+
+/* Hundredths, whatever the locale. */
+static void write_number(FILE *out, const char *name, double number)
+{
+    long hundredths = lround(number * 100);
+    fprintf(out, "%s%s%ld", name, hundredths < 0 ? "-" : "", labs(hundredths) / 100);
+    if (hundredths % 100)
+        fprintf(out, ".%02ld", labs(hundredths) % 100);
+}
+
+static void write_escaped(FILE *out, const char *text)
+{
+    for (; *text; text++)
+        if (*text == '&' || *text == '<')
+            fputs(*text == '&' ? "&amp;" : "&lt;", out);
+        else
+            fputc(*text, out);
+}
+
+static void write_colour(FILE *out, cairo_t *context)
+{
+    double part[4] = {0};
+    cairo_pattern_get_rgba(cairo_get_source(context), &part[0], &part[1], &part[2], &part[3]);
+    if (part[0] + part[1] + part[2] > 0)
+        fprintf(out, " fill=\"#%02lx%02lx%02lx\"", lround(part[0] * 255), lround(part[1] * 255), lround(part[2] * 255));
+}
+
+static void write_transform(FILE *out, const cairo_matrix_t *m)
+{
+    const double numbers[] = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
+    fputs(" transform=\"matrix(", out);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        write_number(out, i ? " " : "", numbers[i]);
+    fputs(")\"", out);
+}
+
+static void write_letters(FILE *out, cairo_t *context, double x, double baseline, tn_align align, const char *cleaned)
+{
+    static const char *const anchors[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
+    cairo_matrix_t at, font;
+    cairo_get_matrix(context, &at);
+    cairo_get_font_matrix(context, &font);
+    bool upright = at.xy == 0 && at.yx == 0 && at.xx == at.yy;
+    bool bold = cairo_toy_font_face_get_weight(cairo_get_font_face(context)) == CAIRO_FONT_WEIGHT_BOLD;
+    write_number(out, "<text x=\"", upright ? at.xx * x + at.x0 : x);
+    write_number(out, "\" y=\"", upright ? at.yy * baseline + at.y0 : baseline);
+    write_number(out, "\" font-size=\"", upright ? at.yy * font.yy : font.yy);
+    fprintf(out, "\"%s%s", bold ? " font-weight=\"bold\"" : "", anchors[align]);
+    write_colour(out, context);
+    if (!upright)
+        write_transform(out, &at);
+    fputc('>', out);
+    write_escaped(out, cleaned);
+    fputs("</text>\n", out);
+}
+
+/* Lettering as text lies above all that is drawn, so that a veil over both lies there too. */
+void tn_type_veil(cairo_t *context, double x, double y, double width, double height, double opacity)
+{
+    FILE *letters = cairo_get_user_data(context, &letters_key);
+    if (letters) {
+        write_number(letters, "<rect x=\"", x);
+        write_number(letters, "\" y=\"", y);
+        write_number(letters, "\" width=\"", width);
+        write_number(letters, "\" height=\"", height);
+        write_number(letters, "\" fill=\"#fff\" fill-opacity=\"", opacity);
+        fputs("\"/>\n", letters);
+        return;
+    }
+    cairo_rectangle(context, x, y, width, height);
+    cairo_set_source_rgba(context, 1, 1, 1, opacity);
+    cairo_fill(context);
+    cairo_set_source_rgb(context, 0, 0, 0);
+}
+
+/* ---- setting */
+
 static void set_clean(cairo_t *context, double x, double baseline, tn_align align, const char *cleaned)
 {
     if (!*cleaned)
         return;
+    FILE *letters = cairo_get_user_data(context, &letters_key);
+    if (letters) {
+        write_letters(letters, context, x, baseline, align, cleaned);
+        return;
+    }
     double shift = align == TN_ALIGN_LEFT ? 0 : clean_width(context, cleaned) * (align == TN_ALIGN_RIGHT ? 1 : 0.5);
     cairo_move_to(context, x - shift, baseline);
     cairo_show_text(context, cleaned);

@@ -5,8 +5,17 @@
 
 #include <cairo.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef enum tn_align { TN_ALIGN_LEFT, TN_ALIGN_CENTRE, TN_ALIGN_RIGHT } tn_align;
+
+/* From now on lettering on this context is not drawn but written to `letters` as SVG text elements, black and
+ * left-aligned where they do not say otherwise; the family is for what is around them to say. false where out of
+ * memory. */
+bool tn_type_as_text(cairo_t *context, FILE *letters);
+
+/* Lays a white veil over a rectangle and what is drawn and lettered there so far; opacity 0 to 1. */
+void tn_type_veil(cairo_t *context, double x, double y, double width, double height, double opacity);
 
 /* Chooses the face: sans serif, unhinted, so that widths do not depend on the resolution. */
 void tn_type_face(cairo_t *context, double size, bool bold);

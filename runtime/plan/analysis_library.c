@@ -5,7 +5,8 @@
 #include "runtime/plan/analysis_data.h"
 
 typedef struct work {
-    tn_plan_analysis *analysis;
+    const tn_plan_analysis *analysis;
+    tn_plan_analysis *findings; /* the same, to add to; NULL: nothing is added */
     uint32_t index;
     const tn_library_record *record;
     const tn_clause_record *clauses;
@@ -107,20 +108,20 @@ static bool ask_one_more(tn_search_part *parts, size_t count, size_t *asked, con
 
 /* Is there a plan of the library's lengths that answers all parts as wanted? Asks about `first` alone to begin with,
  * and about another part when a plan fails it: few of them are ever looked at together. Reorders the parts: where there
- * is no such plan, the first
- * `*asked` are reason enough. */
-static tn_status exists(const work *w, tn_search_part *parts, size_t first, size_t *asked, bool *found, tn_error *error)
+ * is no such plan, the first `*asked` are reason enough. *word: the shortest such plan; the caller frees its data, also
+ * after a failure. */
+static tn_status exists(const work *w, tn_search_part *parts, size_t first, size_t *asked, tn_key *word, bool *found,
+                        tn_error *error)
 {
     *asked = 1;
     tn_search_part part = parts[first];
     parts[first] = parts[0];
     parts[0] = part;
     for (;;) {
-        tn_key word = {0};
-        tn_status status = search(w, parts, *asked, true, &word, found, error);
-        bool more = status == TN_OK && *found && ask_one_more(parts, w->count, asked, &word);
-        free(word.data);
-        if (!more)
+        free(word->data);
+        *word = (tn_key){0};
+        tn_status status = search(w, parts, *asked, true, word, found, error);
+        if (status != TN_OK || !*found || !ask_one_more(parts, w->count, asked, word))
             return status;
     }
 }
@@ -188,7 +189,7 @@ static tn_status list_reasons(const work *w, const bool *in, tn_plan_analysis_fi
 /* `in`: clauses that leave no plan together. */
 static tn_status explain_empty(const work *w, bool *in, tn_error *error)
 {
-    tn_plan_analysis_finding *finding = tn_plan_analysis_add(w->analysis, TN_FOUND_EMPTY, w->count);
+    tn_plan_analysis_finding *finding = tn_plan_analysis_add(w->findings, TN_FOUND_EMPTY, w->count);
     if (!finding)
         return tn_fail_memory(error);
     finding->library = w->index;
@@ -205,8 +206,8 @@ static tn_status explain_empty(const work *w, bool *in, tn_error *error)
 
 /* ---- clauses that change nothing */
 
-/* Is there a plan that this clause alone keeps out? */
-static tn_status drops_alone(const work *w, size_t i, bool *alone, tn_error *error)
+/* Is there a plan that this clause alone keeps out? The shortest is *word. */
+static tn_status drops_alone(const work *w, size_t i, tn_key *word, bool *alone, tn_error *error)
 {
     tn_search_part *parts = malloc(w->count * sizeof *parts);
     if (!parts)
@@ -214,7 +215,7 @@ static tn_status drops_alone(const work *w, size_t i, bool *alone, tn_error *err
     memcpy(parts, w->parts, w->count * sizeof *parts);
     parts[i].accepts = !parts[i].accepts;
     size_t asked;
-    tn_status status = exists(w, parts, i, &asked, alone, error);
+    tn_status status = exists(w, parts, i, &asked, word, alone, error);
     free(parts);
     return status;
 }
@@ -261,7 +262,7 @@ static tn_status show_dropped(const work *w, size_t i, tn_plan_analysis_finding 
 static tn_status report_idle(const work *w, size_t i, tn_error *error)
 {
     tn_plan_analysis_finding *finding =
-        tn_plan_analysis_add(w->analysis, prunes(w, i) ? TN_FOUND_IDLE_PRUNE : TN_FOUND_IDLE_REQUIRE, 1);
+        tn_plan_analysis_add(w->findings, prunes(w, i) ? TN_FOUND_IDLE_PRUNE : TN_FOUND_IDLE_REQUIRE, 1);
     if (!finding)
         return tn_fail_memory(error);
     finding->library = w->index;
@@ -284,8 +285,11 @@ static tn_status find_idle(const work *w, tn_error *error)
 #pragma omp parallel for schedule(dynamic)
     for (size_t i = 0; i < w->count; i++) {
         verdicts[i].needed = true;
-        if (is_own(w, i))
-            verdicts[i].status = drops_alone(w, i, &verdicts[i].needed, &verdicts[i].error);
+        if (!is_own(w, i))
+            continue;
+        tn_key word = {0};
+        verdicts[i].status = drops_alone(w, i, &word, &verdicts[i].needed, &verdicts[i].error);
+        free(word.data);
     }
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < w->count; i++) {
@@ -294,7 +298,7 @@ static tn_status find_idle(const work *w, tn_error *error)
             status = report_idle(w, i, &verdicts[i].error);
         if (status == TN_LIMIT) {
             name_clause(w, i, &verdicts[i].error);
-            status = tn_plan_analysis_give_up(w->analysis, TN_NO_RECORD, w->index, &verdicts[i].error, error);
+            status = tn_plan_analysis_give_up(w->findings, TN_NO_RECORD, w->index, &verdicts[i].error, error);
         } else if (status != TN_OK && error) {
             *error = verdicts[i].error;
         }
@@ -313,7 +317,9 @@ static tn_status analyse(work *w, bool *in, tn_error *error)
         return tn_fail_memory(error);
     memcpy(parts, w->parts, w->count * sizeof *parts);
     size_t asked;
-    tn_status status = exists(w, parts, 0, &asked, &found, error);
+    tn_key word = {0};
+    tn_status status = exists(w, parts, 0, &asked, &word, &found, error);
+    free(word.data);
     for (size_t p = 0; p < asked; p++)
         for (size_t i = 0; i < w->count; i++)
             in[i] |= parts[p].dfa == w->dfas[i] && parts[p].accepts == w->parts[i].accepts;
@@ -323,24 +329,59 @@ static tn_status analyse(work *w, bool *in, tn_error *error)
     return found ? find_idle(w, error) : explain_empty(w, in, error);
 }
 
-static tn_status look_at(work *w, tn_error *error)
+static tn_status prepare(work *w, tn_error *error)
 {
-    bool *in = calloc(w->count + 1, sizeof *in);
     w->parts = calloc(w->count + 1, sizeof *w->parts);
     w->dfas = calloc(w->count + 1, sizeof *w->dfas);
-    tn_error why = {0};
-    tn_status status = in && w->parts && w->dfas ? lower_clauses(w, &why) : tn_fail_memory(&why);
-    if (status == TN_OK)
-        status = analyse(w, in, &why);
+    return w->parts && w->dfas ? lower_clauses(w, error) : tn_fail_memory(error);
+}
+
+static void work_clear(work *w)
+{
     for (size_t i = 0; w->dfas && i < w->count; i++)
         tn_dfa_free(w->dfas[i]);
     free(w->dfas);
     free(w->parts);
+}
+
+static tn_status look_at(work *w, tn_error *error)
+{
+    bool *in = calloc(w->count + 1, sizeof *in);
+    tn_error why = {0};
+    tn_status status = in ? prepare(w, &why) : tn_fail_memory(&why);
+    if (status == TN_OK)
+        status = analyse(w, in, &why);
+    work_clear(w);
     free(in);
     if (status == TN_LIMIT)
-        return tn_plan_analysis_give_up(w->analysis, TN_NO_RECORD, w->index, &why, error);
+        return tn_plan_analysis_give_up(w->findings, TN_NO_RECORD, w->index, &why, error);
     if (status != TN_OK && error)
         *error = why;
+    return status;
+}
+
+tn_status tn_plan_analysis_alone(const tn_plan_analysis *analysis, uint32_t library, size_t i, tn_shown_plan *plan,
+                                 tn_error *error)
+{
+    const tn_module *module = analysis->schema->module;
+    const tn_library_record *record = &module->LIBRARY_records[library];
+    work w = {.analysis = analysis,
+              .index = library,
+              .record = record,
+              .clauses = module->CLAUSE_records + record->clause_first,
+              .count = record->clause_count};
+    tn_key word = {0};
+    bool found = false;
+    *plan = (tn_shown_plan){0};
+    tn_status status = prepare(&w, error);
+    if (status == TN_OK)
+        status = drops_alone(&w, i, &word, &found, error);
+    if (status == TN_OK && found)
+        status = tn_plan_analysis_show(analysis, &word, plan, error);
+    for (size_t k = 0; status == TN_OK && found && k < w.count; k++)
+        status = tn_plan_analysis_confirm(analysis, plan, w.clauses[k].holds, prunes(&w, k) == (k == i), error);
+    free(word.data);
+    work_clear(&w);
     return status;
 }
 
@@ -351,6 +392,7 @@ tn_status tn_plan_analysis_libraries(tn_plan_analysis *analysis, tn_error *error
     for (uint32_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
         const tn_library_record *record = &module->LIBRARY_records[l];
         work w = {.analysis = analysis,
+                  .findings = analysis,
                   .index = l,
                   .record = record,
                   .clauses = module->CLAUSE_records + record->clause_first,

@@ -97,12 +97,15 @@ static void draw_plan(const picture *p, double y)
                  &p->extent);
 }
 
-static void bar(const picture *p, tn_stretch stretch, double y, const double colour[3], bool filled)
+static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
+                 bool filled)
 {
-    if (stretch.begin >= stretch.end)
-        return;
-    double from = p->left + tray_at(p, stretch.begin) + 1, to = p->left + tray_at(p, stretch.end) - 1;
-    cairo_rectangle(p->context, from, y + BAR_INSET, to - from, ROW_HEIGHT - 2 * BAR_INSET);
+    for (size_t i = 0; i < count; i++) {
+        if (stretches[i].begin >= stretches[i].end)
+            continue;
+        double from = p->left + tray_at(p, stretches[i].begin) + 1, to = p->left + tray_at(p, stretches[i].end) - 1;
+        cairo_rectangle(p->context, from, y + BAR_INSET, to - from, ROW_HEIGHT - 2 * BAR_INSET);
+    }
     cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
     cairo_set_line_width(p->context, 1.1);
     if (filled)
@@ -126,14 +129,13 @@ static void line_of_absence(const picture *p, tn_stretch region, double y)
 
 static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y)
 {
-    for (uint32_t i = 0; i < reason->mark_count; i++)
-        bar(p, reason->marks[i], y, green, true);
+    bars(p, reason->marks, reason->mark_count, y, green, true);
     if (reason->matched)
         return;
     if (reason->region.begin < reason->region.end && reason->mark_count == 0)
         line_of_absence(p, reason->region, y);
-    bar(p, reason->partly, y, pale, true);
-    bar(p, reason->lacking, y, red, false);
+    bars(p, &reason->partly, 1, y, pale, true);
+    bars(p, &reason->lacking, 1, y, red, false);
 }
 
 /* A sign before the text: a filled square where the part matches, an open one where it does not. */
@@ -175,7 +177,16 @@ static void draw_part(const picture *p, const tn_drawn_reason *reason, double y)
                     reason->evidence);
 }
 
-/* The limits between trays, through all rows. */
+/* How many rows stand below that of a rule. */
+static size_t parts_of(const tn_drawn_reason *reasons, size_t count, size_t rule)
+{
+    size_t end = rule + 1;
+    while (end < count && reasons[end].depth > 0)
+        end++;
+    return end - rule - 1;
+}
+
+/* The limits between trays, through the rows of a rule. */
 static void draw_grid(const picture *p, double from, double to)
 {
     for (size_t i = 0; i <= p->plan->length; i++) {
@@ -202,8 +213,8 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
         if (reasons[i].depth == 0) {
             y += RULE_ROOM;
             draw_rule(p, &reasons[i], y);
+            draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts_of(reasons, count, i)));
         } else {
-            draw_grid(p, y, y + ROW_HEIGHT);
             draw_part(p, &reasons[i], y);
         }
         y += ROW_HEIGHT;
@@ -211,21 +222,16 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
 }
 
 tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, const char *path, uint32_t dpi, tn_error *error)
+                          size_t count, const char *title, tn_picture *to, tn_error *error)
 {
     picture p = {.schema = schema, .plan = plan, .title = title};
-    tn_canvas_format format;
     tn_canvas *canvas = NULL;
     if (count > TN_DRAW_REASONS_MAX)
         return tn_fail(error, TN_LIMIT, 820, "there are %zu parts to draw; the limit is %u", count,
                        TN_DRAW_REASONS_MAX);
-    tn_status status = tn_canvas_format_of(path, &format, error);
-    if (status != TN_OK)
-        return status;
     tn_draw_roles_find(schema, &p.roles);
     measure(&p, reasons, count);
-    tn_canvas_options options = {p.width, p.height, dpi, title};
-    status = tn_canvas_new(path, format, &options, &canvas, error);
+    tn_status status = tn_canvas_begin(to, p.width, p.height, title, &canvas, error);
     if (status == TN_OK) {
         p.context = tn_canvas_context(canvas);
         draw_all(&p, reasons, count);

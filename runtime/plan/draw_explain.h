@@ -3,6 +3,7 @@
 #ifndef TARTAN_PLAN_DRAW_EXPLAIN_H
 #define TARTAN_PLAN_DRAW_EXPLAIN_H
 
+#include "runtime/draw/canvas.h"
 #include "runtime/plan/draw.h"
 #include "runtime/plan/explain.h"
 
@@ -22,8 +23,8 @@ typedef struct tn_drawn_reason {
 /* The most rows of a picture (E0820 past it). */
 #define TN_DRAW_REASONS_MAX 2000u
 
-/* Draws to `path` (.svg, .png, .pdf). title may be NULL. Errors as in tn_plans_draw. */
+/* title may be NULL. Errors as in tn_plans_draw. */
 tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, const char *path, uint32_t dpi, tn_error *error);
+                          size_t count, const char *title, tn_picture *to, tn_error *error);
 
 #endif

@@ -7,15 +7,23 @@
 #ifndef TARTAN_PLAN_DRAW_RULE_H
 #define TARTAN_PLAN_DRAW_RULE_H
 
+#include "runtime/draw/canvas.h"
 #include "runtime/plan/draw_parts.h"
 #include "runtime/plan/parts.h"
 
 /* The longest side of a picture, in points (E0820 past it): 200 inches, the most that a PDF page may have. */
 #define TN_DRAW_RULE_SIDE_MAX 14400.0
 
-/* Draws RULE records (of the schema) one below the other to `path` (.svg, .png, .pdf). Errors as in tn_plans_draw, and
- * as in tn_parts_read. dpi: of a PNG, 0 for 150. */
-tn_status tn_rules_draw(const tn_schema *schema, const uint32_t *rules, size_t count, const char *path, uint32_t dpi,
+/* A rule, or a clause written out in its library. */
+typedef struct tn_drawn_rule {
+    const char *name, *doc;
+    uint32_t function; /* of either judgement */
+} tn_drawn_rule;
+
+tn_drawn_rule tn_drawn_rule_of(const tn_module *module, uint32_t rule); /* a RULE record */
+
+/* Draws rules (of the schema) one below the other. Errors as in tn_plans_draw, and as in tn_parts_read. */
+tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, size_t count, tn_picture *to,
                         tn_error *error);
 
 /* ---- tray specifiers (draw_rule_tray.c) */

@@ -130,22 +130,29 @@ static uint32_t list_fills(const tn_draw_roles *roles, uint32_t spec, uint32_t f
     return count;
 }
 
-/* The depths of each fill, or once those that all have. */
+/* The depths of the fills once where all have the same, or those of each: "dense 4', empty". */
 static void zone_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field, char text[ITEM_MAX])
 {
     uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
-    char before[ITEM_MAX] = "";
+    char depths[ITEM_MAX], first[ITEM_MAX] = "";
+    bool same = true;
     text[0] = '\0';
     if (is_free(roles, spec, field))
         return;
     for (uint32_t i = 0; i < count; i++) {
-        char depths[ITEM_MAX];
         depth_text(roles, spec, field, fills[i], depths);
-        if (strcmp(depths, before) == 0)
-            continue;
-        say(text, *text && *depths ? ", " : "");
+        same = same && (i == 0 || strcmp(depths, first) == 0);
+        if (i == 0)
+            snprintf(first, sizeof first, "%s", depths);
+    }
+    if (same)
+        say(text, first);
+    for (uint32_t i = 0; !same && i < count; i++) {
+        depth_text(roles, spec, field, fills[i], depths);
+        say(text, i ? ", " : "");
+        say(text, tn_text(roles->schema->module, value_at(roles, field, fills[i])->name));
+        say(text, *depths ? " " : "");
         say(text, depths);
-        snprintf(before, sizeof before, "%s", depths);
     }
 }
 

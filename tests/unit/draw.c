@@ -29,11 +29,11 @@ static void renumbers_ids(void **state)
     char *text;
     size_t size;
     tn_error error;
-    assert_int_equal(tn_svg_renumber(before, strlen(before), &text, &size, &error), TN_OK);
+    assert_int_equal(tn_svg_renumber(before, strlen(before), "i", &text, &size, &error), TN_OK);
     assert_string_equal(text, after);
     assert_int_equal(size, strlen(after));
     free(text);
-    assert_int_equal(tn_svg_renumber("", 0, &text, &size, &error), TN_OK);
+    assert_int_equal(tn_svg_renumber("", 0, "i", &text, &size, &error), TN_OK);
     assert_int_equal(size, 0);
     free(text);
 }
@@ -52,7 +52,7 @@ static void renumbers_many_ids(void **state)
         used += (size_t)snprintf(before + used, ROOM - used, "id=\"clip%d\" url(#clip%d)", 7 * i + 3, 7 * i + 3);
         wanted += (size_t)snprintf(after + wanted, ROOM - wanted, "id=\"i%d\" url(#i%d)", i, i);
     }
-    assert_int_equal(tn_svg_renumber(before, used, &text, &size, &error), TN_OK);
+    assert_int_equal(tn_svg_renumber(before, used, "i", &text, &size, &error), TN_OK);
     assert_int_equal(size, wanted);
     assert_memory_equal(text, after, wanted);
     free(text);

@@ -52,7 +52,7 @@ static tn_status renumber(const tn_schema *schema, tn_error *error)
     size_t used = 0, size;
     for (int i = 0; i < 200; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "id=\"a%d\"", i);
-    tn_status status = tn_svg_renumber(text, used, &out, &size, error);
+    tn_status status = tn_svg_renumber(text, used, "i", &out, &size, error);
     if (status == TN_OK)
         free(out);
     return status;
