@@ -93,7 +93,7 @@ static int run(const tn_command *command, const tn_settings *settings)
 static const tn_option options[] = {
     FLAG("coverage", 0, coverage,
          "say of each part of each rule how many plans it decides, and whether a test notices"),
-    FLAG("json", 0, json, "write JSON: how many passed and failed, and with --coverage all of that"),
+    FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
     OPTION_LIBRARY,
     OPTION_MAX_STATES,
     OPTION_WERROR,
