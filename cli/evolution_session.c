@@ -14,26 +14,47 @@ static char *default_dir(const char *study)
     return dir;
 }
 
-static const tn_source *source_of(const tn_job *command, uint32_t file)
+/* What a setting names is to blame: in the file itself, where that has the place, or else where the study names it. */
+static void report(tn_evolution_session *e, const tn_evolution_study *study, const tn_error *error)
 {
-    return &command->opened.compilation.sources.files[file];
+    const tn_evolution_job *job = &e->job;
+    const tn_setting_value *value = job->blamed < TN_SETTING_COUNT ? &study->of[job->blamed] : NULL;
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    if (!value || !value->written || error->status == TN_MEMORY) {
+        tn_job_fail(e->command, error);
+        return;
+    }
+    tn_job_status(e->command, error->status);
+    tn_diagnostic *diagnostic = tn_report_error(list, error, job->blamed_path, NULL, 0);
+    if (error->line)
+        return;
+    diagnostic->has_span = true;
+    diagnostic->span = (tn_span){value->file, value->begin, value->end};
 }
 
-/* A study's data files are inputs of their own: what is wrong in them has its place there. */
 static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
 {
     const tn_settings *settings = e->command->settings;
     const char *path = settings->operands.items[0];
+    const tn_module *module = e->command->opened.module;
     tn_evolution_job_options options = {
         .threads = (unsigned)settings->threads.value, .says_seed = settings->seed.given, .seed = settings->seed.value};
     tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
-    const tn_source *grammar = source_of(e->command, study->grammar_file), *text = source_of(e->command, 0);
-    tn_run_texts texts = {path, text->text, grammar->path, grammar->text};
-    e->generations = settings->generations.given ? (uint32_t)settings->generations.value : (uint32_t)study->generations;
-    bool begun = tn_evolution_job_make(study, path, e->command->opened.module, &options, &e->job, error) == TN_OK &&
-                 tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+    const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
+                           *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
+    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text), tn_text(module, grammar->path),
+                          tn_text(module, grammar->text)};
+    e->generations =
+        (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
+    if (tn_evolution_job_make(study, path, module, &options, &e->job, error) != TN_OK) {
+        report(e, study, error);
+        return false;
+    }
+    bool begun = tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
     for (size_t i = 0; begun && i < settings->changes.count; i++)
         begun = tn_run_set(&e->run, settings->changes.items[i], error) == TN_OK;
+    if (!begun)
+        tn_job_fail(e->command, error);
     return begun;
 }
 
@@ -41,11 +62,15 @@ bool tn_evolution_session_open(tn_job *command, tn_evolution_session *e)
 {
     const char *path = command->settings->operands.items[0];
     tn_error error = {0};
+    tn_evolution_study study;
     *e = (tn_evolution_session){.command = command};
+    if (command->settings->changes.count && !command->settings->resume) {
+        tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
+        return false;
+    }
     if (!tn_job_open(command, path))
         return false;
-    const tn_evolution_study *study = command->opened.compilation.evolution;
-    if (!study) {
+    if (!tn_evolution_study_of(command->opened.module, &study)) {
         tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
         tn_error_help(&error, "a study to be evolved is a .study file with a block `evolution { ... }`");
         tn_job_fail(command, &error);
@@ -53,10 +78,12 @@ bool tn_evolution_session_open(tn_job *command, tn_evolution_session *e)
     }
     char *own = command->settings->output ? NULL : default_dir(path);
     const char *dir = command->settings->output ? command->settings->output : own;
-    bool begun = dir ? begin(e, study, dir, &error) : tn_fail_memory(&error) == TN_OK;
-    free(own);
-    if (!begun)
+    bool begun = dir && begin(e, &study, dir, &error);
+    if (!dir) {
+        tn_fail_memory(&error);
         tn_job_fail(command, &error);
+    }
+    free(own);
     return begun;
 }
 

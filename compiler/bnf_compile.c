@@ -5,7 +5,7 @@
 #include <xxhash.h>
 
 #include "compiler/bnf.h"
-#include "runtime/vm/utf8.h"
+#include "compiler/lexical.h"
 
 static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn_error *error)
 {
@@ -30,11 +30,8 @@ bool tn_is_bnf(const char *path)
 
 tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilation *compilation, tn_error *error)
 {
-    const tn_source *source = &compilation->sources.files[0];
-    if (!tn_is_utf8(source->text, source->size)) {
-        tn_report(&compilation->diagnostics, E_INVALID_UTF8, (tn_span){0, 0, 0}, "the file is not UTF-8 text");
+    if (!tn_text_check(&compilation->diagnostics, 0))
         return TN_INVALID;
-    }
     tn_builder *builder = tn_builder_new();
     tn_status status = builder ? build(compilation, 0, builder, error) : tn_fail_memory(error);
     tn_builder_free(builder);

@@ -29,7 +29,6 @@ typedef struct tn_compilation {
      * what became of them (check.h) */
     const struct tn_imports *imports;
     const struct tn_checked *checked;
-    const struct tn_evolution_study *evolution; /* of a .study with an evolution block; NULL elsewhere */
     uint8_t *module;     /* bytes of the module, owned; NULL where there were errors */
     size_t module_size;
 } tn_compilation;

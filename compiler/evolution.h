@@ -7,7 +7,8 @@
  *     selection tournament 3
  *   }
  *
- * docs/evolution.md has all settings. The syntax tree and the checked study live in the compilation's arena.
+ * docs/evolution.md has all settings, runtime/vm/settings.def their kinds and ranges. The syntax tree lives in the
+ * compilation's arena; the checked study becomes the SETTING records of a module, whose grammar is beside them.
  */
 #ifndef TARTAN_COMPILER_EVOLUTION_H
 #define TARTAN_COMPILER_EVOLUTION_H
@@ -15,48 +16,7 @@
 #include "compiler/arena.h"
 #include "compiler/compile.h"
 #include "compiler/token.h"
-
-/* ---- the checked study: names are as the engine's own lists have them */
-
-typedef enum tn_evolution_problem {
-    TN_EVOLVE_NOTHING,
-    TN_EVOLVE_MATCH,
-    TN_EVOLVE_FIT,
-    TN_EVOLVE_LEARN,
-    TN_EVOLVE_GROW
-} tn_evolution_problem;
-
-typedef struct tn_evolution_study {
-    const char *grammar;   /* as written */
-    uint32_t grammar_file; /* among the sources */
-    tn_evolution_problem problem;
-    const char *match;       /* the text */
-    const char *fit;         /* path of the data */
-    const char *keep, *drop; /* learn: paths of plans */
-    const char *grow;        /* path of a growth study */
-    const char *schema;      /* of those plans, as `use` names it */
-    uint64_t seed, population, generations;
-    const char *initialise;
-    uint64_t codons, codon_limit, max_codons;
-    uint64_t depth_low, depth_high;
-    double tail;
-    const char *seeds; /* path of genomes, or NULL */
-    const char *selection;
-    bool says_selection_value;
-    double selection_value;
-    const char *crossover;
-    double crossover_rate;
-    const char *mutation;
-    double mutation_rate; /* negative: the operator's own */
-    const char *points;   /* used or anywhere */
-    uint64_t elites;
-    const char *replacement;
-    uint64_t max_depth, wraps, tree_depth, max_steps;
-    bool says_max_depth, says_wraps, says_stop, says_tree_depth;
-    double stop;          /* as soon as the best is not above it */
-    double length_weight; /* learn: what a byte of a rule costs */
-    tn_span span;
-} tn_evolution_study;
+#include "runtime/vm/settings.h"
 
 /* ---- the syntax tree */
 
@@ -69,13 +29,14 @@ typedef enum tn_evolution_value_kind {
     TN_EVOLUTION_WORD,
     TN_EVOLUTION_NUMBER,
     TN_EVOLUTION_RANGE,
-    TN_EVOLUTION_STRING
+    TN_EVOLUTION_STRING,
+    TN_EVOLUTION_UNCLOSED /* a text without its closing quote, which has been reported */
 } tn_evolution_value_kind;
 
 typedef struct tn_evolution_value {
     tn_evolution_value_kind kind;
     tn_span span;
-    const char *text; /* zero-ended; a string without its quotes */
+    const char *text; /* zero-ended; a string without its quotes and escapes */
     struct tn_evolution_value *next, *last;
 } tn_evolution_value;
 
@@ -92,8 +53,10 @@ typedef struct tn_evolution_reader {
     uint32_t file, at;
     tn_evolution_setting *first, *last;
     size_t blocks;
-    tn_span block;
+    tn_span head; /* of the first block: the word and the brace */
+    tn_span open; /* of the block that is being read */
     bool failed;
+    tn_span outside;   /* the first that stands outside the blocks; empty: nothing does */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
 } tn_evolution_reader;
 
@@ -101,20 +64,24 @@ typedef struct tn_evolution_reader {
 void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size);
 
 /* For the grammar. */
-void tn_evolution_block(tn_evolution_reader *reader, tn_span span);
+void tn_evolution_block(tn_evolution_reader *reader, tn_span head);
+void tn_evolution_outside(tn_evolution_reader *reader, tn_span span);
 void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name,
                               tn_evolution_value *values);
 tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolution_value_kind kind, tn_span span,
                                            tn_evolution_text text);
 tn_evolution_value *tn_evolution_value_add(tn_evolution_value *list, tn_evolution_value *value);
 void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const char *token);
+void tn_evolution_unclosed_text(tn_evolution_reader *reader, tn_span span);
+void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span);
 
 /* ---- checking */
 
-/* Makes the module (of the grammar) of a compilation whose first source is a study, and its checked settings. */
+/* Makes the module of a compilation whose first source is a study: its settings and its grammar. */
 tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation *compilation, tn_error *error);
 
-/* Only the settings, from a study's text: its grammar is not looked for. The study lives in the arena. */
+/* Only the settings, from a study's text: its grammar is not looked for. Texts of the study live in the arena. False
+ * where there are errors. */
 bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
                                 tn_evolution_study *study);
 

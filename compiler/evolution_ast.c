@@ -3,15 +3,22 @@
 #include "compiler/evolution.h"
 #include "compiler/lexical.h"
 
-void tn_evolution_block(tn_evolution_reader *reader, tn_span span)
+void tn_evolution_block(tn_evolution_reader *reader, tn_span head)
 {
+    reader->open = head;
     if (reader->blocks++) {
         tn_diagnostic *diagnostic =
-            tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "a study has one evolution block");
-        tn_note(reader->diagnostics, diagnostic, &reader->block, "the first is here");
+            tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, head, "a study has one evolution block");
+        tn_note(reader->diagnostics, diagnostic, &reader->head, "the first is here");
         return;
     }
-    reader->block = span;
+    reader->head = head;
+}
+
+void tn_evolution_outside(tn_evolution_reader *reader, tn_span span)
+{
+    if (reader->outside.end == 0)
+        reader->outside = span;
 }
 
 void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name,
@@ -35,8 +42,8 @@ tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolu
                                            tn_evolution_text text)
 {
     tn_evolution_value *value = TN_NEW(reader->arena, tn_evolution_value);
-    size_t quote = kind == TN_EVOLUTION_STRING;
-    char *copy = tn_arena_copy(reader->arena, text.text + quote, text.length - 2 * quote);
+    char *copy = kind == TN_EVOLUTION_STRING ? tn_string_lex(reader->arena, text.text + 1, text.length - 2)
+                                             : tn_arena_copy(reader->arena, text.text, text.length);
     if (!value || !copy)
         return NULL;
     value->kind = kind;
@@ -62,10 +69,25 @@ void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const ch
     tn_help(reader->diagnostics, diagnostic, "write one setting a line, as `population 500`");
 }
 
+void tn_evolution_unclosed_text(tn_evolution_reader *reader, tn_span span)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "this text has no closing quote");
+    tn_help(reader->diagnostics, diagnostic, "a text ends with `\"` on the line that it begins on");
+}
+
+void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "the evolution block is not closed");
+    tn_note(reader->diagnostics, diagnostic, &reader->open, "it begins here");
+    tn_help(reader->diagnostics, diagnostic, "write `}` after the last setting");
+}
+
 bool tn_has_evolution(const char *text)
 {
     text += tn_text_mark(text, strlen(text));
-    for (const char *at = text; (at = strstr(at, "evolution")); at++) {
+    for (const char *at = text; (at = strcasestr(at, "evolution")); at++) {
         const char *next = at + 9, *line = at;
         while (*next == ' ' || *next == '\t' || *next == '\r' || *next == '\n')
             next++;

@@ -95,31 +95,7 @@ void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size)
  * first 17 digits, and is correctly rounded up to 15. */
 tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span)
 {
-    const char *text = parse->text + span.begin;
-    size_t size = span.end - span.begin, i = text[0] == '-' || text[0] == '+', digits = 0;
-    uint64_t mantissa = 0;
-    int64_t power = 0, exponent = 0;
-    bool fraction = false;
-    for (; i < size && text[i] != 'e' && text[i] != 'E'; i++) {
-        if (text[i] == '.') {
-            fraction = true;
-        } else if (digits < 17) {
-            mantissa = mantissa * 10 + (uint64_t)(text[i] - '0');
-            digits += mantissa > 0;
-            power -= fraction;
-        } else {
-            power += !fraction;
-        }
-    }
-    bool negative = i + 1 < size && text[i + 1] == '-';
-    for (i += 1 + (i + 1 < size && (text[i + 1] == '-' || text[i + 1] == '+')); i < size && exponent < 10000; i++)
-        exponent = exponent * 10 + (text[i] - '0');
-    power += negative ? -exponent : exponent;
-    double value = (double)mantissa, scale = 1;
-    for (int64_t n = power < 0 ? -power : power; n > 0 && scale < 1e290; n--)
-        scale *= 10;
-    value = power < 0 ? value / scale : value * scale;
-    value = text[0] == '-' ? -value : value;
+    double value = tn_decimal_value(parse->text + span.begin, span.end - span.begin);
     if (!(value <= TN_COORDINATE_MAX && value >= -TN_COORDINATE_MAX)) {
         tn_diagnostic *d = tn_report(parse->diagnostics, E_NUMBER_TOO_LARGE, span, "this number is too large");
         tn_help(parse->diagnostics, d, "the largest is %.0f", TN_COORDINATE_MAX);

@@ -110,3 +110,42 @@ size_t tn_character_size(const char *text, size_t size)
         tn_utf8_read(text, size, &count);
     return count;
 }
+
+#define DIGITS_MAX 17 /* that make a difference to a double */
+#define EXPONENT_MAX 10000
+
+/* The whole number that decides a double's bits, and the power of ten that it is to be multiplied with; returns where
+ * the exponent begins. */
+static size_t read_mantissa(const char *text, size_t size, uint64_t *mantissa, int64_t *power)
+{
+    size_t i = size && (text[0] == '-' || text[0] == '+'), digits = 0;
+    bool fraction = false;
+    for (; i < size && text[i] != 'e' && text[i] != 'E'; i++) {
+        if (text[i] == '.') {
+            fraction = true;
+        } else if (digits < DIGITS_MAX) {
+            *mantissa = *mantissa * 10 + (uint64_t)(text[i] - '0');
+            digits += *mantissa > 0;
+            *power -= fraction;
+        } else {
+            *power += !fraction;
+        }
+    }
+    return i;
+}
+
+double tn_decimal_value(const char *text, size_t size)
+{
+    uint64_t mantissa = 0;
+    int64_t power = 0, exponent = 0;
+    size_t i = read_mantissa(text, size, &mantissa, &power);
+    bool negative = i + 1 < size && text[i + 1] == '-', has_sign = negative || (i + 1 < size && text[i + 1] == '+');
+    for (i += has_sign ? 2 : 1; i < size && exponent < EXPONENT_MAX; i++)
+        exponent = exponent * 10 + (text[i] - '0');
+    power += negative ? -exponent : exponent;
+    double value = (double)mantissa, scale = 1;
+    for (int64_t n = power < 0 ? -power : power; n > 0 && scale < 1e290; n--)
+        scale *= 10;
+    value = power < 0 ? value / scale : value * scale;
+    return size && text[0] == '-' ? -value : value;
+}

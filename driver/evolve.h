@@ -9,16 +9,19 @@
 #ifndef TARTAN_DRIVER_EVOLVE_H
 #define TARTAN_DRIVER_EVOLVE_H
 
-#include "compiler/evolution.h"
 #include "driver/grower.h"
 #include "driver/learn.h"
 #include "driver/open.h"
 #include "runtime/gene/problem.h"
 #include "runtime/gene/run_store.h"
+#include "runtime/vm/settings.h"
 
 /* What is evolved. Zero it to begin with; clear it in any case. */
 typedef struct tn_evolution_job {
     tn_evolution_study study; /* texts borrowed from where it was read */
+    tn_setting blamed;        /* where making the job failed: the setting that named what is wrong, or
+                                 TN_SETTING_COUNT */
+    char *blamed_path;        /* and the file that it names, where an error has its place in that; or NULL */
     tn_grammar *grammar;
     tn_evolution_settings settings;
     tn_evaluator evaluator;
@@ -27,6 +30,7 @@ typedef struct tn_evolution_job {
     tn_grower *grower;
     tn_genome *seeds;
     size_t seed_count;
+    char *seeds_text;      /* the file that they are from, or NULL */
     char *identity;        /* all that decides what the run does, in words */
     const char *extension; /* of the files of best/ */
 } tn_evolution_job;
@@ -35,7 +39,9 @@ typedef struct tn_evolution_job_options {
     unsigned threads; /* 0: as many as there are */
     bool says_seed;
     uint64_t seed;
-    bool only_replay; /* no evaluating: scores will be recalled */
+    bool only_replay;         /* no evaluating: scores will be recalled */
+    uint64_t objectives;      /* then: how many the run has */
+    const char *stored_seeds; /* the text of the seeds' file, where it is known already; or NULL */
 } tn_evolution_job_options;
 
 /* Makes the job of a study at `path` (data files lie relative to it), with its grammar's module. */

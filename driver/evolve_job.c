@@ -1,3 +1,4 @@
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,8 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     for (size_t i = 0; i < job->seed_count; i++)
         tn_genome_clear(&job->seeds[i]);
     free(job->seeds);
+    free(job->seeds_text);
+    free(job->blamed_path);
     free(job->identity);
     *job = (tn_evolution_job){0};
 }
@@ -32,90 +35,106 @@ static char *beside(const char *study, const char *path)
     return joined;
 }
 
-/* Which of an engine's names a word is; the compiler has checked that it is one. */
-static int number_of(const char *word, const char *const *names, int count)
+/* ---- settings */
+
+static uint32_t whole(const tn_evolution_study *s, tn_setting setting)
 {
-    for (int i = 0; i < count; i++)
-        if (strcmp(word, names[i]) == 0)
-            return i;
-    return 0;
+    return (uint32_t)s->of[setting].first;
 }
 
-/* ---- settings */
+/* Choices are in the engine's order (settings.def). */
+static void translate_operators(const tn_evolution_study *s, tn_evolution_settings *out)
+{
+    const tn_setting_value *selection = &s->of[TN_SET_SELECTION], *crossover = &s->of[TN_SET_CROSSOVER],
+                           *mutation = &s->of[TN_SET_MUTATION];
+    out->select.selection = (tn_selection)selection->choice;
+    if (selection->written == 2 && out->select.selection == TN_SELECT_TRUNCATION)
+        out->select.truncation = selection->second;
+    else if (selection->written == 2)
+        out->select.tournament = (uint32_t)selection->second;
+    out->vary.crossover = (tn_crossover)crossover->choice;
+    out->vary.crossover_rate = crossover->second;
+    out->vary.mutation = (tn_mutation)mutation->choice;
+    out->vary.mutation_rate = mutation->second;
+    out->vary.within_used = s->of[TN_SET_POINTS].choice == 0;
+    out->vary.codon_limit = (uint64_t)s->of[TN_SET_CODON_LIMIT].first;
+    out->vary.max_codons = whole(s, TN_SET_MAX_CODONS);
+    out->vary.tree_depth = s->of[TN_SET_TREE_DEPTH].written ? whole(s, TN_SET_TREE_DEPTH) : out->depth_high;
+}
 
 static void translate(const tn_evolution_study *s, const tn_grammar *grammar, const tn_evolution_job_options *options,
                       tn_evolution_settings *out)
 {
     *out = tn_evolution_settings_default();
-    out->seed = options->says_seed ? options->seed : s->seed;
-    out->population = (uint32_t)s->population;
-    out->initialisation = (tn_initialisation)number_of(s->initialise, tn_initialisation_names, TN_INITIALISE_COUNT);
-    out->codons = (uint32_t)s->codons;
-    out->depth_low = (uint32_t)s->depth_low;
-    out->depth_high = (uint32_t)s->depth_high;
-    out->tail = s->tail;
-    out->select.selection = (tn_selection)number_of(s->selection, tn_selection_names, TN_SELECT_COUNT);
-    bool tournament = out->select.selection == TN_SELECT_TOURNAMENT || out->select.selection == TN_SELECT_NSGA2;
-    if (s->says_selection_value && tournament)
-        out->select.tournament = s->selection_value < 1 ? 1 : (uint32_t)s->selection_value;
-    else if (s->says_selection_value)
-        out->select.truncation = s->selection_value;
-    out->vary.crossover = (tn_crossover)number_of(s->crossover, tn_crossover_names, TN_CROSS_COUNT);
-    out->vary.crossover_rate = s->crossover_rate;
-    out->vary.mutation = (tn_mutation)number_of(s->mutation, tn_mutation_names, TN_MUTATE_COUNT);
-    out->vary.mutation_rate = s->mutation_rate;
-    out->vary.within_used = strcmp(s->points, "used") == 0;
-    out->vary.codon_limit = s->codon_limit;
-    out->vary.max_codons = s->max_codons;
-    out->vary.tree_depth = (uint32_t)(s->says_tree_depth ? s->tree_depth : s->depth_high);
-    out->elites = (uint32_t)s->elites;
-    out->replacement = (tn_replacement)number_of(s->replacement, tn_replacement_names, TN_REPLACE_COUNT);
+    out->seed = options->says_seed ? options->seed : (uint64_t)s->of[TN_SET_SEED].first;
+    out->population = whole(s, TN_SET_POPULATION);
+    out->initialisation = (tn_initialisation)s->of[TN_SET_INITIALISE].choice;
+    out->codons = whole(s, TN_SET_CODONS);
+    out->depth_low = whole(s, TN_SET_DEPTH);
+    out->depth_high = (uint32_t)s->of[TN_SET_DEPTH].second;
+    out->tail = s->of[TN_SET_TAIL].first;
+    translate_operators(s, out);
+    out->elites = whole(s, TN_SET_ELITES);
+    out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
     out->mapping = tn_map_options_of(grammar);
-    if (s->says_max_depth)
-        out->mapping.max_depth = (uint32_t)s->max_depth;
-    if (s->says_wraps)
-        out->mapping.wraps = (uint32_t)s->wraps;
-    out->mapping.max_steps = s->max_steps;
+    if (s->of[TN_SET_MAX_DEPTH].written)
+        out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
+    if (s->of[TN_SET_WRAPS].written)
+        out->mapping.wraps = whole(s, TN_SET_WRAPS);
+    out->mapping.max_steps = (uint64_t)s->of[TN_SET_MAX_STEPS].first;
     out->threads = options->threads ? options->threads : tn_crew_default();
 }
 
 /* Everything that decides what the run does, but for how long: two runs of one identity are the same run. */
 static char *identity_of(const tn_evolution_job *job)
 {
-    const tn_evolution_study *s = &job->study;
-    const tn_evolution_settings *t = &job->settings;
     char *text = NULL;
-    int length = asprintf(
-        &text,
-        "problem %d grow \"%s\" match \"%s\" fit \"%s\" keep \"%s\" drop \"%s\" schema \"%s\" seed %llu population %u "
-        "initialise %s codons %u "
-        "codon-limit %llu max-codons %zu depth %u..%u tail %.17g seeds %zu selection %s %u %.17g crossover %s %.17g "
-        "mutation %s %.17g "
-        "points %s elites %u replacement %s max-depth %u wraps %u tree-depth %u max-steps %llu length-weight %.17g",
-        (int)s->problem, s->grow ? s->grow : "", s->match ? s->match : "", s->fit ? s->fit : "", s->keep ? s->keep : "",
-        s->drop ? s->drop : "", s->schema, (unsigned long long)t->seed, t->population, s->initialise, t->codons,
-        (unsigned long long)t->vary.codon_limit, t->vary.max_codons, t->depth_low, t->depth_high, t->tail,
-        job->seed_count, s->selection, t->select.tournament, t->select.truncation, s->crossover, t->vary.crossover_rate,
-        s->mutation, t->vary.mutation_rate, s->points, t->elites, s->replacement, t->mapping.max_depth,
-        t->mapping.wraps, t->vary.tree_depth, (unsigned long long)t->mapping.max_steps, s->length_weight);
-    return length < 0 ? NULL : text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    for (tn_setting i = 0; i < TN_SETTING_COUNT; i++) {
+        tn_setting_value value = job->study.of[i];
+        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (tn_setting_rows[i].kind == TN_SETTING_TEXT && !value.text))
+            continue;
+        if (i == TN_SET_CROSSOVER)
+            value.written = 2; /* its default number is said too */
+        fputs(i ? " " : "", out);
+        if (i == TN_SET_SEED)
+            fprintf(out, "seed %" PRIu64, job->settings.seed);
+        else
+            tn_setting_write(out, i, &value);
+    }
+    bool written = !ferror(out);
+    if (fclose(out) == 0 && written)
+        return text;
+    free(text);
+    return NULL;
 }
 
 /* ---- the problem */
 
-static tn_status read_data(const char *study, const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+/* The path of the file that a setting names; from here on what fails is that setting's to blame. */
+static tn_status find_data(tn_evolution_job *job, tn_setting setting, const char *study, tn_error *error)
 {
-    char *path = beside(study, name);
-    tn_status status = path ? tn_file_read(path, DATA_BYTES_MAX, bytes, size, error) : tn_fail_memory(error);
-    free(path);
-    return status;
+    free(job->blamed_path);
+    job->blamed = setting;
+    job->blamed_path = beside(study, job->study.of[setting].text);
+    return job->blamed_path ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status read_data(tn_evolution_job *job, tn_setting setting, const char *study, uint8_t **bytes, size_t *size,
+                           tn_error *error)
+{
+    tn_status status = find_data(job, setting, study, error);
+    return status == TN_OK ? tn_file_read(job->blamed_path, DATA_BYTES_MAX, bytes, size, error) : status;
 }
 
 static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *error)
 {
     uint8_t *bytes;
     size_t size;
-    tn_status status = read_data(path, job->study.fit, &bytes, &size, error);
+    tn_status status = read_data(job, TN_SET_FIT, path, &bytes, &size, error);
     if (status != TN_OK)
         return status;
     status = tn_problem_fit_csv((const char *)bytes, size, job->settings.threads, &job->problem, error);
@@ -123,26 +142,32 @@ static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *err
     return status;
 }
 
+static bool weighs_separately(const tn_evolution_job *job)
+{
+    return job->settings.select.selection == TN_SELECT_NSGA2;
+}
+
 static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error *error)
 {
-    char *keep = beside(path, job->study.keep), *drop = beside(path, job->study.drop);
-    bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
-    tn_status status = keep && drop ? tn_learner_new(job->study.schema, keep, drop, job->study.length_weight,
-                                                     separately, &job->learner, error)
-                                    : tn_fail_memory(error);
-    free(keep);
-    free(drop);
+    const char *schema = job->study.of[TN_SET_SCHEMA].text;
+    job->blamed = TN_SET_SCHEMA;
+    tn_status status = tn_learner_new(schema ? schema : "lahave", path, job->study.of[TN_SET_LENGTH_WEIGHT].first,
+                                      weighs_separately(job), &job->learner, error);
+    static const tn_setting sources[] = {TN_SET_KEEP, TN_SET_DROP};
+    for (size_t i = 0; i < 2 && status == TN_OK; i++) {
+        status = find_data(job, sources[i], path, error);
+        if (status == TN_OK)
+            status = tn_learner_read(job->learner, job->blamed_path, sources[i] == TN_SET_DROP, error);
+    }
     return status;
 }
 
 static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *error)
 {
-    char *study = beside(path, job->study.grow);
-    bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
-    tn_status status =
-        study ? tn_grower_new(study, separately, job->settings.threads, &job->grower, error) : tn_fail_memory(error);
-    free(study);
-    return status;
+    tn_status status = find_data(job, TN_SET_GROW, path, error);
+    return status == TN_OK
+               ? tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error)
+               : status;
 }
 
 static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
@@ -152,25 +177,25 @@ static tn_status never_evaluate(void *context, unsigned thread, const char *sent
     return tn_fail(error, TN_INTERNAL, 0, "a score is missing in the run's database");
 }
 
-static tn_status make_problem(tn_evolution_job *job, const char *path, bool only_replay, tn_error *error)
+static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
+                              tn_error *error)
 {
+    const tn_evolution_study *s = &job->study;
     tn_status status = TN_OK;
-    size_t objectives = job->settings.select.selection == TN_SELECT_NSGA2 ? 2 : 1;
-    job->extension = job->study.problem == TN_EVOLVE_LEARN  ? "plan"
-                     : job->study.problem == TN_EVOLVE_GROW ? "hemls"
-                                                            : "txt";
-    if (only_replay) {
-        job->evaluator = (tn_evaluator){NULL, objectives, never_evaluate, NULL};
+    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written;
+    job->extension = learns ? "plan" : grows ? "hemls" : "txt";
+    if (options->only_replay) {
+        job->evaluator = (tn_evaluator){NULL, options->objectives, never_evaluate, NULL};
         return TN_OK;
     }
-    if (job->study.problem == TN_EVOLVE_MATCH)
-        status = tn_problem_match(job->study.match, &job->problem, error);
-    else if (job->study.problem == TN_EVOLVE_FIT)
-        status = make_fit(job, path, error);
-    else if (job->study.problem == TN_EVOLVE_GROW)
-        status = make_grower(job, path, error);
-    else
+    if (learns)
         status = make_learner(job, path, error);
+    else if (grows)
+        status = make_grower(job, path, error);
+    else if (s->of[TN_SET_FIT].written)
+        status = make_fit(job, path, error);
+    else
+        status = tn_problem_match(s->of[TN_SET_MATCH].text, &job->problem, error);
     if (status == TN_OK)
         job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
                          : job->learner ? tn_learner_evaluator(job->learner)
@@ -178,54 +203,65 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, bool only
     return status;
 }
 
-/* First genomes from a file, one a line. */
-static tn_status read_seeds(tn_evolution_job *job, const char *path, tn_error *error)
+/* First genomes, one a line. */
+static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size, tn_error *error)
 {
-    uint8_t *bytes;
-    size_t size, line = 0, capacity = 0;
-    tn_status status = read_data(path, job->study.seeds, &bytes, &size, error);
-    if (status != TN_OK)
-        return status;
-    for (size_t at = 0; at < size && status == TN_OK; at++) {
-        const uint8_t *end = memchr(bytes + at, '\n', size - at);
-        size_t length = end ? (size_t)(end - bytes) - at : size - at;
+    size_t line = 0, capacity = 0;
+    for (size_t at = 0; at < size; at++) {
+        const char *end = memchr(text + at, '\n', size - at);
+        size_t length = end ? (size_t)(end - text) - at : size - at;
         line++;
-        if (length && bytes[at] != '#' && job->seed_count < job->study.population) {
+        if (length && text[at] != '#' && job->seed_count < job->settings.population) {
             if (job->seed_count == capacity) {
                 capacity = capacity ? capacity * 2 : 16;
                 tn_genome *grown = realloc(job->seeds, capacity * sizeof *grown);
-                if (!grown) {
-                    status = tn_fail_memory(error);
-                    break;
-                }
+                if (!grown)
+                    return tn_fail_memory(error);
                 job->seeds = grown;
             }
             job->seeds[job->seed_count] = (tn_genome){0};
-            status = tn_genome_read((const char *)bytes + at, length, &job->seeds[job->seed_count++], error);
-            if (status != TN_OK && error)
-                error->line = line;
+            tn_status status = tn_genome_read(text + at, length, &job->seeds[job->seed_count++], error);
+            if (status != TN_OK) {
+                if (error)
+                    error->line = line;
+                return status;
+            }
         }
         at += length;
     }
+    job->settings.seeds = job->seeds;
+    job->settings.seed_count = job->seed_count;
+    return TN_OK;
+}
+
+static tn_status take_seeds(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
+{
+    if (!job->study.of[TN_SET_SEEDS].written)
+        return TN_OK;
+    uint8_t *bytes = NULL;
+    size_t size;
+    tn_status status = stored ? TN_OK : read_data(job, TN_SET_SEEDS, path, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    job->seeds_text = stored ? strdup(stored) : strndup((const char *)bytes, size);
     free(bytes);
-    return status;
+    return job->seeds_text ? read_seeds(job, job->seeds_text, strlen(job->seeds_text), error) : tn_fail_memory(error);
 }
 
 tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
                                 const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error)
 {
-    *job = (tn_evolution_job){.study = *study};
+    *job = (tn_evolution_job){.study = *study, .blamed = TN_SETTING_COUNT};
     tn_status status = tn_grammar_new(module, 0, &job->grammar, error);
     if (status == TN_OK)
         translate(study, job->grammar, options, &job->settings);
-    if (status == TN_OK && study->seeds)
-        status = read_seeds(job, path, error);
-    if (status == TN_OK) {
-        job->settings.seeds = job->seeds;
-        job->settings.seed_count = job->seed_count;
-        status = make_problem(job, path, options->only_replay, error);
-    }
-    if (status == TN_OK && !(job->identity = identity_of(job)))
-        status = tn_fail_memory(error);
-    return status;
+    if (status == TN_OK)
+        status = take_seeds(job, path, options->stored_seeds, error);
+    if (status == TN_OK)
+        status = make_problem(job, path, options, error);
+    if (status != TN_OK)
+        return status;
+    job->blamed = TN_SETTING_COUNT;
+    job->identity = identity_of(job);
+    return job->identity ? TN_OK : tn_fail_memory(error);
 }

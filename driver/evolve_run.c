@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "compiler/evolution.h"
 #include "driver/evolve.h"
 #include "runtime/vm/file.h"
 
@@ -27,8 +28,13 @@ void tn_run_clear(tn_run *run)
 
 static tn_status make_dir(const char *path, tn_error *error)
 {
-    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+    struct stat there;
+    if (mkdir(path, 0777) == 0)
         return TN_OK;
+    if (errno == EEXIST && stat(path, &there) == 0)
+        return S_ISDIR(there.st_mode)
+                   ? TN_OK
+                   : tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: there is a file of that name", path);
     return tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: %s", path, strerror(errno));
 }
 
@@ -36,12 +42,24 @@ static tn_status make_dir(const char *path, tn_error *error)
 
 static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
 {
-    char hash[20];
-    snprintf(hash, sizeof hash, "%016" PRIx64, run->job->grammar->hash);
-    const char *const keys[] = {"format", "identity", "study_path", "study", "grammar_path", "grammar"};
-    const char *const values[] = {
-        "1", run->job->identity, texts->study_path, texts->study_text, texts->grammar_path, texts->grammar_text};
-    return tn_run_store_put_meta(run->store, keys, values, sizeof keys / sizeof *keys, error);
+    char seed[24], objectives[24];
+    const tn_evolution_job *job = run->job;
+    const char *slash = strrchr(texts->study_path, '/');
+    snprintf(seed, sizeof seed, "%" PRIu64, job->settings.seed);
+    snprintf(objectives, sizeof objectives, "%zu", job->evaluator.objectives);
+    const char *const keys[] = {"format", "identity",     "seed",    "objectives", "study_path",
+                                "study",  "grammar_path", "grammar", "seeds"};
+    const char *const values[] = {"1",
+                                  job->identity,
+                                  seed,
+                                  objectives,
+                                  slash ? slash + 1 : texts->study_path,
+                                  texts->study_text,
+                                  texts->grammar_path,
+                                  texts->grammar_text,
+                                  job->seeds_text};
+    size_t count = sizeof keys / sizeof *keys;
+    return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
 }
 
 static tn_status same_as_stored(tn_run *run, const char *key, const char *now, const char *what, tn_error *error)
@@ -298,8 +316,8 @@ tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, 
 
 bool tn_run_reached(const tn_run *run)
 {
-    return run->job->study.says_stop && run->generations &&
-           tn_evolution_stats(run->evolution).best[0] <= run->job->study.stop;
+    const tn_setting_value *stop = &run->job->study.of[TN_SET_STOP];
+    return stop->written && run->generations && tn_evolution_stats(run->evolution).best[0] <= stop->first;
 }
 
 /* ---- replay */
@@ -336,14 +354,26 @@ static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study 
     return status;
 }
 
+static tn_status stored_number(tn_run *run, const char *key, uint64_t *number, tn_error *error)
+{
+    char *text = NULL;
+    tn_status status = tn_run_store_get_meta(run->store, key, &text, error);
+    if (status == TN_OK && !(text && *text))
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database does not say its %s", key);
+    if (status == TN_OK)
+        *number = strtoull(text, NULL, 10);
+    free(text);
+    return status;
+}
+
 tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,
                         const tn_individual **individual, tn_error *error)
 {
     tn_evolution_study study;
-    tn_evolution_job_options options = {.only_replay = true};
+    tn_evolution_job_options options = {.only_replay = true, .says_seed = true};
+    char *seeds = NULL, *path = tn_run_database(dir);
     *individual = NULL;
     *run = (tn_run){.job = job, .dir = strdup(dir)};
-    char *path = tn_run_database(dir), *identity = NULL;
     tn_status status =
         path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
     free(path);
@@ -351,17 +381,16 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
         status = compile_stored(run, opened, error);
     if (status == TN_OK)
         status = read_stored(run, opened, &study, error);
-    /* a seed of the command line is part of the identity */
     if (status == TN_OK)
-        status = tn_run_store_get_meta(run->store, "identity", &identity, error);
-    const char *seed = identity ? strstr(identity, "\" seed ") : NULL;
-    if (seed) {
-        options.says_seed = true;
-        options.seed = strtoull(seed + 7, NULL, 10);
-    }
-    free(identity);
+        status = stored_number(run, "seed", &options.seed, error);
+    if (status == TN_OK)
+        status = stored_number(run, "objectives", &options.objectives, error);
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(run->store, "seeds", &seeds, error);
+    options.stored_seeds = seeds;
     if (status == TN_OK)
         status = tn_evolution_job_make(&study, dir, opened->module, &options, job, error);
+    free(seeds);
     if (status == TN_OK)
         status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
     if (status == TN_OK)

@@ -31,12 +31,20 @@ void tn_grower_free(tn_grower *g)
     free(g);
 }
 
+static const char *first_error(const tn_opened *opened)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].severity == TN_ERROR)
+            return list->items[i].message;
+    return "it does not compile";
+}
+
 static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
 {
     if (tn_open(path, false, &g->opened) != TN_OK) {
-        tn_fail(error, TN_INVALID, 1245, "the growth study %.200s cannot be used", path);
-        tn_error_help(error, "`tartan check %.200s` says why", path);
-        return TN_INVALID;
+        return tn_fail(error, TN_INVALID, 1245, "the growth study %.100s cannot be used: %.300s", path,
+                       first_error(&g->opened));
     }
     tn_status status = tn_study_read(g->opened.module, &g->study, error);
     for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
@@ -81,15 +89,6 @@ static void rules_clear(rules *r)
 {
     tn_growth_system_free(r->system);
     tn_close(&r->opened);
-}
-
-static const char *first_error(const tn_opened *opened)
-{
-    const tn_diagnostics *list = &opened->compilation.diagnostics;
-    for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].severity == TN_ERROR)
-            return list->items[i].message;
-    return "it does not compile";
 }
 
 /* Compiles a sentence and grows its surface; *growth, where there is one, is used again. */

@@ -20,9 +20,11 @@ typedef struct example {
 struct tn_learner {
     example *examples;
     size_t count, capacity;
+    tn_opened opened; /* what declares the schema */
+    char *user;       /* the path that it was opened by */
+    tn_schema *schema;
     tn_tray *trays;
     size_t tray_count, tray_capacity;
-    uint32_t codes; /* of the schema, to see that a sentence is of the same */
     double length_weight;
     bool separately;
 };
@@ -33,6 +35,9 @@ void tn_learner_free(tn_learner *l)
         return;
     free(l->examples);
     free(l->trays);
+    tn_schema_free(l->schema);
+    tn_close(&l->opened);
+    free(l->user);
     free(l);
 }
 
@@ -78,30 +83,28 @@ static tn_status read_examples(tn_learner *l, const tn_schema *schema, const cha
 }
 
 /* Compiles a rule that only serves to have the schema. */
-static tn_status read_all(tn_learner *l, const char *name, const char *keep, const char *drop, tn_error *error)
+static tn_status find_schema(tn_learner *l, const char *name, const char *user, tn_error *error)
 {
     char text[320];
-    tn_opened opened;
-    tn_schema *schema = NULL;
+    const char *slash = strrchr(user, '/');
+    int folder = slash ? (int)(slash - user) + 1 : 0;
     snprintf(text, sizeof text, "use \"%.200s\"\nrule learned = any\n", name);
-    tn_status status = tn_open_bytes("examples.plan", (const uint8_t *)text, strlen(text), false, &opened);
-    if (status != TN_OK)
-        status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
-    if (status == TN_OK)
-        status = tn_schema_new(opened.module, opened.module->RULE_records[opened.module->RULE_count - 1].schema, 0,
-                               &schema, error);
-    if (status == TN_OK) {
-        l->codes = schema->tray_count;
-        status = read_examples(l, schema, keep, false, error);
+    if (asprintf(&l->user, "%.*sexamples.plan", folder, user) < 0) {
+        l->user = NULL;
+        return tn_fail_memory(error);
     }
-    if (status == TN_OK)
-        status = read_examples(l, schema, drop, true, error);
-    tn_schema_free(schema);
-    tn_close(&opened);
+    tn_status status = tn_open_bytes(l->user, (const uint8_t *)text, strlen(text), false, &l->opened);
+    if (status != TN_OK) {
+        status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
+        tn_error_help(error, "name a .plan file that declares it, or one of the standard library, as \"lahave\"");
+    } else {
+        const tn_module *module = l->opened.module;
+        status = tn_schema_new(module, module->RULE_records[module->RULE_count - 1].schema, 0, &l->schema, error);
+    }
     return status;
 }
 
-tn_status tn_learner_new(const char *schema, const char *keep, const char *drop, double length_weight, bool separately,
+tn_status tn_learner_new(const char *schema, const char *user, double length_weight, bool separately,
                          tn_learner **learner, tn_error *error)
 {
     tn_learner *l = calloc(1, sizeof *l);
@@ -110,14 +113,23 @@ tn_status tn_learner_new(const char *schema, const char *keep, const char *drop,
         return tn_fail_memory(error);
     l->length_weight = length_weight;
     l->separately = separately;
-    tn_status status = read_all(l, schema, keep, drop, error);
-    if (status == TN_OK && l->count == 0)
-        status = tn_fail(error, TN_INVALID, 1244, "there are no examples to learn from");
+    tn_status status = find_schema(l, schema, user, error);
     if (status != TN_OK) {
         tn_learner_free(l);
         *learner = NULL;
     }
     return status;
+}
+
+tn_status tn_learner_read(tn_learner *learner, const char *path, bool drop, tn_error *error)
+{
+    size_t before = learner->count;
+    tn_status status = read_examples(learner, learner->schema, path, drop, error);
+    if (status != TN_OK || learner->count > before)
+        return status;
+    tn_fail(error, TN_INVALID, 1244, "%.200s holds no plans to learn from", path);
+    tn_error_help(error, "one plan a line, as `tartan sample` writes them");
+    return TN_INVALID;
 }
 
 /* ---- scoring a rule */
@@ -145,7 +157,7 @@ static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *w
     tn_schema *schema = NULL;
     tn_rules *rules = NULL;
     tn_status status = tn_schema_new(module, rule->schema, 0, &schema, error);
-    if (status == TN_OK && schema->tray_count != l->codes)
+    if (status == TN_OK && schema->tray_count != l->schema->tray_count)
         status = tn_fail(error, TN_INVALID, 0, "the rule is of another schema than the examples");
     if (status == TN_OK)
         status = tn_rules_new(schema, &rule->holds, 1, &options, &rules, error);

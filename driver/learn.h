@@ -7,10 +7,15 @@
 
 typedef struct tn_learner tn_learner;
 
-/* `schema` is what the plans are of, as `use` names it; `keep` and `drop` are files of plans. With `separately`, errors
- * and length are two objectives; else one, errors + length_weight * bytes. */
-tn_status tn_learner_new(const char *schema, const char *keep, const char *drop, double length_weight, bool separately,
+/* `schema` is what the plans are of, as `use` names it in a file beside the one at `user`. With `separately`, errors
+ * and length are two objectives; else one, errors + length_weight * bytes. TN_INVALID (E1244) where there is no such
+ * schema. */
+tn_status tn_learner_new(const char *schema, const char *user, double length_weight, bool separately,
                          tn_learner **learner, tn_error *error);
+
+/* Adds the plans of a file to the examples: those that the rule is to drop, or to keep. TN_INVALID (E1244) where it has
+ * none, and as tn_plan_reader_next. */
+tn_status tn_learner_read(tn_learner *learner, const char *path, bool drop, tn_error *error);
 void tn_learner_free(tn_learner *learner);
 
 /* Objective 0: plans judged wrongly (and the length's price); objective 1: bytes of the sentence. */

@@ -1,4 +1,4 @@
-/* Syntax of `evolution { ... }`: one setting a line, a word and its values. */
+/* Syntax of `evolution { ... }`: one setting a line, a word and its values. An error ends with its line. */
 %require "3.8"
 %define api.pure full
 %define api.prefix {tn_evolution_yy_}
@@ -14,6 +14,7 @@
 #include "compiler/evolution.h"
 }
 %code {
+#include "compiler/lexical.h"
 #include "compiler/lexical.h"
 #include "evolution_lexer.h"
 
@@ -36,8 +37,9 @@ static void tn_evolution_yy_error(tn_span *span, struct tn_evolution_reader *rea
     tn_evolution_value *value;
 }
 
-%token <text> WORD "a word" NUMBER "a number" RANGE "a range" STRING "a text in quotes" STRAY "a stray character"
-%token EVOLUTION "evolution" OPEN "{" CLOSE "}" LINE_END "a line end" END 0 "the end of the file"
+%token <text> WORD "a word" NUMBER "a number" RANGE "a range" STRING "a text in quotes" UNCLOSED "a text without end"
+%token <text> STRAY "this character"
+%token EVOLUTION "`evolution`" OPEN "`{`" CLOSE "`}`" LINE_END "a line end" END 0 "the end of the file"
 %type <value> value values
 
 %%
@@ -46,8 +48,14 @@ file: %empty
     | file block
     ;
 
-block: EVOLUTION OPEN settings CLOSE            { tn_evolution_block(reader, @$); }
-    | EVOLUTION OPEN settings setting CLOSE     { tn_evolution_block(reader, @$); }
+block: head settings CLOSE
+    | head settings setting CLOSE
+    | head settings END                         { tn_evolution_unclosed_block(reader, @3); YYABORT; }
+    | head settings setting END                 { tn_evolution_unclosed_block(reader, @4); YYABORT; }
+    | head settings error CLOSE                 { yyerrok; }
+    ;
+
+head: EVOLUTION OPEN                            { tn_evolution_block(reader, @$); }
     ;
 
 settings: %empty
@@ -65,6 +73,7 @@ values: %empty                                  { $$ = NULL; }
 
 value: WORD                                     { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_WORD, @1, $1); }
     | NUMBER                                    { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_NUMBER, @1, $1); }
+    | UNCLOSED                                  { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_UNCLOSED, @1, $1); }
     | RANGE                                     { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_RANGE, @1, $1); }
     | STRING                                    { $$ = tn_evolution_value_new(reader, TN_EVOLUTION_STRING, @1, $1); }
     ;
@@ -81,6 +90,8 @@ static int yyreport_syntax_error(const yypcontext_t *context, struct tn_evolutio
 void tn_evolution_read(tn_evolution_reader *reader, char *text, size_t size)
 {
     void *scanner;
+    size_t mark = tn_text_mark(text, size);
+    reader->at = (uint32_t)mark;
     if (tn_evolution_yy_lex_init_extra(reader, &scanner) != 0) {
         reader->failed = true;
         return;

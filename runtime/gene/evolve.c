@@ -6,9 +6,6 @@
 
 #include "runtime/gene/evolve_state.h"
 
-const char *const tn_initialisation_names[TN_INITIALISE_COUNT] = {"random", "ramped", "grow", "pi-grow"};
-const char *const tn_replacement_names[TN_REPLACE_COUNT] = {"generational", "steady-state"};
-
 tn_evolution_settings tn_evolution_settings_default(void)
 {
     return (tn_evolution_settings){

@@ -45,9 +45,6 @@ typedef enum tn_initialisation {
 } tn_initialisation;
 typedef enum tn_replacement { TN_REPLACE_GENERATION, TN_REPLACE_STEADY, TN_REPLACE_COUNT } tn_replacement;
 
-extern const char *const tn_initialisation_names[TN_INITIALISE_COUNT];
-extern const char *const tn_replacement_names[TN_REPLACE_COUNT];
-
 typedef struct tn_evolution_settings {
     uint64_t seed;
     uint32_t population; /* 2 to TN_POPULATION_MAX */

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-const char *const tn_selection_names[TN_SELECT_COUNT] = {"tournament", "truncation", "roulette", "nsga2"};
-
 static int compare_merits(const void *left, const void *right)
 {
     const tn_merit *a = left, *b = right;

@@ -16,8 +16,6 @@ typedef enum tn_selection {
     TN_SELECT_COUNT
 } tn_selection;
 
-extern const char *const tn_selection_names[TN_SELECT_COUNT];
-
 /* One individual's merit, as orders compare it: by front, then crowding (more room is better), then objective 0, then
  * index. With one objective, front is 0 and room 0 for all. */
 typedef struct tn_merit {

@@ -5,10 +5,6 @@
 
 #define ATTEMPTS 8 /* at finding subtrees that can change places */
 
-const char *const tn_crossover_names[TN_CROSS_COUNT] = {"one-point", "fixed-one-point", "two-point", "fixed-two-point",
-                                                        "subtree"};
-const char *const tn_mutation_names[TN_MUTATE_COUNT] = {"codons", "genome", "subtree"};
-
 struct tn_breeder {
     const tn_grammar *grammar;
     const tn_analysis *analysis;

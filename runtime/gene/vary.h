@@ -22,9 +22,6 @@ typedef enum tn_mutation {
     TN_MUTATE_COUNT
 } tn_mutation;
 
-extern const char *const tn_crossover_names[TN_CROSS_COUNT];
-extern const char *const tn_mutation_names[TN_MUTATE_COUNT];
-
 typedef struct tn_vary_options {
     tn_crossover crossover;
     double crossover_rate; /* probability that a pair is crossed at all */

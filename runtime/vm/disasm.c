@@ -5,6 +5,7 @@
 
 #include "runtime/vm/code.h"
 #include "runtime/vm/disasm_growth.h"
+#include "runtime/vm/disasm_settings.h"
 #include "runtime/vm/condition_text.h"
 #include "runtime/vm/utf8.h"
 
@@ -433,6 +434,7 @@ static void list_module(tn_lister *lister)
 {
     const tn_module *module = lister->module;
     list_header(lister);
+    tn_disassemble_settings(module, lister->out);
     for (uint32_t i = 0; i < module->SCHEMA_count; i++)
         list_schema(lister, i);
     list_specs(lister);

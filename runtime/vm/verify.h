@@ -17,6 +17,8 @@
  *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that ends
  *             with its one DONE, whose bodies nest, and whose operands are the grammar's own
  *
+ *   settings  of an evolution ascend, are in range and agree with one another, and there is one grammar
+ *
  * Time and memory are linear in the module's size but for sorting the names.
  */
 #ifndef TARTAN_VM_VERIFY_H
@@ -30,6 +32,7 @@ tn_status tn_module_verify(const tn_module *module, const tn_module_limits *limi
 /* Its parts. Code relies on the tables having been verified before. */
 tn_status tn_verify_tables(const tn_module *module, const tn_module_limits *limits, tn_error *error);
 tn_status tn_verify_growth(const tn_module *module, tn_error *error);
+tn_status tn_verify_settings(const tn_module *module, tn_error *error);
 tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error);
 
 /* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved past

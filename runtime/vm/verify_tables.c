@@ -157,6 +157,7 @@ static tn_status check_places(const tn_checker *checker)
     CHECK_PLACES(GRAMMAR)
     CHECK_PLACES(NONTERMINAL)
     CHECK_PLACES(PRODUCTION)
+    CHECK_PLACES(SETTING)
 #undef CHECK_PLACES
     return TN_OK;
 }

@@ -25,6 +25,22 @@ cmp -s one/run.sqlite four/run.sqlite || fail "four threads make another run tha
 cmp -s one/stats.csv four/stats.csv || fail "four threads make other statistics"
 diff -r one/best four/best > /dev/null || fail "four threads have other results"
 
+# ---- a study as a module makes the same run; what it evolves does not depend on where it was called from
+"$TARTAN" build hello.study -o hello.tnb || fail "a study cannot be built"
+"$TARTAN" evolve hello.tnb -o module > module.txt || fail "a module cannot be evolved"
+cmp -s one/run.sqlite module/run.sqlite || fail "a module makes another run than its study"
+mkdir elsewhere
+(cd elsewhere && "$TARTAN" evolve ../hello.study > /dev/null) || fail "cannot be called from elsewhere"
+cmp -s one/run.sqlite elsewhere/hello.run/run.sqlite || fail "a run depends on the folder that it is called from"
+"$TARTAN" disasm hello.tnb | grep -q '^  crossover subtree 0.8' || fail "disasm does not list the settings"
+
+# ---- first genomes from a file are part of the run: it is replayed where the file is gone
+sed 's/seed 7/seeds "first.genomes"/' hello.study > seeded.study
+printf '# two\n0 7 1 4 0 11\n1 2 3 4 5 6 7 8\n' > first.genomes
+"$TARTAN" evolve seeded.study -o seeded --generations 3 > /dev/null || fail "does not take first genomes"
+rm first.genomes
+[ "$("$TARTAN" runs replay seeded 1 | sed -n 's/^# genome: //p')" = "1 2 3 4 5 6 7 8" ] || fail "a first genome is not replayed"
+
 # ---- a run in the way is not overwritten
 "$TARTAN" evolve hello.study -o one > /dev/null 2> err.txt && fail "overwrote a run"
 grep -q 'E1250' err.txt || fail "does not say that there is a run"

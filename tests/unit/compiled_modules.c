@@ -18,7 +18,8 @@ static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
 static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
 static const char *const files[] = {TARTAN_SOURCE_DIR "/stdlib/lahave.plan", TARTAN_SOURCE_DIR "/stdlib/terrace.plan",
                                     TARTAN_SOURCE_DIR "/stdlib/lahave-houses.plan",
-                                    TARTAN_SOURCE_DIR "/tests/plan/semantics.plan"};
+                                    TARTAN_SOURCE_DIR "/tests/plan/semantics.plan",
+                                    TARTAN_SOURCE_DIR "/examples/learning-a-rule/learn.study"};
 
 enum { FILES = sizeof files / sizeof *files };
 

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# What evolve says of studies whose files are not there or hold something else, and of wrong use: each at its place.
+name=evolve_errors
+source "$(dirname "$0")/golden.bash"
+cd "$scratch"
+
+study() { printf 'evolution {\n%s\n}\n' "$2" >"$scratch/$1.study"; }
+study seeds '  grammar "words"; match "x"; seeds "none.txt"'
+study codon '  grammar "words"; match "x"; seeds "genomes"'
+printf '# first genomes\n1 2 3\n4 five\n' >genomes
+study keep '  grammar "plan-rules"; keep "none.plans"; drop "drop.plans"'
+study drop '  grammar "plan-rules"; keep "keep.plans"; drop "none.plans"'
+study empty '  grammar "plan-rules"; keep "keep.plans"; drop "empty.plans"'
+study tray '  grammar "plan-rules"; keep "keep.plans"; drop "drop.plans"'
+study schema '  grammar "plan-rules"; keep "keep.plans"; drop "drop.plans"; schema "lahav"'
+printf "4' single - - dense:4' open:8' empty\n" >keep.plans
+printf "4' single - - dense:4' open:8' empty\n4' nine\n" >drop.plans
+: >empty.plans
+study fit '  grammar "arithmetic"; fit "none.csv"'
+study data '  grammar "arithmetic"; fit "data.csv"'
+printf 'x0,y\n1,2\n2,two\n' >data.csv
+study grow '  grammar "genr8"; grow "none.study"'
+study wants '  grammar "genr8"; grow "wants.growth.study"'
+printf 'rules "square"\n' >wants.growth.study
+study wrong '  grammar "genr8"; grow "wrong.growth.study"'
+printf 'rules "square"\nfitness sise target 3\n' >wrong.growth.study
+study hello '  grammar "words"; match "hi"; population 10; generations 2'
+printf 'rules "square"\n' >growth.study
+for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing; do
+    golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
+done
+golden no_study "tartan evolve"
+golden not_a_study "cd $scratch && tartan evolve genr8"
+golden set_too_early "cd $scratch && tartan evolve hello.study --set 'length-weight 1'"
+golden set_nothing "cd $scratch && tartan evolve hello.study -o other && tartan evolve hello.study -o other --resume --set 'length-weight 1'"
+golden twice "cd $scratch && tartan evolve hello.study -o other"
+golden folder "cd $scratch && tartan evolve hello.study -o genomes/there"
+golden run_file "cd $scratch && tartan evolve hello.study -o genomes"
+finish
