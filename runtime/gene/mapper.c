@@ -33,7 +33,9 @@ void tn_mapper_free(tn_mapper *mapper)
     free(mapper->events);
     free(mapper->seen);
     free(mapper->ruled);
+    free(mapper->rule.data);
     free(mapper->repaired_ids);
+    free(mapper->waiting);
     free(mapper->predecessor);
     free(mapper);
 }
@@ -50,28 +52,29 @@ static void start(tn_mapper *m, const uint64_t *codons, size_t count, const tn_m
     m->max_depth = options->max_depth;
     m->nodes = m->grammar->dialect == TN_DIALECT_GE ? 1 : 0;
     m->depth = 1;
+    size_t marked = m->max_id < m->id_capacity ? m->max_id : m->id_capacity; /* by the mapping before */
+    if (marked) {
+        memset(m->seen, 0, marked);
+        memset(m->ruled, 0, marked);
+    }
     m->max_id = FIRST_IDS;
     m->frozen = m->in_predecessor = false;
     m->text.size = 0;
     m->event_count = 0;
     m->rule_end = SIZE_MAX;
-    if (m->id_capacity) {
-        memset(m->seen, 0, m->id_capacity);
-        memset(m->ruled, 0, m->id_capacity);
-    }
 }
 
-static tn_map_reason reason_for(outcome result, bool repairing)
+static tn_map_reason reason_for(tn_expansion result, bool repairing)
 {
     switch (result) {
-    case RAN:
-    case NO_MEMORY:
+    case TN_EXPANDED:
+    case TN_EXPAND_NO_MEMORY:
         return TN_MAP_VALID;
-    case NO_CODON:
+    case TN_EXPAND_NO_CODON:
         return repairing ? TN_MAP_REPAIR_OUT_OF_CODONS : TN_MAP_OUT_OF_CODONS;
-    case TOO_DEEP:
+    case TN_EXPAND_TOO_DEEP:
         return TN_MAP_TOO_DEEP;
-    case TOO_LONG:
+    case TN_EXPAND_TOO_LONG:
         return repairing ? TN_MAP_REPAIR_TOO_LONG : TN_MAP_TOO_LONG;
     }
     return TN_MAP_VALID;
@@ -94,20 +97,20 @@ tn_status tn_map_genome(tn_mapper *m, const uint64_t *codons, size_t count, cons
     bool genr8 = m->grammar->dialect == TN_DIALECT_GENR8, repairing = false;
     memset(mapping, 0, sizeof *mapping);
     start(m, codons, count, options);
-    outcome result = tn_mapper_expand(m, 0, 1, options->record);
-    if (result == RAN && !reserve(&m->text.data, &m->text.capacity, m->text.size, 1, 1))
-        result = NO_MEMORY;
-    if (result == RAN) {
+    tn_expansion result = tn_mapper_expand(m, 0, 1, options->record);
+    if (result == TN_EXPANDED && !tn_array_reserve(&m->text.data, &m->text.capacity, m->text.size, 1, 1))
+        result = TN_EXPAND_NO_MEMORY;
+    if (result == TN_EXPANDED) {
         m->text.data[m->text.size] = '\0';
         describe(m, mapping);
         repairing = genr8 && options->repair != TN_REPAIR_OFF && m->grammar->successor != TN_NO_RECORD;
         if (repairing)
             result = tn_mapper_repair(m, options);
     }
-    if (result == NO_MEMORY)
+    if (result == TN_EXPAND_NO_MEMORY)
         return tn_fail_memory(error);
     mapping->reason = reason_for(result, repairing);
-    mapping->valid = result == RAN;
+    mapping->valid = result == TN_EXPANDED;
     mapping->phenotype = mapping->has_phenotype ? m->text.data : "";
     if (repairing && mapping->valid) {
         mapping->repaired = true;

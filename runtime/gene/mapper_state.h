@@ -14,29 +14,30 @@
 
 #include "runtime/gene/mapper.h"
 
-#define NO_ID UINT32_MAX
-#define COPY 16u      /* short terminals are copied by this many bytes at once */
-#define EDGE_TEXT 16u /* "Edge" and ten digits, at most */
+#define TN_NO_EDGE_ID UINT32_MAX
+#define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
+#define TN_EDGE_TEXT 16u /* "Edge" and ten digits, at most */
 
 /* What to go back to: a production after one of its non-terminals, or a loop. */
-typedef struct frame {
+typedef struct tn_map_frame {
     const uint32_t *ip; /* next word; of a loop: its first */
     uint32_t depth;
     uint32_t rule; /* that ends when this frame is popped (recording), of a loop: rounds so far */
     uint32_t ids[TN_EDGE_LETTERS];
     uint32_t mark; /* tn_rule_mark of the rule that ends when this frame is popped */
-} frame;
+} tn_map_frame;
 
-typedef struct writing {
+typedef struct tn_map_text {
     char *data;
     size_t size, capacity;
-} writing;
+} tn_map_text;
 
 struct tn_mapper {
     const tn_grammar *grammar;
-    frame *frames;
+    tn_map_frame *frames;
     size_t frame_capacity;
-    writing text, added, repaired;
+    tn_map_text text, added, repaired;
+    tn_map_text rule; /* that repair writes */
     tn_event *events;
     size_t event_count, event_capacity;
     /* genr8: edge types by number: does it occur, is there a rule for it */
@@ -44,6 +45,8 @@ struct tn_mapper {
     size_t id_capacity;
     uint32_t *repaired_ids;
     size_t repaired_count, repaired_capacity;
+    uint32_t *waiting; /* while repairing, a heap: types that occur without a rule, the lowest first */
+    size_t waiting_count, waiting_capacity;
     /* the predecessor being written: its edges, and which context signs it has */
     uint32_t *predecessor;
     size_t predecessor_count, predecessor_capacity;
@@ -58,10 +61,16 @@ struct tn_mapper {
     bool frozen; /* while repairing: no new edge types */
 };
 
-typedef enum outcome { RAN, NO_CODON, TOO_DEEP, TOO_LONG, NO_MEMORY } outcome;
+typedef enum tn_expansion {
+    TN_EXPANDED,
+    TN_EXPAND_NO_CODON,
+    TN_EXPAND_TOO_DEEP,
+    TN_EXPAND_TOO_LONG,
+    TN_EXPAND_NO_MEMORY
+} tn_expansion;
 
 /* Room for `more` items of `size` bytes after the first `used`, doubling. */
-static inline bool reserve(void *items, size_t *capacity, size_t used, size_t more, size_t size)
+static inline bool tn_array_reserve(void *items, size_t *capacity, size_t used, size_t more, size_t size)
 {
     if (used + more <= *capacity)
         return true;
@@ -78,9 +87,9 @@ static inline bool reserve(void *items, size_t *capacity, size_t used, size_t mo
     return true;
 }
 
-static inline bool append(writing *text, const char *data, size_t size)
+static inline bool tn_text_append(tn_map_text *text, const char *data, size_t size)
 {
-    if (!reserve(&text->data, &text->capacity, text->size, size + 1, 1))
+    if (!tn_array_reserve(&text->data, &text->capacity, text->size, size + 1, 1))
         return false;
     memcpy(text->data + text->size, data, size);
     text->size += size;
@@ -89,15 +98,15 @@ static inline bool append(writing *text, const char *data, size_t size)
 }
 
 /* Keeps one step of the derivation. */
-static inline bool record(tn_mapper *m, tn_event event)
+static inline bool tn_mapper_record(tn_mapper *m, tn_event event)
 {
-    if (!reserve(&m->events, &m->event_capacity, m->event_count, 1, sizeof *m->events))
+    if (!tn_array_reserve(&m->events, &m->event_capacity, m->event_count, 1, sizeof *m->events))
         return false;
     m->events[m->event_count++] = event;
     return true;
 }
 
-static inline bool read_codon(tn_mapper *m, uint64_t *codon)
+static inline bool tn_mapper_read(tn_mapper *m, uint64_t *codon)
 {
     if (m->used >= m->readable)
         return false;
@@ -108,13 +117,26 @@ static inline bool read_codon(tn_mapper *m, uint64_t *codon)
     return true;
 }
 
+/* A long text counts as further steps, so that steps bound memory as they bound time. False: there were not enough. */
+static inline bool tn_pay_for_text(uint64_t *steps, size_t length)
+{
+    uint64_t price = length / TN_MAP_STEP_BYTES;
+    if (price > *steps)
+        return false;
+    *steps -= price;
+    return true;
+}
+
 /* Expands a rule at that depth to the end of the text. */
-outcome tn_mapper_expand(tn_mapper *mapper, uint32_t rule, uint32_t depth, bool recorded);
+tn_expansion tn_mapper_expand(tn_mapper *mapper, uint32_t rule, uint32_t depth, bool recorded);
 
 /* What tn_mapper_expand(mapper, 0, 1, false) does of a ge grammar, faster. */
-outcome tn_mapper_expand_ge(tn_mapper *mapper);
+tn_expansion tn_mapper_expand_ge(tn_mapper *mapper);
+
+/* While repairing: an edge type occurs for the first time. */
+bool tn_repair_waits(tn_mapper *mapper, uint32_t id);
 
 /* Gives every edge type that occurs a rule: the sentence with them is in mapper->repaired (5.1). */
-outcome tn_mapper_repair(tn_mapper *mapper, const tn_map_options *options);
+tn_expansion tn_mapper_repair(tn_mapper *mapper, const tn_map_options *options);
 
 #endif

@@ -250,11 +250,96 @@ static void test_genr8_cases(void **state)
     tn_grammar_free(g);
 }
 
+/* ---- bounds */
+
+/* A sentence with 100,000 edge types that have no rule: repaired in ascending order, but for Edge1, which only the
+ * first of the added rules mentions. */
+enum { TYPES = 100000 };
+
+static tn_map_reason repair_many(const tn_grammar *grammar, const tn_map_options *options)
+{
+    uint64_t *codons = calloc(9 + 4 * TYPES, sizeof *codons);
+    size_t count = 6; /* start symbol, rule, predecessor, its edge, successor, its edge: all 0 */
+    assert_non_null(codons);
+    for (uint64_t c = 0; c < TYPES; c++) {
+        codons[count++] = c + 1; /* another one, */
+        codons[count++] = c + 2; /* of a new type */
+    }
+    codons[count++] = 0;   /* enough */
+    codons[count + 1] = 1; /* the successor of Edge2 is Edge1 */
+    tn_mapper *mapper = tn_mapper_new(grammar);
+    tn_mapping m;
+    assert_int_equal(tn_map_genome(mapper, codons, 9 + 4 * TYPES, options, &m, NULL), TN_OK);
+    tn_map_reason reason = m.reason;
+    assert_true(m.has_phenotype);
+    assert_int_equal(m.max_id, TYPES + 2);
+    assert_int_equal(m.valid, reason == TN_MAP_VALID);
+    if (m.valid) {
+        bool one = options->repair == TN_REPAIR_GENOME; /* Edge1 occurs */
+        assert_int_equal(m.repaired_count, TYPES + one);
+        for (uint32_t i = 0; i < TYPES; i++)
+            assert_int_equal(m.repaired_ids[i + (one && i > 0)], i + 2);
+        assert_true(!one || m.repaired_ids[1] == 1);
+    }
+    free(codons);
+    tn_mapper_free(mapper);
+    return reason;
+}
+
+static void test_repair_is_bounded(void **state)
+{
+    (void)state;
+    tn_grammar *g = test_grammar("%dialect genr8\n%repair genome\n<s> ::= <RewriteRule> ';' { Edge }\n"
+                                 "<RewriteRule> ::= <Predecessor> -> <Successor>\n<Predecessor> ::= Edge\n"
+                                 "<Successor> ::= Edge\n");
+    tn_map_options options = tn_map_options_of(g);
+    assert_int_equal(repair_many(g, &options), TN_MAP_VALID);
+    options.max_steps = 4 * TYPES;
+    assert_int_equal(repair_many(g, &options), TN_MAP_REPAIR_TOO_LONG);
+    options.repair = TN_REPAIR_IDENTITY; /* a step for each rule, and nothing else */
+    assert_int_equal(repair_many(g, &options), TN_MAP_VALID);
+    options.max_steps = 2 * TYPES + TYPES / 2;
+    assert_int_equal(repair_many(g, &options), TN_MAP_REPAIR_TOO_LONG);
+    tn_grammar_free(g);
+}
+
+/* Few symbols can be a long text: that too counts as steps, and alike in all forms of the machine. */
+static void test_long_texts_are_bounded(void **state)
+{
+    (void)state;
+    char text[1400] = "<s> ::= <t><s> | <t>\n<t> ::= ";
+    memset(text + strlen(text), 'x', 10 * TN_MAP_STEP_BYTES);
+    static const uint64_t twice[] = {0, 0, 1, 0};
+    tn_grammar *g = test_grammar(text);
+    tn_mapper *mapper = tn_mapper_new(g);
+    tn_mapping m;
+    uint64_t enough = 0;
+    for (uint64_t steps = 1; steps < 60; steps++) {
+        tn_map_reason reasons[2];
+        for (int recorded = 0; recorded < 2; recorded++) {
+            tn_map_options options = {.max_steps = steps, .record = recorded};
+            assert_int_equal(tn_map_genome(mapper, twice, 4, &options, &m, NULL), TN_OK);
+            reasons[recorded] = m.reason;
+        }
+        assert_int_equal(reasons[0], reasons[1]);
+        assert_true(reasons[0] == TN_MAP_VALID || (reasons[0] == TN_MAP_TOO_LONG && !enough));
+        enough = reasons[0] == TN_MAP_VALID && !enough ? steps : enough;
+    }
+    assert_true(enough > 20 && enough < 40);
+    tn_map_options endless = {.wraps = UINT32_MAX};
+    assert_int_equal(tn_map_genome(mapper, twice, 2, &endless, &m, NULL), TN_OK);
+    assert_int_equal(m.reason, TN_MAP_TOO_LONG);
+    tn_mapper_free(mapper);
+    tn_grammar_free(g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ge_rows),        cmocka_unit_test(test_genr8_rows),  cmocka_unit_test(test_all_rows),
-        cmocka_unit_test(test_worked_example), cmocka_unit_test(test_small_cases), cmocka_unit_test(test_genr8_cases),
+        cmocka_unit_test(test_ge_rows),           cmocka_unit_test(test_genr8_rows),
+        cmocka_unit_test(test_all_rows),          cmocka_unit_test(test_worked_example),
+        cmocka_unit_test(test_small_cases),       cmocka_unit_test(test_genr8_cases),
+        cmocka_unit_test(test_repair_is_bounded), cmocka_unit_test(test_long_texts_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
