@@ -123,6 +123,9 @@ tn_status tn_evolution_rescore(tn_evolution *evolution, tn_error *error);
 const tn_individual *const *tn_evolution_members(const tn_evolution *evolution, size_t *count);
 const tn_individual *const *tn_evolution_born(const tn_evolution *evolution, size_t *count);
 
+/* The number of the newest generation; that after the first step is 0. */
+uint32_t tn_evolution_generation(const tn_evolution *evolution);
+
 tn_generation_stats tn_evolution_stats(const tn_evolution *evolution);
 
 /* With several objectives: how many of the members, from the best on, are on the first front. */

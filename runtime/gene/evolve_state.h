@@ -1,4 +1,10 @@
-/* A run of evolution as its parts see it: evolve.c moves it on, evolve_stats.c looks at it. Of no use elsewhere. */
+/* A run of evolution as its parts see it. Of no use elsewhere.
+ *
+ * evolve.c        moves it on, generation by generation
+ * evolve_birth.c  makes genomes and maps them
+ * evolve_score.c  gives them their scores
+ * evolve_stats.c  looks at it
+ */
 #ifndef TARTAN_GENE_EVOLVE_STATE_H
 #define TARTAN_GENE_EVOLVE_STATE_H
 
@@ -27,6 +33,19 @@ struct tn_evolution {
     tn_recall *recall;
     void *recall_context;
     uint64_t evaluations, births;
+    uint64_t *hashes; /* of the members' sentences, while distinct ones are counted */
 };
+
+/* Takes places for the next `count` to be born. */
+void tn_evolution_take_places(tn_evolution *evolution, size_t count);
+
+/* Makes and maps all to be born, in pairs, by all threads. */
+tn_status tn_evolution_make(tn_evolution *evolution, bool first, tn_error *error);
+
+/* Makes and maps the children of one pair. */
+tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, tn_error *error);
+
+/* Gives scores to individuals that are mapped. */
+tn_status tn_evolution_score(tn_evolution *evolution, tn_individual **individuals, size_t count, tn_error *error);
 
 #endif

@@ -15,6 +15,11 @@ const tn_individual *const *tn_evolution_born(const tn_evolution *e, size_t *cou
     return (const tn_individual *const *)e->born;
 }
 
+uint32_t tn_evolution_generation(const tn_evolution *e)
+{
+    return e->generation;
+}
+
 size_t tn_evolution_front(const tn_evolution *e)
 {
     size_t count = 0;
@@ -31,18 +36,15 @@ static int compare_hashes(const void *left, const void *right)
 
 static uint32_t count_distinct(const tn_evolution *e)
 {
-    uint64_t *hashes = malloc((e->member_count + 1) * sizeof *hashes);
+    uint64_t *hashes = e->hashes;
     size_t count = 0;
     uint32_t distinct = 0;
-    if (!hashes)
-        return 0;
     for (size_t i = 0; i < e->member_count; i++)
         if (e->members[i]->reason == TN_MAP_VALID)
             hashes[count++] = e->members[i]->hash[0];
     qsort(hashes, count, sizeof *hashes, compare_hashes);
     for (size_t i = 0; i < count; i++)
         distinct += i == 0 || hashes[i] != hashes[i - 1];
-    free(hashes);
     return distinct;
 }
 

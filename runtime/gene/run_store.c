@@ -259,7 +259,7 @@ tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, s
 {
     size_t count;
     const tn_individual *const *born = tn_evolution_born(evolution, &count);
-    uint32_t generation = tn_evolution_stats(evolution).generation;
+    uint32_t generation = tn_evolution_generation(evolution);
     tn_status status = run(store, "BEGIN IMMEDIATE", error);
     if (status == TN_OK)
         status = put_events(store, generation, events, event_count, error);

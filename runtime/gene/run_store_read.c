@@ -131,7 +131,7 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
     sqlite3_stmt *statement = NULL;
     size_t count;
     const tn_individual *const *members = tn_evolution_members(evolution, &count);
-    uint32_t generation = tn_evolution_stats(evolution).generation;
+    uint32_t generation = tn_evolution_generation(evolution);
     tn_status status = prepare(store, "SELECT members FROM generation WHERE number=?", &statement, error);
     if (status != TN_OK)
         return status;
