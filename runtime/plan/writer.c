@@ -284,7 +284,7 @@ void tn_plan_writer_free(tn_plan_writer *writer)
         return;
     if (!writer->closed && writer->output.stream)
         tn_output_discard(&writer->output);
-    sqlite3_finalize(writer->insert);
+    tn_writer_sqlite_finalize(writer);
     sqlite3_close(writer->database); /* rolls back the batch in hand */
     free(writer->text.data);
     free(writer->packed.data);

@@ -19,6 +19,18 @@ typedef struct tn_metadata_item {
 
 #define TN_METADATA_ITEMS 9
 
+/* Plans that go into a SQLite library by one statement. */
+#define TN_WAITING_MAX 16
+
+/* One of them: where its texts are in `text` and its trays in `packed`. */
+typedef struct tn_waiting_plan {
+    uint64_t number;
+    size_t length; /* trays */
+    int64_t total; /* nanometres */
+    size_t rank, text, text_end;
+    size_t packed, packed_end;
+} tn_waiting_plan;
+
 struct tn_plan_writer {
     const tn_schema *schema;
     tn_plan_format format;
@@ -27,13 +39,15 @@ struct tn_plan_writer {
     bool closed;
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
-    tn_buffer text;        /* of the plan in hand */
+    tn_buffer text;        /* of the plan in hand; SQLite: of those that wait */
     tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
     size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
     tn_buffer packed;
 
     sqlite3 *database;
-    sqlite3_stmt *insert;
+    sqlite3_stmt *insert_one, *insert_waiting; /* one plan, TN_WAITING_MAX of them */
+    tn_waiting_plan waiting[TN_WAITING_MAX];
+    size_t waiting_count;
     uint32_t batch, in_batch;
     uint64_t number; /* of the plan written last */
     uint64_t resumed;
@@ -57,5 +71,6 @@ tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options 
 tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
                                  tn_error *error);
 tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error);
+void tn_writer_sqlite_finalize(tn_plan_writer *writer);
 
 #endif

@@ -191,12 +191,27 @@ static tn_status open_database(tn_plan_writer *writer, tn_error *error)
     return run(writer, "PRAGMA cell_size_check = 1", error);
 }
 
-static tn_status prepare_insert(tn_plan_writer *writer, tn_error *error)
+/* A statement that inserts so many plans. */
+static tn_status prepare_insert(tn_plan_writer *writer, size_t plans, sqlite3_stmt **insert, tn_error *error)
 {
-    const char *sql = writer->length_field != UINT32_MAX ? "INSERT INTO plans VALUES (?1, ?2, ?3, ?6, ?4, ?5)"
-                                                         : "INSERT INTO plans VALUES (?1, ?2, ?3, ?4, ?5)";
-    return sqlite3_prepare_v2(writer->database, sql, -1, &writer->insert, NULL) == SQLITE_OK ? TN_OK
-                                                                                             : failed(writer, error);
+    const char *row = writer->length_field != UINT32_MAX ? ",(?,?,?,?,?,?)" : ",(?,?,?,?,?)";
+    sqlite3_str *sql = sqlite3_str_new(writer->database);
+    sqlite3_str_appendall(sql, "INSERT INTO plans VALUES ");
+    sqlite3_str_appendall(sql, row + 1);
+    for (size_t i = 1; i < plans; i++)
+        sqlite3_str_appendall(sql, row);
+    char *text = sqlite3_str_finish(sql);
+    if (!text)
+        return tn_fail_memory(error);
+    int code = sqlite3_prepare_v2(writer->database, text, -1, insert, NULL);
+    sqlite3_free(text);
+    return code == SQLITE_OK ? TN_OK : failed(writer, error);
+}
+
+static tn_status prepare_inserts(tn_plan_writer *writer, tn_error *error)
+{
+    tn_status status = prepare_insert(writer, 1, &writer->insert_one, error);
+    return status == TN_OK ? prepare_insert(writer, TN_WAITING_MAX, &writer->insert_waiting, error) : status;
 }
 
 tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
@@ -213,51 +228,84 @@ tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options 
         status = create(writer, &options->metadata, error);
     if (status == TN_OK && !is_new && !options->resume)
         status = run(writer, "VACUUM", error); /* gives back the space of the library that was there */
-    return status == TN_OK ? prepare_insert(writer, error) : status;
+    return status == TN_OK ? prepare_inserts(writer, error) : status;
 }
 
-/* ---- writing */
+/* ---- writing
+ *
+ * A statement has a price of its own, whatever it inserts: plans wait for one another and go in so many a statement. */
 
-static bool make_plan(tn_plan_writer *writer, const tn_tray *trays, size_t length)
+/* Adds the plan to those that wait. */
+static bool make_plan(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
 {
-    writer->text.size = writer->packed.size = 0;
-    return tn_buffer_append(&writer->text, "", 0) && tn_buffer_append(&writer->packed, "", 0) &&
-           tn_writer_line(writer, trays, length, &writer->text) &&
-           tn_pack_trays(writer->schema, trays, length, &writer->packed);
+    tn_waiting_plan *plan = &writer->waiting[writer->waiting_count++];
+    plan->rank = writer->text.size;
+    bool done = tn_buffer_append(&writer->text, rank, strlen(rank));
+    plan->text = writer->text.size;
+    done = done && tn_writer_line(writer, trays, length, &writer->text);
+    plan->text_end = writer->text.size;
+    plan->packed = writer->packed.size;
+    done = done && tn_buffer_append(&writer->packed, "", 0); /* no bytes, and not NULL: the plan without trays */
+    done = done && tn_pack_trays(writer->schema, trays, length, &writer->packed);
+    plan->packed_end = writer->packed.size;
+    plan->length = length;
+    plan->total = writer->length_field != UINT32_MAX ? tn_writer_total(writer, trays, length) : 0;
+    plan->number = ++writer->number;
+    return done;
+}
+
+static void bind_plan(const tn_plan_writer *writer, sqlite3_stmt *insert, const tn_waiting_plan *plan, int *column)
+{
+    const char *text = writer->text.data, *packed = writer->packed.data;
+    sqlite3_bind_int64(insert, ++*column, (sqlite3_int64)plan->number);
+    sqlite3_bind_text(insert, ++*column, text + plan->rank, (int)(plan->text - plan->rank), SQLITE_STATIC);
+    sqlite3_bind_int64(insert, ++*column, (sqlite3_int64)plan->length);
+    if (writer->length_field != UINT32_MAX)
+        sqlite3_bind_int64(insert, ++*column, plan->total);
+    sqlite3_bind_text(insert, ++*column, text + plan->text, (int)(plan->text_end - plan->text), SQLITE_STATIC);
+    sqlite3_bind_blob(insert, ++*column, packed + plan->packed, (int)(plan->packed_end - plan->packed), SQLITE_STATIC);
+}
+
+/* Inserts the plans that wait. */
+static tn_status flush(tn_plan_writer *writer, tn_error *error)
+{
+    bool full = writer->waiting_count == TN_WAITING_MAX;
+    sqlite3_stmt *insert = full ? writer->insert_waiting : writer->insert_one;
+    int column = 0;
+    for (size_t i = 0; i < writer->waiting_count; i++) {
+        bind_plan(writer, insert, &writer->waiting[i], &column);
+        if (full && i + 1 < TN_WAITING_MAX)
+            continue;
+        int code = sqlite3_step(insert);
+        sqlite3_reset(insert);
+        if (code != SQLITE_DONE)
+            return failed(writer, error);
+        column = 0;
+    }
+    writer->waiting_count = writer->text.size = writer->packed.size = 0;
+    return TN_OK;
 }
 
 tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
                                  tn_error *error)
 {
-    if (!make_plan(writer, trays, length))
+    tn_status status = writer->in_batch == 0 ? run(writer, "BEGIN IMMEDIATE", error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    if (!make_plan(writer, rank, trays, length))
         return tn_fail_memory(error);
-    if (writer->in_batch == 0) {
-        tn_status status = run(writer, "BEGIN IMMEDIATE", error);
-        if (status != TN_OK)
-            return status;
-    }
-    sqlite3_stmt *insert = writer->insert;
-    sqlite3_bind_int64(insert, 1, (sqlite3_int64)(writer->number + 1));
-    sqlite3_bind_text(insert, 2, rank, -1, SQLITE_STATIC);
-    sqlite3_bind_int64(insert, 3, (sqlite3_int64)length);
-    sqlite3_bind_text(insert, 4, writer->text.data, (int)writer->text.size, SQLITE_STATIC);
-    sqlite3_bind_blob(insert, 5, writer->packed.data, (int)writer->packed.size, SQLITE_STATIC);
-    if (writer->length_field != UINT32_MAX)
-        sqlite3_bind_int64(insert, 6, tn_writer_total(writer, trays, length));
-    int code = sqlite3_step(insert);
-    sqlite3_reset(insert);
-    if (code != SQLITE_DONE)
-        return failed(writer, error);
-    writer->number++;
-    if (++writer->in_batch < writer->batch)
-        return TN_OK;
+    bool batch_ends = ++writer->in_batch == writer->batch;
+    if (batch_ends || writer->waiting_count == TN_WAITING_MAX)
+        status = flush(writer, error);
+    if (status != TN_OK || !batch_ends)
+        return status;
     writer->in_batch = 0;
     return run(writer, "COMMIT", error);
 }
 
 tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
 {
-    tn_status status = writer->in_batch > 0 ? TN_OK : run(writer, "BEGIN IMMEDIATE", error);
+    tn_status status = writer->in_batch > 0 ? flush(writer, error) : run(writer, "BEGIN IMMEDIATE", error);
     writer->in_batch = 0;
     if (status == TN_OK)
         status = run(writer, "CREATE UNIQUE INDEX IF NOT EXISTS plans_rank ON plans (rank)", error);
@@ -265,11 +313,17 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
         status = set_metadata(writer, "complete", "1", error);
     if (status == TN_OK)
         status = run(writer, "COMMIT", error);
-    sqlite3_finalize(writer->insert);
-    writer->insert = NULL;
+    tn_writer_sqlite_finalize(writer);
     if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
         return failed(writer, error);
     if (status == TN_OK)
         writer->database = NULL;
     return status;
+}
+
+void tn_writer_sqlite_finalize(tn_plan_writer *writer)
+{
+    sqlite3_finalize(writer->insert_one);
+    sqlite3_finalize(writer->insert_waiting);
+    writer->insert_one = writer->insert_waiting = NULL;
 }
