@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/interrupt.h"
 #include "cli/option_rows.h"
@@ -17,6 +18,7 @@ typedef struct enumeration {
     const tn_ready_library *ready;
     tn_plan_writer *writer;
     mpz_t rank, to;
+    mpz_t first;             /* the first of all ranks, before anything was resumed */
     uint64_t written, limit; /* plans in the file, those resumed included; 0: no limit */
     bool limited;
 } enumeration;
@@ -34,6 +36,7 @@ static void find_range(enumeration *e)
         mpz_set(e->to, kept);
     if (mpz_cmp(e->rank, e->to) > 0)
         mpz_set(e->rank, e->to);
+    mpz_set(e->first, e->rank);
     mpz_clears(kept, zero, NULL);
 }
 
@@ -71,10 +74,49 @@ static bool is_done(const enumeration *e)
     return e->limited && e->written >= e->limit;
 }
 
+/* Keeps what was written: whole batches of a database, every plan of anything else. */
 static void interrupt(enumeration *e)
 {
-    tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+    if (tn_plan_writer_resumes(e->writer)) {
+        tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+    } else {
+        tn_job_plan_close(e->job, e->writer);
+        e->writer = NULL;
+        char *rank = mpz_get_str(NULL, 10, e->rank);
+        if (rank)
+            tn_job_note(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
+                        e->written, rank);
+        free(rank);
+    }
     e->job->exit_code = TN_EXIT_INTERRUPTED;
+}
+
+/* ---- progress: plans, where there is a limit of them, else ranks */
+
+static double ranks_from_first(const enumeration *e, const mpz_t rank)
+{
+    mpz_t ranks;
+    mpz_init(ranks);
+    mpz_sub(ranks, rank, e->first);
+    double count = mpz_get_d(ranks);
+    mpz_clear(ranks);
+    return count;
+}
+
+static double done(const enumeration *e)
+{
+    return e->limited ? (double)e->written : ranks_from_first(e, e->rank);
+}
+
+static void begin_progress(const enumeration *e, tn_progress *progress)
+{
+    const tn_settings *settings = e->job->settings;
+    bool to_stdout = !settings->output || strcmp(settings->output, "-") == 0;
+    double ranks = ranks_from_first(e, e->to), plans = (double)e->limit;
+    bool enough = settings->mirror || plans < ranks; /* as far as can be known */
+    tn_progress_begin(progress, settings->mirror && !e->limited ? "ranks" : "plans", done(e),
+                      e->limited && enough ? plans : ranks);
+    progress->shows = progress->shows && !(to_stdout && isatty(STDOUT_FILENO)); /* not between the plans */
 }
 
 static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
@@ -83,15 +125,9 @@ static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
     const tn_tray *trays;
     uint32_t length;
     uint64_t seen = 0;
-    mpz_t left;
     tn_progress progress;
     tn_status status = TN_OK;
-    mpz_init(left);
-    mpz_sub(left, e->to, e->rank);
-    double total = mpz_get_d(left);
-    if (e->limited && !mirror && total > (double)(e->limit - e->written))
-        total = (double)(e->limit - e->written);
-    tn_progress_begin(&progress, "plans", total);
+    begin_progress(e, &progress);
     while (status == TN_OK && !is_done(e) && tn_cursor_next(cursor, &trays, &length)) {
         if (!mirror || tn_library_mirror_first(e->ready->library, trays, length)) {
             status = tn_plan_writer_write(e->writer, e->rank, trays, length, error);
@@ -99,13 +135,12 @@ static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
         }
         mpz_add_ui(e->rank, e->rank, 1);
         if (++seen % LOOK_EVERY == 0) {
-            tn_progress_update(&progress, (double)seen);
+            tn_progress_update(&progress, done(e));
             if (tn_interrupted())
                 break;
         }
     }
     tn_progress_end(&progress);
-    mpz_clear(left);
     return status;
 }
 
@@ -124,7 +159,8 @@ static void enumerate(enumeration *e)
         tn_job_fail(e->job, &error);
     else if (tn_interrupted())
         interrupt(e);
-    tn_job_plan_close(e->job, e->writer);
+    if (e->writer)
+        tn_job_plan_close(e->job, e->writer);
 }
 
 static bool check_options(tn_job *job)
@@ -146,11 +182,11 @@ static int run(const tn_command *command, const tn_settings *settings)
         enumeration e = {
             .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
         char *made = describe(settings);
-        mpz_inits(e.rank, e.to, NULL);
+        mpz_inits(e.rank, e.to, e.first, NULL);
         find_range(&e);
         if (made && tn_job_plan_writer(&job, &ready, made, &e.writer))
             enumerate(&e);
-        mpz_clears(e.rank, e.to, NULL);
+        mpz_clears(e.rank, e.to, e.first, NULL);
         free(made);
     }
     tn_library_close(&ready);
@@ -181,7 +217,9 @@ const tn_command tn_command_enumerate = {
         "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. Any "
         "stretch of ranks "
         "can be asked for, and ranks may have any number of digits. A database (-o FILE.sqlite) is written in batches "
-        "that survive a crash; --resume goes on where one ended.",
+        "that survive a crash; --resume goes on where one ended. Anything else that is interrupted keeps the plans "
+        "written, and a note says "
+        "from which rank to go on.",
     .example = "$ tartan enumerate terrace.plan --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),

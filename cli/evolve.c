@@ -32,7 +32,7 @@ static void evolve(tn_evolution_session *e)
     char text[200] = "generations";
     double start = now();
     uint64_t before = e->run.generations ? tn_evolution_stats(e->run.evolution).evaluations : 0;
-    tn_progress_begin(&progress, text, (double)e->generations + 1);
+    tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
     tn_status status = TN_OK;
     while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
         status = tn_run_step(&e->run, NULL, 0, &error);

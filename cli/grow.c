@@ -135,7 +135,7 @@ static tn_status grow(run_state *run, tn_error *error)
 {
     tn_progress progress;
     tn_status status = note_step(run, error);
-    tn_progress_begin(&progress, "steps", run->until_faces ? 0 : run->study.steps);
+    tn_progress_begin(&progress, "steps", 0, run->until_faces ? 0 : run->study.steps);
     while (status == TN_OK && !is_enough(run) && !tn_interrupted()) {
         uint32_t complete = tn_growth_steps(run->growth);
         tn_progress_update(&progress, complete);

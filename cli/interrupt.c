@@ -13,7 +13,8 @@ static void note(int signal_number)
 
 void tn_interrupt_watch(void)
 {
-    struct sigaction action = {.sa_handler = note, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = note,
+                               .sa_flags = (int)(SA_RESETHAND | SA_RESTART)}; /* no write cut short */
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);

@@ -14,10 +14,15 @@ static double now(void)
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-void tn_progress_begin(tn_progress *progress, const char *what, double total)
+void tn_progress_begin(tn_progress *progress, const char *what, double done, double total)
 {
     double time = now();
-    *progress = (tn_progress){what, total, time, time + SECONDS_BEFORE - SECONDS_BETWEEN, isatty(STDERR_FILENO), false};
+    *progress = (tn_progress){.what = what,
+                              .before = done,
+                              .total = total,
+                              .start = time,
+                              .last = time + SECONDS_BEFORE - SECONDS_BETWEEN,
+                              .shows = isatty(STDERR_FILENO)};
 }
 
 /* Seconds as people say them. */
@@ -40,7 +45,7 @@ void tn_progress_update(tn_progress *progress, double done)
         return;
     progress->last = time;
     progress->shown = true;
-    double rate = done / (time - progress->start);
+    double rate = (done - progress->before) / (time - progress->start);
     fprintf(stderr, "\r\033[K%.0f %s, %.0f/s", done, progress->what, rate);
     if (progress->total > 0 && rate > 0) {
         char left[32];

@@ -7,14 +7,15 @@
 
 typedef struct tn_progress {
     const char *what;   /* "plans" */
-    double total;       /* 0 where it is not known */
+    double before;      /* done before this run began: no part of its rate */
+    double total;       /* with what was done before; 0 where it is not known */
     double start, last; /* seconds */
     bool shows, shown;
 } tn_progress;
 
-void tn_progress_begin(tn_progress *progress, const char *what, double total);
+void tn_progress_begin(tn_progress *progress, const char *what, double done, double total);
 
-/* Says how much is done; draws a few times a second at most. */
+/* Says how much is done, with what was before; draws a few times a second at most. */
 void tn_progress_update(tn_progress *progress, double done);
 
 /* Wipes the line. */

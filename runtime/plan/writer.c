@@ -242,23 +242,31 @@ static bool append_plan(tn_plan_writer *writer, const char *rank, const tn_tray 
     }
 }
 
+static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                              tn_error *error)
+{
+    if (writer->format == TN_FORMAT_SQLITE)
+        return tn_writer_sqlite_write(writer, rank, trays, length, error);
+    return append_plan(writer, rank, trays, length) ? flush_text(writer, error) : tn_fail_memory(error);
+}
+
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error)
 {
     char room[128];
-    char *digits = room;
-    if (mpz_sizeinbase(rank, 10) + 2 > sizeof room && !(digits = mpz_get_str(NULL, 10, rank)))
-        return tn_fail_memory(error);
-    if (digits == room)
-        mpz_get_str(room, 10, rank);
-    tn_status status;
-    if (writer->format == TN_FORMAT_SQLITE)
-        status = tn_writer_sqlite_write(writer, digits, trays, length, error);
-    else
-        status = append_plan(writer, digits, trays, length) ? flush_text(writer, error) : tn_fail_memory(error);
-    if (digits != room)
-        free(digits);
+    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
+        return write_ranked(writer, NULL, trays, length, error); /* they say no ranks */
+    if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
+        return write_ranked(writer, mpz_get_str(room, 10, rank), trays, length, error);
+    char *digits = mpz_get_str(NULL, 10, rank);
+    tn_status status = digits ? write_ranked(writer, digits, trays, length, error) : tn_fail_memory(error);
+    free(digits);
     return status;
+}
+
+bool tn_plan_writer_resumes(const tn_plan_writer *writer)
+{
+    return writer->format == TN_FORMAT_SQLITE;
 }
 
 uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank)
