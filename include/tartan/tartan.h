@@ -135,6 +135,10 @@ TARTAN_API tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *t
 TARTAN_API tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends,
                                           size_t count, unsigned threads, uint64_t *bits, tartan_error *error);
 
+/* Does any of the rules match? Sets matches[i] to 1 or 0; otherwise as tartan_match_all, and faster. */
+TARTAN_API tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays, const size_t *ends,
+                                          size_t count, unsigned threads, uint8_t *matches, tartan_error *error);
+
 /* ---- libraries */
 
 typedef struct tartan_library tartan_library;

@@ -60,6 +60,7 @@ static tartan_status prepare(tartan_rules *rules, tartan_error *error)
 {
     const tn_rule_record *records = rules->module->RULE_records;
     const tn_rule_record *first = &records[rules->records[0]];
+    const tn_rules_options options = {.any = true};
     uint32_t *functions = malloc(rules->count * sizeof *functions);
     if (!functions)
         return out_of_memory(error);
@@ -75,7 +76,7 @@ static tartan_status prepare(tartan_rules *rules, tartan_error *error)
     tn_error found;
     tn_status status = tn_schema_new(rules->module, first->schema, 0, &rules->schema, &found);
     if (status == TN_OK)
-        status = tn_rules_new(rules->schema, functions, rules->count, NULL, &rules->rules, &found);
+        status = tn_rules_new(rules->schema, functions, rules->count, &options, &rules->rules, &found);
     free(functions);
     return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
@@ -169,13 +170,30 @@ static void name_plan(size_t plan, tartan_error *error)
     snprintf(error->message, sizeof error->message, "plan %zu: %s", plan + 1, message);
 }
 
-/* The plans [begin, end) of tartan_match_all, in one thread; fills `error` where one fails. */
-static void match_some(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t begin, size_t end,
-                       uint64_t *bits, tartan_error *error)
+/* Many plans to be matched. */
+typedef struct request {
+    const tartan_rules *rules;
+    const uint32_t *trays;
+    const size_t *ends;
+    uint64_t *bits;   /* which rules; NULL: asked whether any does */
+    uint8_t *matches; /* whether any does */
+} request;
+
+static tn_status match_array(tn_matcher *matcher, const request *asked, size_t begin, const tn_plan_array *plans,
+                             size_t *done, tn_error *error)
 {
-    const tn_plan_array plans = {trays, begin ? ends[begin - 1] : 0, ends + begin, end - begin};
+    if (asked->bits)
+        return tn_match_all(matcher, plans, asked->bits + begin * tartan_rules_words(asked->rules), done, error);
+    return tn_match_any(matcher, plans, asked->matches + begin, done, error);
+}
+
+/* The plans [begin, end), in one thread; fills `error` where one fails. */
+static void match_some(const request *asked, size_t begin, size_t end, tartan_error *error)
+{
+    const size_t *ends = asked->ends;
+    const tn_plan_array plans = {asked->trays, begin ? ends[begin - 1] : 0, ends + begin, end - begin};
     for (size_t i = begin, start = plans.begin; i < end; start = ends[i++]) {
-        if (tn_api_trays(rules->schema, trays + start, ends[i] - start, error) != TARTAN_OK) {
+        if (tn_api_trays(asked->rules->schema, asked->trays + start, ends[i] - start, error) != TARTAN_OK) {
             name_plan(i, error);
             return;
         }
@@ -183,22 +201,21 @@ static void match_some(const tartan_rules *rules, const uint32_t *trays, const s
     tn_matcher *matcher;
     tn_error found;
     size_t done = 0;
-    if (tn_matcher_new(rules->rules, &matcher, &found) != TN_OK) {
+    if (tn_matcher_new(asked->rules->rules, &matcher, &found) != TN_OK) {
         tn_api_fail(&found, error);
         return;
     }
-    if (tn_match_all(matcher, &plans, bits + begin * tartan_rules_words(rules), &done, &found) != TN_OK) {
+    if (match_array(matcher, asked, begin, &plans, &done, &found) != TN_OK) {
         tn_api_fail(&found, error);
         name_plan(begin + done, error);
     }
     tn_matcher_free(matcher);
 }
 
-tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
-                               unsigned threads, uint64_t *bits, tartan_error *error)
+static tartan_status match_plans(const request *asked, size_t count, unsigned threads, tartan_error *error)
 {
     for (size_t i = 1; i < count; i++)
-        if (ends[i] < ends[i - 1])
+        if (asked->ends[i] < asked->ends[i - 1])
             return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
     size_t workers = threads ? threads : (size_t)omp_get_num_procs();
     if (workers > count)
@@ -208,7 +225,7 @@ tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays,
         return out_of_memory(error);
 #pragma omp parallel for num_threads((int)workers) schedule(static, 1)
     for (size_t share = 0; share < workers; share++)
-        match_some(rules, trays, ends, count * share / workers, count * (share + 1) / workers, bits, &errors[share]);
+        match_some(asked, count * share / workers, count * (share + 1) / workers, &errors[share]);
     /* the first that failed: the same error however many threads there are */
     size_t failed = 0;
     while (failed < workers && errors[failed].status == TARTAN_OK)
@@ -218,4 +235,18 @@ tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays,
         *error = errors[failed];
     free(errors);
     return result;
+}
+
+tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
+                               unsigned threads, uint64_t *bits, tartan_error *error)
+{
+    const request asked = {.rules = rules, .trays = trays, .ends = ends, .bits = bits};
+    return match_plans(&asked, count, threads, error);
+}
+
+tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
+                               unsigned threads, uint8_t *matches, tartan_error *error)
+{
+    const request asked = {.rules = rules, .trays = trays, .ends = ends, .matches = matches};
+    return match_plans(&asked, count, threads, error);
 }

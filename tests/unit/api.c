@@ -179,12 +179,22 @@ static void matches_many(void **state)
     }
     tartan_matcher_free(matcher);
     assert_int_equal(tartan_match_all(rules, trays, ends, 0, 0, bits[0], &error), TARTAN_OK);
+    for (unsigned threads = 1; threads <= 4; threads++) {
+        uint8_t matches[PLANS];
+        memset(matches, 7, sizeof matches);
+        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, &error), TARTAN_OK);
+        for (size_t i = 0; i < PLANS; i++)
+            assert_int_equal(matches[i], bits[0][i] != 0);
+    }
 
     /* the first plan that is wrong is the one that the error is about, in however many threads */
     trays[ends[700] + 0] = 9;
     trays[ends[100] + 1] = 8;
     for (unsigned threads = 1; threads <= 4; threads++) {
         assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, threads, bits[0], &error), TARTAN_INVALID);
+        assert_non_null(strstr(error.message, "number 8"));
+        uint8_t matches[PLANS];
+        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, &error), TARTAN_INVALID);
         assert_non_null(strstr(error.message, "number 8"));
     }
     ends[5] = 0;

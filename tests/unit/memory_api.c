@@ -55,6 +55,8 @@ static tartan_status match(const tartan_module *module, tartan_error *error)
     if (status == TARTAN_OK)
         status = tartan_match_all(rules, trays, (size_t[]){2, 3}, 2, 1, bits, error);
     if (status == TARTAN_OK)
+        status = tartan_match_any(rules, trays, (size_t[]){2, 3}, 2, 1, (uint8_t[2]){0}, error);
+    if (status == TARTAN_OK)
         status = tartan_plan_write(tartan_rules_schema(rules), trays, 3, &line, error);
     if (status == TARTAN_OK) {
         size_t length;
