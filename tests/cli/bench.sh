@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# The programs of the benchmarks still run, and all peers that are here decide as Tartan does. Times are not looked at.
+# (bench_gene is only built: the least it does takes too long for a test.)
+name=bench
+. "$(dirname "$0")/golden.bash"
+bench=$(dirname "$TARTAN")/bench
+
+# runs NAME ARGUMENT...: a line at least, of words and numbers.
+runs() {
+    "$bench/bench_$1" "${@:2}" >"$scratch/$1.out" 2>"$scratch/$1.err" || fail "bench_$1 failed: $(cat "$scratch/$1.err")"
+    [ -s "$scratch/$1.out" ] || fail "bench_$1 printed nothing"
+}
+
+"$TARTAN" build bench/ten.plan -o "$scratch/ten.tnb"
+runs plan "$scratch/ten.tnb" 300 "$scratch"
+for way in 'all tartan' 'all avx2' 'all portable' 'all single' 'all vm' 'all plain' 'any tartan' 'any plain'; do
+    grep -q "^$way [0-9.]*$" "$scratch/plan.out" || fail "bench_plan did not time '$way'"
+done
+is 'plans' "$(wc -l <"$scratch/mask.txt")" 300
+for peer in re2 pcre2 hyperscan; do # they compare what they decide with mask.txt
+    [ ! -e "$bench/bench_$peer" ] || runs "$peer" "$scratch"
+done
+if command -v swipl >/dev/null; then
+    swipl -q -g main bench/ten.pl -- "$scratch" >/dev/null || fail 'the Prolog rules do not run'
+    head -n "$(wc -l <"$scratch/prolog.txt")" "$scratch/mask.txt" | cmp -s - "$scratch/prolog.txt" || fail 'the Prolog rules decide differently'
+fi
+sed -i '1s/.*/1023/' "$scratch/mask.txt" # which no plan can be: a peer must see that
+for peer in re2 pcre2 hyperscan; do
+    if [ -e "$bench/bench_$peer" ] && "$bench/bench_$peer" "$scratch" >/dev/null 2>&1; then
+        fail "bench_$peer does not compare what it decides"
+    fi
+done
+
+runs library "$scratch/ten.tnb" 1000
+runs curve "$scratch/ten.tnb" 100 4 10 2
+for x in 1 10 100; do echo "plans $x $x"; done >"$scratch/points"
+"$bench/bench_plot" "$scratch/points" "$scratch/plot.png" || fail 'bench_plot failed'
+[ -s "$scratch/plot.png" ] || fail 'bench_plot drew nothing'
+
+for scene in square triangle forces boundary; do
+    runs growth "$scene" 2 2 1
+done
+runs openmesh cc 2 1
+runs openmesh loop 2 1
+finish
