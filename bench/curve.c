@@ -27,19 +27,16 @@ static void stop(const char *what)
     exit(1);
 }
 
-static tn_plan_array make(const tn_schema *schema, size_t count, size_t shortest, size_t longest)
+/* Random plans in `trays` and `ends`, which have room for the longest. */
+static void make(const tn_schema *schema, size_t count, size_t shortest, size_t longest, tn_tray *trays, size_t *ends)
 {
-    tn_tray *trays = malloc(count * longest * sizeof *trays);
-    size_t *ends = malloc(count * sizeof *ends), at = 0;
-    if (!trays || !ends)
-        stop("out of memory");
+    size_t at = 0;
     for (size_t i = 0; i < count; i++) {
         size_t length = shortest + tn_random64(2, 0, i) % (longest - shortest + 1);
         for (size_t k = 0; k < length; k++)
             trays[at++] = (tn_tray)(tn_random64(2, i + 1, k) % schema->tray_count);
         ends[i] = at;
     }
-    return (tn_plan_array){trays, 0, ends, count};
 }
 
 /* Every thread its share of the plans. */
@@ -57,6 +54,24 @@ static void match(const tn_rules *rules, const tn_plan_array *plans, size_t thre
             stop(error.message);
         tn_matcher_free(matcher);
     }
+}
+
+/* The fastest seconds a plan. */
+static double fastest(const tn_rules *rules, const tn_plan_array *plans, size_t threads)
+{
+    uint64_t *bits = calloc(plans->count, (tn_rules_count(rules) + 63) / 64 * sizeof *bits);
+    if (!bits)
+        stop("out of memory");
+    double best = 1e9;
+    match(rules, plans, threads, bits);
+    for (size_t run = 0; run < RUNS; run++) {
+        double start = seconds();
+        match(rules, plans, threads, bits);
+        double time = seconds() - start;
+        best = time < best ? time : best;
+    }
+    free(bits);
+    return best / (double)plans->count;
 }
 
 int main(int argc, char **argv)
@@ -80,21 +95,19 @@ int main(int argc, char **argv)
         stop(error.message);
     if (argc == 3) {
         printf("%u\n", tn_rules_states(rules, 0));
-        return 0;
+    } else {
+        size_t count = strtoul(argv[2], NULL, 10), longest = strtoul(argv[4], NULL, 10);
+        tn_tray *trays = malloc(count * longest * sizeof *trays);
+        size_t *ends = malloc(count * sizeof *ends);
+        if (!trays || !ends)
+            stop("out of memory");
+        make(schema, count, strtoul(argv[3], NULL, 10), longest, trays, ends);
+        printf("%.12f\n", fastest(rules, &(tn_plan_array){trays, 0, ends, count}, strtoul(argv[5], NULL, 10)));
+        free(trays);
+        free(ends);
     }
-    size_t count = strtoul(argv[2], NULL, 10), threads = strtoul(argv[5], NULL, 10);
-    tn_plan_array plans = make(schema, count, strtoul(argv[3], NULL, 10), strtoul(argv[4], NULL, 10));
-    uint64_t *bits = calloc(count, (module->RULE_count + 63) / 64 * sizeof *bits);
-    if (!bits)
-        stop("out of memory");
-    double fastest = 1e9;
-    match(rules, &plans, threads, bits);
-    for (size_t run = 0; run < RUNS; run++) {
-        double start = seconds();
-        match(rules, &plans, threads, bits);
-        double time = seconds() - start;
-        fastest = time < fastest ? time : fastest;
-    }
-    printf("%.12f\n", fastest / (double)count);
+    tn_rules_free(rules);
+    tn_schema_free(schema);
+    tn_module_free(module);
     return 0;
 }

@@ -110,13 +110,14 @@ int main(int count, char **words)
     tn_growth_options options = tn_growth_options_default();
     options.threads = atoi(words[3]);
     tn_force forces[ATTRACTORS];
+    tn_boundary_mesh *ball_mesh = NULL;
     tn_boundary ball = {.kind = TN_BOUNDARY_MESH, .inside = true};
     tn_environment environment = {0};
     if (strcmp(scene, "forces") == 0) {
         place_attractors(forces);
         environment = (tn_environment){forces, ATTRACTORS, NULL, 0};
     } else if (strcmp(scene, "boundary") == 0) {
-        ball.mesh = make_ball(30);
+        ball.mesh = ball_mesh = make_ball(30);
         environment = (tn_environment){NULL, 0, &ball, 1};
     }
     double times[64];
@@ -128,6 +129,7 @@ int main(int count, char **words)
     getrusage(RUSAGE_SELF, &usage);
     printf("%-10s %d steps, %d threads: median %8.1f ms of %d runs, %ld MB\n", scene, steps, options.threads,
            1e3 * times[runs / 2], runs, usage.ru_maxrss / 1024);
+    tn_boundary_mesh_free(ball_mesh);
     tn_growth_system_free(system);
     tn_module_free(module);
     tn_compilation_clear(&compilation);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The programs of the benchmarks still run, and all peers that are here decide as Tartan does. Times are not looked at.
-# (bench_gene is only built: the least it does takes too long for a test.)
+# (bench_gene and bench_breeding are only built: the least they do takes too long for a test.)
 name=bench
 . "$(dirname "$0")/golden.bash"
 bench=$(dirname "$TARTAN")/bench
