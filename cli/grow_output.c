@@ -136,13 +136,22 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format f
 
 /* ---- pictures */
 
-void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views,
-                   size_t count, tn_grow_format format)
+static void note_depth(tn_job *job, const tn_view *view)
+{
+    if (tn_view_by_depth(view) > 0)
+        tn_job_note(job, "%u faces pass through one another so often that they are drawn by their depth alone",
+                    tn_view_by_depth(view));
+}
+
+void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
+                   tn_grow_format format)
 {
     char caption[240];
     tn_error error;
     describe(job, growth, caption, sizeof caption);
     const tn_settings *settings = job->settings;
+    for (size_t i = 0; i < count; i++)
+        note_depth(job, views[i]);
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
                                .caption = caption,
                                .columns = (uint32_t)settings->columns.value,
@@ -167,14 +176,15 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
                                .system = tn_growth_rules(growth)};
     tn_status status = tn_view_take(growth, &camera, &view, &error);
     if (status == TN_OK)
+        note_depth(job, view);
+    if (status == TN_OK)
         status = tn_views_draw(&view, 1, &options, path, (tn_canvas_format)(format - TN_GROW_SVG), &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_view_free(view);
 }
 
-void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format,
-                   const char *path)
+void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format, const char *path)
 {
     if (is_picture(format))
         write_picture(job, growth, study, format, path);

@@ -5,14 +5,16 @@
 #include <stdlib.h>
 
 #include "runtime/draw/type.h"
+#include "runtime/map/hidden.h"
 #include "runtime/map/vector.h"
 #include "runtime/mesh/mesh.h"
 #include "runtime/vm/numeric.h"
 
-/* A face as seen: what is needed to paint it. */
+#define NO_EDGE UINT16_MAX /* where a face was cut */
+
+/* A face, or a piece of one: what is needed to paint it. */
 typedef struct seen_face {
     uint32_t first, size; /* corners */
-    float depth;          /* towards the eye */
     float light;          /* 0 dark .. 1 */
 } seen_face;
 
@@ -20,11 +22,12 @@ struct tn_view {
     seen_face *faces; /* the farthest first */
     size_t face_count;
     float (*points)[2]; /* [corner] in the picture's plane, y up */
-    uint16_t *labels;   /* [corner] of the edge that starts there */
+    uint16_t *labels;   /* [corner] of the edge that starts there, or NO_EDGE */
     double low[2], high[2];
     double width;
     uint32_t step;
     uint32_t label_count;
+    uint32_t by_depth;
 };
 
 tn_camera tn_camera_default(void)
@@ -63,36 +66,114 @@ static float light_on(const viewpoint *eye, tn_vector normal)
     return (float)(0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp)));
 }
 
-static void see_face(const tn_map *map, const viewpoint *eye, uint32_t face, tn_view *view, uint32_t *corner)
+/* A surface as it lies before the eye. */
+typedef struct prospect {
+    tn_scene scene;
+    float *light;     /* [face] */
+    uint16_t *labels; /* [corner] */
+    double middle[3], size;
+} prospect;
+
+static void clear_prospect(prospect *p)
 {
-    uint32_t first = map->face_first[face], size = tn_face_size(map, face);
-    seen_face *seen = &view->faces[view->face_count++];
-    tn_vector sum = {0, 0, 0}, normal = {0, 0, 0},
-              origin = tn_vector_at(map->positions + 3 * (size_t)map->origin[first]), before = {0, 0, 0};
-    *seen = (seen_face){.first = *corner, .size = size};
+    free(p->scene.points);
+    free(p->scene.first);
+    free(p->light);
+    free(p->labels);
+}
+
+static void see_face(const tn_map *map, const viewpoint *eye, uint32_t face, prospect *seen, uint32_t *corner)
+{
+    uint32_t first = map->face_first[face], size = tn_face_size(map, face), number = seen->scene.face_count++;
+    tn_vector normal = {0, 0, 0}, origin = tn_vector_at(map->positions + 3 * (size_t)map->origin[first]), before = {0};
+    seen->scene.first[number] = *corner;
     for (uint32_t d = first; d < first + size; d++) {
         tn_vector p = tn_vector_at(map->positions + 3 * (size_t)map->origin[d]), r = tn_sub(p, origin);
-        double at[2] = {tn_dot(p, eye->right), tn_dot(p, eye->up)};
-        for (int k = 0; k < 2; k++) {
-            view->points[*corner][k] = (float)at[k];
-            view->low[k] = fmin(view->low[k], at[k]);
-            view->high[k] = fmax(view->high[k], at[k]);
-        }
-        view->labels[(*corner)++] = (uint16_t)tn_state_label(map->states[map->side[d] / 2]);
-        sum = tn_add(sum, p);
+        double *at = seen->scene.points[*corner];
+        at[0] = tn_dot(p, eye->right);
+        at[1] = tn_dot(p, eye->up);
+        at[2] = tn_dot(p, eye->towards);
+        seen->labels[(*corner)++] = (uint16_t)tn_state_label(map->states[map->side[d] / 2]);
         normal = tn_add(normal, tn_cross(before, r));
         before = r;
     }
-    seen->depth = (float)(tn_dot(sum, eye->towards) / size);
-    seen->light = light_on(eye, tn_normalised(normal));
+    seen->light[number] = light_on(eye, tn_normalised(normal));
 }
 
-static int farther_first(const void *a, const void *b)
+/* Moves and scales the scene to about the unit cube, as tn_scene wants it. */
+static void measure(prospect *seen, uint32_t corners)
 {
-    const seen_face *x = a, *y = b;
-    if (x->depth != y->depth)
-        return x->depth < y->depth ? -1 : 1;
-    return x->first < y->first ? -1 : x->first > y->first;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t c = 0; c < corners; c++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], seen->scene.points[c][k]);
+            high[k] = fmax(high[k], seen->scene.points[c][k]);
+        }
+    }
+    seen->size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+    seen->size = seen->size > 1e-300 ? seen->size : 1;
+    for (int k = 0; k < 3; k++)
+        seen->middle[k] = low[k] + (high[k] - low[k]) / 2;
+    for (uint32_t c = 0; c < corners; c++)
+        for (int k = 0; k < 3; k++)
+            seen->scene.points[c][k] = (seen->scene.points[c][k] - seen->middle[k]) / seen->size;
+}
+
+static tn_status look(const tn_map *map, const viewpoint *eye, prospect *seen, tn_error *error)
+{
+    size_t corners = 2 * (size_t)map->edge_count - tn_face_size(map, TN_OUTER_FACE);
+    *seen = (prospect){0};
+    seen->scene.points = malloc((corners + 1) * sizeof *seen->scene.points);
+    seen->scene.first = malloc((map->face_count + 1) * sizeof *seen->scene.first);
+    seen->light = malloc(map->face_count * sizeof *seen->light);
+    seen->labels = malloc((corners + 1) * sizeof *seen->labels);
+    if (!seen->scene.points || !seen->scene.first || !seen->light || !seen->labels)
+        return tn_fail_memory(error);
+    uint32_t corner = 0;
+    for (uint32_t f = TN_OUTER_FACE + 1; f < map->face_count; f++)
+        see_face(map, eye, f, seen, &corner);
+    seen->scene.first[seen->scene.face_count] = corner;
+    measure(seen, corner);
+    return TN_OK;
+}
+
+/* One patch of the painting, back in model units. */
+static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *painting, const tn_patch *patch,
+                       uint32_t *corner)
+{
+    view->faces[view->face_count++] = (seen_face){*corner, patch->count, seen->light[patch->face]};
+    for (uint32_t c = patch->first; c < patch->first + patch->count; c++) {
+        const double *p = patch->piece ? painting->points[c] : seen->scene.points[c];
+        uint32_t side = patch->piece ? painting->sides[c] : c;
+        for (int k = 0; k < 2; k++) {
+            double at = p[k] * seen->size + seen->middle[k];
+            view->points[*corner][k] = (float)at;
+            view->low[k] = fmin(view->low[k], at);
+            view->high[k] = fmax(view->high[k], at);
+        }
+        view->labels[(*corner)++] = side == TN_CUT ? NO_EDGE : seen->labels[side];
+    }
+}
+
+static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *painting, tn_error *error)
+{
+    size_t corners = 0;
+    uint32_t corner = 0;
+    for (size_t i = 0; i < painting->patch_count; i++)
+        corners += painting->patches[i].count;
+    view->faces = malloc((painting->patch_count + 1) * sizeof *view->faces);
+    view->points = malloc((corners + 1) * sizeof *view->points);
+    view->labels = malloc((corners + 1) * sizeof *view->labels);
+    if (!view->faces || !view->points || !view->labels)
+        return tn_fail_memory(error);
+    for (int k = 0; k < 2; k++) {
+        view->low[k] = INFINITY;
+        view->high[k] = -INFINITY;
+    }
+    view->by_depth = painting->by_depth;
+    for (size_t i = 0; i < painting->patch_count; i++)
+        keep_patch(view, seen, painting, &painting->patches[i], &corner);
+    return TN_OK;
 }
 
 tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view **result, tn_error *error)
@@ -105,31 +186,32 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
         tn_error_help(error, "draw an earlier step, or write a mesh instead");
         return TN_LIMIT;
     }
-    size_t corners = 2 * (size_t)map->edge_count;
     tn_view *view = calloc(1, sizeof *view);
     if (!view)
         return tn_fail_memory(error);
-    view->faces = malloc(map->face_count * sizeof *view->faces);
-    view->points = malloc(corners * sizeof *view->points);
-    view->labels = malloc(corners * sizeof *view->labels);
-    if (!view->faces || !view->points || !view->labels) {
-        tn_view_free(view);
-        return tn_fail_memory(error);
-    }
-    for (int k = 0; k < 2; k++) {
-        view->low[k] = INFINITY;
-        view->high[k] = -INFINITY;
-    }
     view->width = camera->width > 0 ? camera->width : 480;
     view->step = tn_growth_steps(growth);
     view->label_count = tn_growth_rules(growth)->label_count;
     viewpoint eye = place_eye(camera);
-    uint32_t corner = 0;
-    for (uint32_t f = TN_OUTER_FACE + 1; f < map->face_count; f++)
-        see_face(map, &eye, f, view, &corner);
-    qsort(view->faces, view->face_count, sizeof *view->faces, farther_first);
-    *result = view;
-    return TN_OK;
+    prospect seen;
+    tn_painting painting = {0};
+    tn_status status = look(map, &eye, &seen, error);
+    if (status == TN_OK)
+        status = tn_painting_make(&seen.scene, &painting, error);
+    if (status == TN_OK)
+        status = keep(view, &seen, &painting, error);
+    tn_painting_clear(&painting);
+    clear_prospect(&seen);
+    if (status == TN_OK)
+        *result = view;
+    else
+        tn_view_free(view);
+    return status;
+}
+
+uint32_t tn_view_by_depth(const tn_view *view)
+{
+    return view->by_depth;
 }
 
 /* ---- drawing */
@@ -138,6 +220,7 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
 #define TITLE_HEIGHT 26.0
 #define FOOT_HEIGHT 30.0
 #define LABEL_HEIGHT 16.0
+#define HAIRLINE 0.5
 
 typedef struct sheet {
     double scale; /* points per model unit */
@@ -182,25 +265,41 @@ static void outline(cairo_t *cr, const tn_view *view, const seen_face *face)
     cairo_close_path(cr);
 }
 
-/* Fills a face and draws its edges, runs of one colour at a time. */
-static void paint_face(cairo_t *cr, const tn_view *view, const seen_face *face, double line)
+/* Strokes the sides of one kind, from one corner on; returns the next corner. */
+static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const seen_face *face, uint32_t i)
+{
+    uint16_t label = view->labels[face->first + i];
+    const float *start = view->points[face->first + i];
+    cairo_move_to(cr, (double)start[0], (double)start[1]);
+    for (; i < face->size && view->labels[face->first + i] == label; i++) {
+        uint32_t next = face->first + (i + 1 == face->size ? 0 : i + 1);
+        cairo_line_to(cr, (double)view->points[next][0], (double)view->points[next][1]);
+    }
+    cairo_stroke(cr);
+    return i;
+}
+
+/* Fills a face and draws its edges, runs of one colour at a time. Where it was cut, a hairline of its own colour closes
+ * the seam that smoothed edges would leave. */
+static void paint_face(cairo_t *cr, const tn_view *view, const seen_face *face, double line, double hairline)
 {
     double light = (double)face->light;
     outline(cr, view, face);
     cairo_set_source_rgb(cr, 0.98 * light, 0.97 * light, 0.93 * light);
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
     cairo_fill(cr);
+    cairo_set_line_width(cr, hairline);
+    for (uint32_t i = 0; i < face->size;)
+        i = view->labels[face->first + i] == NO_EDGE ? stroke_run(cr, view, face, i) : i + 1;
     cairo_set_line_width(cr, line);
     for (uint32_t i = 0; i < face->size;) {
-        uint32_t c = face->first + i;
-        uint16_t label = view->labels[c];
-        cairo_move_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
-        for (; i < face->size && view->labels[face->first + i] == label; i++) {
-            uint32_t next = face->first + (i + 1 == face->size ? 0 : i + 1);
-            cairo_line_to(cr, (double)view->points[next][0], (double)view->points[next][1]);
+        uint16_t label = view->labels[face->first + i];
+        if (label == NO_EDGE) {
+            i++;
+            continue;
         }
         set_label_colour(cr, label);
-        cairo_stroke(cr);
+        i = stroke_run(cr, view, face, i);
     }
 }
 
@@ -219,7 +318,7 @@ static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double 
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     for (size_t f = 0; f < view->face_count; f++)
-        paint_face(cr, view, &view->faces[f], line / s->scale);
+        paint_face(cr, view, &view->faces[f], line / s->scale, HAIRLINE / s->scale);
     cairo_restore(cr);
     if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);

@@ -1,4 +1,4 @@
-/* Pictures of grown surfaces: shaded, nearer faces over farther ones, edges coloured by label. */
+/* Pictures of grown surfaces: shaded, hidden faces removed (hidden.h), edges coloured by label. */
 #ifndef TARTAN_MAP_DRAW_H
 #define TARTAN_MAP_DRAW_H
 
@@ -22,6 +22,10 @@ typedef struct tn_view tn_view;
 /* Takes a picture of the growth as it stands. E0820 where it has more than TN_DRAWN_FACES_MAX faces. */
 tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error);
 void tn_view_free(tn_view *view);
+
+/* How many faces pass through one another too often to be cut (hidden.h): they are drawn by their depth, which is only
+ * nearly right. */
+uint32_t tn_view_by_depth(const tn_view *view);
 
 typedef struct tn_view_options {
     const char *title;   /* or NULL */
