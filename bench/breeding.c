@@ -207,7 +207,7 @@ int main(int count, char **words)
         tn_grammar_new(module, 0, &grammar, &error) != TN_OK ||
         tn_grower_new(words[2], false, THREADS, &grower, &error) != TN_OK)
         stop(error.message);
-    if (tn_open(words[2], false, &opened) != TN_OK || tn_study_read(opened.module, &study, &error) != TN_OK)
+    if (tn_open(words[2], false, &opened) != TN_OK || tn_study_read(opened.module, words[2], &study, &error) != TN_OK)
         stop("the study cannot be read");
     study.options.threads = 1;
     tn_growth *growths[THREADS] = {NULL};

@@ -119,7 +119,7 @@ static void forecast(run_state *run)
         return;
     run->forecast = true;
     tn_job_note(run->job, "%u steps will make about %.0f million faces and need about %.1f GB of memory",
-                    run->study.steps, coming / 1e6, coming * 170e-9);
+                run->study.steps, coming / 1e6, coming * 170e-9);
     tn_job_show(run->job);
 }
 
@@ -151,7 +151,7 @@ static tn_status grow(run_state *run, tn_error *error)
         forecast(run);
         if (tn_growth_at_rest(run->growth)) {
             tn_job_note(run->job, "step %u changes nothing any more: further steps are left out",
-                            tn_growth_steps(run->growth));
+                        tn_growth_steps(run->growth));
             break;
         }
         status = note_step(run, error);
@@ -190,7 +190,7 @@ static tn_status prepare(run_state *run, tn_error *error)
 {
     tn_status status = tn_growth_system_read(run->job->opened.module, &run->system, error);
     if (status == TN_OK)
-        status = tn_study_read(run->job->opened.module, &run->study, error);
+        status = tn_study_read(run->job->opened.module, run->job->opened.path, &run->study, error);
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;
@@ -284,10 +284,9 @@ const tn_command tn_command_grow = {
                    "statistics of every "
                    "step are shown. The same input gives the same bytes at any number of threads.\n\n"
                    "A limit that is reached ends the growth at the last complete step, which is written (exit 4).",
-    .example =
-        "$ tartan grow square.hemls -n 5 -o square.obj\n"
-        "$ tartan grow draped.study --sheet -o draped.svg\n"
-        "$ tartan grow square.hemls --boundary \"sphere at 0 0 -2 radius 1.5\" -o tent.glb",
+    .example = "$ tartan grow square.hemls -n 5 -o square.obj\n"
+               "$ tartan grow draped.study --sheet -o draped.svg\n"
+               "$ tartan grow square.hemls --boundary \"sphere at 0 0 -2 radius 1.5\" -o tent.glb",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "one FILE",

@@ -59,20 +59,30 @@ static void emit_force(tn_builder *builder, const tn_study_item *item)
                                             item->span.file, item->span.begin, item->span.end});
 }
 
-/* A mesh's path starts at the folder of the file that names it. */
-static const char *resolve(tn_arena *arena, const tn_sources *sources, const tn_study_item *item)
+static size_t folder_size(const char *path)
 {
-    const char *user = sources->files[item->span.file].path, *slash = item->text[0] == '/' ? NULL : strrchr(user, '/');
-    size_t folder = slash ? (size_t)(slash - user) + 1 : 0, name = strlen(item->text);
-    char *path = tn_arena_alloc(arena, folder + name + 1);
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* A mesh's path starts at the folder of the file that names it. The module holds it from the folder of the whole study
+ * on, so that both can be moved together; a file that is used lies below that folder's name or is told from the root.
+ */
+static const char *resolve(tn_arena *arena, const tn_sources *sources, const tn_study_item *item, uint32_t root)
+{
+    const char *user = sources->files[item->span.file].path, *whole = sources->files[root].path;
+    size_t below = folder_size(whole), folder = item->text[0] == '/' ? 0 : folder_size(user);
+    size_t name = strlen(item->text), skip = below <= folder && memcmp(user, whole, below) == 0 ? below : 0;
+    char *path = tn_arena_alloc(arena, folder - skip + name + 1);
     if (!path)
         return item->text;
-    memcpy(path, user, folder);
-    memcpy(path + folder, item->text, name + 1);
+    memcpy(path, user + skip, folder - skip);
+    memcpy(path + folder - skip, item->text, name + 1);
     return path;
 }
 
-static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_study_item *item)
+static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_study_item *item,
+                          uint32_t root)
 {
     tn_boundary_record record = {.kind = item->which,
                                  .mode = (uint32_t)part_or(item, TN_PART_MODE, TN_SLIDE),
@@ -86,7 +96,7 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
     if (item->which == TN_BOUNDARY_SPHERE) {
         record.radius = item->b.x;
     } else if (item->which == TN_BOUNDARY_MESH) {
-        record.mesh = tn_builder_string(builder, resolve(arena, sources, item));
+        record.mesh = tn_builder_string(builder, resolve(arena, sources, item, root));
     } else {
         double scale = 1;
         if (item->which == TN_BOUNDARY_PLANE)
@@ -104,7 +114,7 @@ void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sourc
     for (uint32_t i = 0; i < study->force_count; i++)
         emit_force(builder, study->forces[i]);
     for (uint32_t i = 0; i < study->boundary_count; i++)
-        emit_boundary(builder, arena, sources, study->boundaries[i]);
+        emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
     for (uint32_t i = 0; i < study->goal_count; i++) {
         const tn_study_item *goal = study->goals[i];
         tn_builder_add_GOAL(builder, &(tn_goal_record){tn_study_term(goal->text), part_or(goal, TN_PART_TARGET, 0),

@@ -46,7 +46,7 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
         return tn_fail(error, TN_INVALID, 1245, "the growth study %.100s cannot be used: %.300s", path,
                        first_error(&g->opened));
     }
-    tn_status status = tn_study_read(g->opened.module, &g->study, error);
+    tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
     for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
         if (g->study.goal.wanted[term])
             g->terms[g->term_count++] = term;

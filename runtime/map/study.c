@@ -1,6 +1,8 @@
 #include "runtime/map/study.h"
 
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "runtime/mesh/openmesh.h"
 
@@ -36,6 +38,19 @@ static void read_settings(const tn_study_record *record, tn_study *study)
     study->goal.raw = record->flags & TN_STUDY_RAW_FITNESS;
 }
 
+/* name, told from the folder of a file; the caller frees it. */
+static char *beside(const char *file, const char *name)
+{
+    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    size_t folder = slash ? (size_t)(slash - file) + 1 : 0, size = strlen(name) + 1;
+    char *path = malloc(folder + size);
+    if (path) {
+        memcpy(path, file, folder);
+        memcpy(path + folder, name, size);
+    }
+    return path;
+}
+
 static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error *error)
 {
     tn_mesh mesh;
@@ -49,8 +64,32 @@ static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error
     return status;
 }
 
-static tn_status read_boundary(const tn_module *module, const tn_boundary_record *record, tn_study *study,
-                               uint32_t index, tn_error *error)
+/* Beside what was opened, or where the study lay when it was compiled. */
+static tn_status find_mesh(const tn_module *module, const char *opened, const char *name, tn_boundary_mesh **result,
+                           tn_error *error)
+{
+    uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
+    const char *study = source < module->SOURCE_count ? tn_text(module, module->SOURCE_records[source].path) : opened;
+    char *near = beside(opened, name), *once = beside(study, name);
+    tn_status status = near && once ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && access(near, F_OK) == 0) {
+        status = read_mesh(near, result, error);
+    } else if (status == TN_OK && access(once, F_OK) == 0) {
+        status = read_mesh(once, result, error);
+    } else if (status == TN_OK) {
+        status = tn_fail(error, TN_IO, 901, "there is no mesh %.200s", near);
+        if (strcmp(near, once) == 0)
+            tn_error_help(error, "a boundary's path starts at the folder of the study that names it");
+        else
+            tn_error_help(error, "put it there; where the study was compiled it was %.200s", once);
+    }
+    free(near);
+    free(once);
+    return status;
+}
+
+static tn_status read_boundary(const tn_module *module, const tn_boundary_record *record, const char *path,
+                               tn_study *study, uint32_t index, tn_error *error)
 {
     tn_boundary *boundary = &study->boundaries[index];
     *boundary = (tn_boundary){.kind = record->kind,
@@ -61,7 +100,7 @@ static tn_status read_boundary(const tn_module *module, const tn_boundary_record
                               .radius = record->radius};
     if (record->kind != TN_BOUNDARY_MESH)
         return TN_OK;
-    tn_status status = read_mesh(tn_text(module, record->mesh), &study->meshes[index], error);
+    tn_status status = find_mesh(module, path, tn_text(module, record->mesh), &study->meshes[index], error);
     boundary->mesh = study->meshes[index];
     return status;
 }
@@ -77,7 +116,7 @@ static void read_goals(const tn_module *module, tn_study *study)
     }
 }
 
-tn_status tn_study_read(const tn_module *module, tn_study *study, tn_error *error)
+tn_status tn_study_read(const tn_module *module, const char *path, tn_study *study, tn_error *error)
 {
     *study =
         (tn_study){.title = "", .steps = 4, .options = tn_growth_options_default()}; /* Genr8's own number of steps */
@@ -99,6 +138,6 @@ tn_status tn_study_read(const tn_module *module, tn_study *study, tn_error *erro
     read_goals(module, study);
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
-        status = read_boundary(module, &module->BOUNDARY_records[i], study, i, error);
+        status = read_boundary(module, &module->BOUNDARY_records[i], path, study, i, error);
     return status;
 }

@@ -82,6 +82,33 @@ run build said.study -o said.tnb
 run grow said.tnb -o by-module.ply
 cmp by-study.ply by-module.ply
 
+# A mesh that bounds a study is found beside it, also from other folders, as a module, and where both are moved together.
+mkdir -p site/parts elsewhere
+run grow square.hemls -n 2 --scale 1 --start '0 0 -1' -o site/ground.ply
+cp site/ground.ply site/parts/low.ply
+printf 'boundary mesh "low.ply" stop\n' >site/parts/more.study
+printf 'rules "square"\nuse "parts/more.study"\ngravity 0 0 -0.6\nstart 0 0 1\nscale 1\nboundary mesh "ground.ply" stop\n' >site/fall.study
+run grow site/fall.study >landed
+run grow site/fall.study --steps 4 >as_used
+cmp landed as_used
+run build site/fall.study -o site/fall.tnb
+run build site/fall.study -o elsewhere/fall.tnb
+for module in site/fall.tnb elsewhere/fall.tnb; do
+    run grow "$module" >by_module
+    cmp landed by_module
+done
+(cd site && run grow fall.study >../by_folder && cmp ../landed ../by_folder)
+mv site moved
+run grow moved/fall.tnb >by_module
+cmp landed by_module
+code=0
+"$TARTAN" grow elsewhere/fall.tnb 2>stderr || code=$?
+[ "$code" = 3 ] && grep -q 'no mesh elsewhere/parts/low.ply' stderr && grep -q 'it was site/parts/low.ply' stderr || fail 'a lost mesh is not explained'
+echo 'no mesh at all' >moved/ground.ply
+code=0
+"$TARTAN" grow moved/fall.study 2>stderr || code=$?
+[ "$code" = 3 ] && grep -q 'cannot read a mesh from moved/ground.ply' stderr || fail 'a broken mesh is not explained'
+
 # Each step, and a sheet of all; the same bytes twice.
 run grow square.hemls -n 2 --each-step -o step.obj
 [ -e step-000.obj ] && [ -e step-001.obj ] && [ -e step-002.obj ] && [ ! -e step.obj ] || fail 'not every step is there'
