@@ -6,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/option_rows.h"
 #include "cli/progress.h"
+#include "runtime/map/faults.h"
 
 #define FORECAST_FACES 10000000.0 /* growths that will pass this many faces are announced */
 
@@ -22,6 +23,8 @@ typedef struct run_state {
     size_t stats_count;
     tn_view **views;
     size_t view_count, view_room, stats_room;
+    tn_faults faults;                 /* of the last step that had any, each kind by itself */
+    uint32_t crossed[2], inverted[2]; /* the first and the last step with such faces; 0: none */
     double faces_before;
     bool forecast; /* was made */
 } run_state;
@@ -69,6 +72,55 @@ static bool make_room(run_state *run)
         run->view_room = room;
     }
     return true;
+}
+
+static void note_fault(const tn_fault *found, uint32_t step, tn_fault *kept, uint32_t steps[2])
+{
+    if (found->count == 0)
+        return;
+    *kept = *found;
+    steps[0] = steps[0] ? steps[0] : step;
+    steps[1] = step;
+}
+
+static tn_status note_faults(run_state *run, tn_error *error)
+{
+    tn_faults found;
+    uint32_t step = tn_growth_steps(run->growth);
+    tn_status status = tn_faults_find(run->growth, &found, error);
+    if (status != TN_OK)
+        return status;
+    note_fault(&found.crossed, step, &run->faults.crossed, run->crossed);
+    note_fault(&found.inverted, step, &run->faults.inverted, run->inverted);
+    return TN_OK;
+}
+
+static void warn_of_fault(run_state *run, uint32_t code, const tn_fault *fault, const uint32_t steps[2],
+                          const char *what, const char *help)
+{
+    char since[48] = "";
+    if (fault->count == 0)
+        return;
+    if (steps[0] != steps[1])
+        snprintf(since, sizeof since, ", since step %u", steps[0]);
+    tn_diagnostics *list = tn_job_diagnostics(run->job);
+    tn_diagnostic *d =
+        tn_report_bare(list, TN_WARNING, code, "after step %u, %u %s%s; the oldest is around (%.4g, %.4g, %.4g)",
+                       steps[1], fault->count, what, since, fault->place[0], fault->place[1], fault->place[2]);
+    tn_help(list, d, "%s", help);
+}
+
+static void warn_of_faults(run_state *run)
+{
+    bool one = run->faults.crossed.count == 1;
+    warn_of_fault(run, W_FACES_CROSSED, &run->faults.crossed, run->crossed,
+                  one ? "face's outline crosses itself" : "faces' outlines cross themselves",
+                  "turns of the rules, or forces, carry edges past others there; take a smaller angle or strength");
+    one = run->faults.inverted.count == 1;
+    warn_of_fault(
+        run, W_FACES_INVERTED, &run->faults.inverted, run->inverted,
+        one ? "face is turned over onto its neighbours" : "faces are turned over onto their neighbours",
+        "forces that overshoot what they pull towards do that: take a smaller strength, or stop steps earlier");
 }
 
 /* What there is to do with each step. */
@@ -154,7 +206,9 @@ static tn_status grow(run_state *run, tn_error *error)
                         tn_growth_steps(run->growth));
             break;
         }
-        status = note_step(run, error);
+        status = note_faults(run, error);
+        if (status == TN_OK)
+            status = note_step(run, error);
     }
     tn_progress_end(&progress);
     return status;
@@ -163,6 +217,7 @@ static tn_status grow(run_state *run, tn_error *error)
 static void finish(run_state *run)
 {
     const tn_settings *settings = run->settings;
+    warn_of_faults(run);
     if (settings->sheet)
         tn_grow_sheet(run->job, run->growth, &run->study, run->views, run->view_count, run->format);
     else if (settings->output && !settings->each_step)

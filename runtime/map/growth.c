@@ -395,7 +395,11 @@ tn_status tn_growth_step(tn_growth *growth, tn_error *error)
         return status;
     growth->steps++;
     look_for_rest(growth, vertices, edges, faces);
+#ifdef TARTAN_CHECK_MAPS
+    return tn_map_validate(map, error);
+#else
     return TN_OK;
+#endif
 }
 
 tn_status tn_growth_regrow(tn_growth *growth, uint32_t steps, tn_error *error)

@@ -136,6 +136,14 @@ code=0
 grep -q 'E0840' stderr && grep -q 'step 4' stderr || fail 'the edge limit is not explained'
 grep -qa 'element face 256' limited.ply || fail 'the last complete step is not written'
 
+# Faces that cross themselves or are turned over are counted, with their place; --werror takes them for errors.
+run grow square.hemls -n 4 --scale 1.3 --attractor 'at 1 1 1 strength 9' --attractor 'at -1 0 1 strength 9' -o pulled.obj
+grep -q "W105.*after step 4, .* faces' outlines cross themselves.*oldest is around (" stderr || { cat stderr; fail 'crossed faces are not told'; }
+grep -q 'W106.*after step 4, .* turned over onto' stderr || { cat stderr; fail 'faces turned over are not told'; }
+code=0
+"$TARTAN" grow square.hemls -n 4 --scale 1.3 --attractor 'at 1 1 1 strength 9' --attractor 'at -1 0 1 strength 9' --werror -o pulled.obj 2>stderr || code=$?
+[ "$code" = 1 ] || fail "--werror lets crossed faces pass with $code"
+
 # Until so many faces; rest.
 [ "$(run grow square.hemls --until faces=1000 | tail -1 | awk '{print $4}')" = 1024 ] || fail '--until stops elsewhere'
 printf 'A + A + A; A -> B; Angle 60\n' >rest.hemls

@@ -257,6 +257,25 @@ static void test_limits_stop_a_step(void **state)
     uproot(&g);
 }
 
+/* Builds with TARTAN_CHECK_MAPS, as those with sanitizers are, find a broken map in the step that breaks it. */
+static void test_sanitized_growing_checks_its_map(void **state)
+{
+    (void)state;
+    grown g;
+    tn_error error;
+    plant_text(&g, "t.hemls", "A + A + A; Angle 60"); /* no rule reads the map */
+    uint32_t *origin = tn_growth_map(g.growth)->origin, first = origin[0];
+    origin[0] = origin[1];
+    origin[1] = first;
+#ifdef TARTAN_CHECK_MAPS
+    assert_int_equal(tn_growth_step(g.growth, &error), TN_INTERNAL);
+#else
+    assert_int_equal(tn_growth_step(g.growth, &error), TN_OK);
+    assert_int_equal(tn_map_validate(tn_growth_map(g.growth), &error), TN_INTERNAL);
+#endif
+    uproot(&g);
+}
+
 static void test_rest_is_noticed(void **state)
 {
     (void)state;
@@ -508,6 +527,7 @@ int main(void)
         cmocka_unit_test(test_growing_again_gives_the_same_bytes),
         cmocka_unit_test(test_growing_in_used_memory_gives_the_same_bytes),
         cmocka_unit_test(test_limits_stop_a_step),
+        cmocka_unit_test(test_sanitized_growing_checks_its_map),
         cmocka_unit_test(test_rest_is_noticed),
         cmocka_unit_test(test_a_vertex_at_an_attractor_stays),
         cmocka_unit_test(test_walls_that_meet_stop_what_slides),
