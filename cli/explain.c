@@ -19,8 +19,9 @@ typedef struct explaining {
     uint32_t *rules;
     size_t rule_count;
     tn_schema *schema;
-    tn_library *library; /* NULL where it is not needed, or passed a limit */
-    bool tried;
+    tn_library *library;    /* for ranks; NULL where they are not asked for, or it passed a limit */
+    tn_near_finder *finder; /* NULL where nobody asked, or a clause passed a limit */
+    bool tried_library, tried_nearest;
     tn_output output;
 } explaining;
 
@@ -92,35 +93,58 @@ static bool choose(explaining *e)
     return false;
 }
 
-/* The library's automaton, for ranks and nearest plans: made once, and done without where it passes a limit. */
+/* A limit that is passed while finding out what can be done without. */
+static void note_limit(explaining *e, const tn_error *error, const char *consequence)
+{
+    tn_diagnostic *note = tn_finding_note(&e->job->opened, error);
+    tn_note(tn_job_diagnostics(e->job), note, NULL, "%s", consequence);
+}
+
+static uint32_t library_index(const explaining *e)
+{
+    return (uint32_t)(e->record - e->job->opened.module->LIBRARY_records);
+}
+
+/* The library's automaton, for ranks: made once, and done without where it passes a limit. */
 static void make_library(explaining *e)
 {
     tn_error error;
-    if (e->tried || !e->record)
+    if (e->tried_library || !e->record)
         return;
-    e->tried = true;
+    e->tried_library = true;
     tn_library_options options = {.max_states = (uint32_t)e->settings->max_states.value,
                                   .max_length = (uint32_t)e->settings->max_length.value};
-    uint32_t index = (uint32_t)(e->record - e->job->opened.module->LIBRARY_records);
-    tn_status status = tn_library_new(e->schema, index, &options, &e->library, &error);
-    if (status == TN_LIMIT) {
-        tn_diagnostic *note = tn_finding_note(&e->job->opened, &error);
-        tn_note(tn_job_diagnostics(e->job), note, NULL, "so ranks and nearest plans are not known");
-    } else if (status != TN_OK) {
+    tn_status status = tn_library_new(e->schema, library_index(e), &options, &e->library, &error);
+    if (status == TN_LIMIT)
+        note_limit(e, &error, "so ranks are not known");
+    else if (status != TN_OK)
         tn_job_fail(e->job, &error);
-    }
+}
+
+static void make_nearest(explaining *e)
+{
+    tn_error error;
+    if (e->tried_nearest)
+        return;
+    e->tried_nearest = true;
+    const tn_near_options options = {.max_states = (uint32_t)e->settings->max_states.value};
+    tn_status status = tn_near_finder_new(e->schema, library_index(e), &options, &e->finder, &error);
+    if (status == TN_LIMIT)
+        note_limit(e, &error, "so nearest plans are not known");
+    else if (status != TN_OK)
+        tn_job_fail(e->job, &error);
 }
 
 static void find_near(explaining *e, tn_explained *explained)
 {
     tn_error error;
     size_t most = e->settings->nearest.given ? (size_t)e->settings->nearest.value : NEAREST_DEFAULT;
-    if (most == 0 || !e->record)
+    if (most == 0 || !e->record || explained->kept)
         return;
-    make_library(e);
-    if (!e->library)
+    make_nearest(e);
+    if (!e->finder)
         return;
-    tn_status status = tn_explained_near(explained, e->library, most, &error);
+    tn_status status = tn_explained_near(explained, e->finder, most, &error);
     if (status == TN_LIMIT)
         tn_finding_note(&e->job->opened, &error);
     else if (status != TN_OK)
@@ -152,6 +176,9 @@ static void explain_plan(explaining *e, const tn_tray *trays, size_t length)
     size_t longest = e->settings->max_length.given ? (size_t)e->settings->max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
     tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules, e->rule_count,
                                          trays, length, longest, &error);
+    if (e->settings->json || e->settings->full) /* ranks take several times as long as all the rest */
+        make_library(e);
+    explained.automaton = e->library;
     if (status == TN_OK)
         find_near(e, &explained);
     else
@@ -271,6 +298,7 @@ static void explain(tn_job *job)
             explain_text(&e, text);
         tn_job_commit(job, &e.output);
     }
+    tn_near_finder_free(e.finder);
     tn_library_free(e.library);
     tn_schema_free(e.schema);
     free(e.rules);

@@ -52,13 +52,14 @@ tn_status tn_explained_make(tn_explained *explained, const tn_opened *opened, co
     return status;
 }
 
-tn_status tn_explained_near(tn_explained *explained, const tn_library *library, size_t most, tn_error *error)
+tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, size_t most, tn_error *error)
 {
-    explained->automaton = library;
     if (explained->kept)
         return TN_OK;
     tn_near_clear(&explained->near);
-    return tn_library_near(library, explained->trays, explained->length, most, &explained->near, error);
+    tn_status status = tn_near_find(finder, explained->trays, explained->length, most, &explained->near, error);
+    explained->near_known = status == TN_OK;
+    return status;
 }
 
 void tn_explained_clear(tn_explained *explained)

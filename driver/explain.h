@@ -31,7 +31,8 @@ typedef struct tn_explained {
     bool length_drops; /* the plan has too few or too many trays */
     tn_explained_rule *rules;
     size_t count;
-    const tn_library *automaton; /* where it was made: for ranks */
+    const tn_library *automaton; /* borrowed; NULL: ranks are not known */
+    bool near_known;
     tn_near near;
 } tn_explained;
 
@@ -43,7 +44,7 @@ tn_status tn_explained_make(tn_explained *explained, const tn_opened *opened, co
 void tn_explained_clear(tn_explained *explained);
 
 /* Finds the nearest kept plans of a plan that is dropped, `most` of them. */
-tn_status tn_explained_near(tn_explained *explained, const tn_library *library, size_t most, tn_error *error);
+tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, size_t most, tn_error *error);
 
 /* As text: short, or with every clause and part. false where out of memory. */
 bool tn_explained_text(const tn_explained *explained, bool full, tn_buffer *out);

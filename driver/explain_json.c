@@ -131,24 +131,30 @@ static json_t *plan_json(const tn_schema *schema, const tn_tray *trays, size_t l
     return take(&line);
 }
 
+static json_t *rank_json(const tn_explained *explained, const tn_tray *trays, size_t length)
+{
+    mpz_t rank;
+    mpz_init(rank);
+    bool known = explained->automaton && tn_library_rank(explained->automaton, trays, length, rank);
+    char *digits = known ? mpz_get_str(NULL, 10, rank) : NULL;
+    json_t *made = string(digits);
+    free(digits);
+    mpz_clear(rank);
+    return made;
+}
+
 static json_t *near_json(const tn_explained *explained)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < explained->near.count; i++) {
         const tn_near_plan *plan = &explained->near.plans[i];
         tn_buffer changes = {0};
-        mpz_t rank;
         json_t *made = json_object();
-        mpz_init(rank);
         tn_words_changes(explained, plan, &changes);
-        tn_library_rank(explained->automaton, plan->trays, plan->length, rank);
-        char *digits = mpz_get_str(NULL, 10, rank);
         json_object_set_new(made, "plan", plan_json(explained->schema, plan->trays, plan->length));
-        json_object_set_new(made, "rank", string(digits));
+        json_object_set_new(made, "rank", rank_json(explained, plan->trays, plan->length));
         json_object_set_new(made, "changes", take(&changes));
         json_array_append_new(list, made);
-        free(digits);
-        mpz_clear(rank);
     }
     return list;
 }
@@ -157,6 +163,7 @@ static void set_library(json_t *made, const tn_explained *explained)
 {
     json_object_set_new(made, "library", string(tn_text(explained->opened->module, explained->library->name)));
     json_object_set_new(made, "kept", json_boolean(explained->kept));
+    json_object_set_new(made, "rank", rank_json(explained, explained->trays, explained->length));
     json_object_set_new(made, "too_short_or_long", json_boolean(explained->length_drops));
     json_object_set_new(made, "distance", explained->near.count ? json_integer(explained->near.cost) : json_null());
     json_object_set_new(made, "nearest", near_json(explained));

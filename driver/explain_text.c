@@ -102,8 +102,7 @@ static bool write_near(const tn_explained *explained, tn_buffer *out)
     const tn_near *near = &explained->near;
     bool ok = true;
     if (near->count == 0)
-        return !explained->automaton || explained->kept ||
-               tn_buffer_printf(out, "\nthe library holds no plan at all\n");
+        return !explained->near_known || tn_buffer_printf(out, "\nthe library holds no plan at all\n");
     ok &= tn_buffer_printf(out, "\nnearest kept plan%s, at a distance of %u:\n",
                            near->count == 1 && !near->more ? "" : "s", near->cost);
     for (size_t i = 0; ok && i < near->count; i++) {

@@ -5,6 +5,7 @@ name=explain
 
 golden dropped "tartan explain sheds.plan '3m door | 3m door' --library sheds"
 golden kept "tartan explain sheds.plan '3m door' --library sheds"
+golden kept_full "tartan explain sheds.plan '3m door' --library sheds --full"
 golden rank "tartan explain sheds.plan '#3' --library sheds --full"
 golden length "tartan explain sheds.plan '3m door | 3m - | 3m - | 3m - | 6m -' --library sheds --nearest 1"
 golden rule "tartan explain sheds.plan '3m - | 6m - | 3m door' --rule wide-end --rule door-pair"

@@ -65,14 +65,14 @@ static void brute_force(const test_library *made, const tn_tray *trays, size_t l
     mpz_clears(from, to, NULL);
 }
 
-static void compare(const test_library *made, const tn_tray *trays, size_t length)
+static void compare(const test_library *made, tn_near_finder *finder, const tn_tray *trays, size_t length)
 {
     tn_tray room[MOST][LONGEST];
     tn_near_plan plans[MOST] = {{room[0], 0}, {room[1], 0}, {room[2], 0}};
     tn_near wanted = {.plans = plans}, near;
     tn_error error;
     brute_force(made, trays, length, &wanted);
-    test_ok(tn_library_near(made->library, trays, length, MOST, &near, &error), &error);
+    test_ok(tn_near_find(finder, trays, length, MOST, &near, &error), &error);
     assert_int_equal(near.count, wanted.count);
     assert_int_equal(near.more, wanted.more);
     if (wanted.count)
@@ -85,6 +85,29 @@ static void compare(const test_library *made, const tn_tray *trays, size_t lengt
     tn_near_clear(&near);
 }
 
+/* However much is combined, the answer is the same: every clause by itself, some together, all; and combined only when
+ * a search turns out long. */
+static void compare_all(const test_library *made, test_random *random, const tn_near_options *options, uint32_t plans,
+                        uint32_t longest)
+{
+    tn_near_finder *finder;
+    tn_error error;
+    test_ok(tn_near_finder_new(made->schema, 0, options, &finder, &error), &error);
+    for (uint32_t n = 0; n < plans; n++) {
+        test_plan plan;
+        tn_tray trays[TEST_LENGTH_MAX];
+        uint32_t length = test_random_below(random, longest + 1);
+        test_plan_random(random, made->schema, length, &plan, trays);
+        compare(made, finder, trays, length);
+    }
+    tn_near_finder_free(finder);
+}
+
+static const tn_near_options several[] = {
+    {.combine = 1}, {.combine = 30}, {.combine = 0}, {.combine = 1, .patience = 10}, {.combine = 30, .patience = 40},
+};
+#define SEVERAL (sizeof several / sizeof *several)
+
 static void random_libraries(void **state)
 {
     (void)state;
@@ -92,15 +115,8 @@ static void random_libraries(void **state)
     for (uint64_t seed = 0; seed < 60; seed++) {
         test_library made;
         uint32_t min = test_random_below(&random, 3), max = min + test_random_below(&random, LONGEST + 1 - min);
-        if (test_library_make(&made, seed, &test_schema_tiny, min, max)) {
-            for (uint32_t n = 0; n < 12; n++) {
-                test_plan plan;
-                tn_tray trays[TEST_LENGTH_MAX];
-                uint32_t length = test_random_below(&random, LONGEST + 2);
-                test_plan_random(&random, made.schema, length, &plan, trays);
-                compare(&made, trays, length);
-            }
-        }
+        for (size_t i = 0; i < SEVERAL && (i > 0 || test_library_make(&made, seed, &test_schema_tiny, min, max)); i++)
+            compare_all(&made, &random, &several[i], 4, LONGEST + 1);
         test_library_clear(&made);
     }
 }
@@ -112,15 +128,8 @@ static void a_larger_schema(void **state)
     test_random random = {.seed = 12};
     for (uint64_t seed = 0; seed < 12; seed++) {
         test_library made;
-        if (test_library_make(&made, seed, &test_schema_house, 1, 3)) {
-            for (uint32_t n = 0; n < 4; n++) {
-                test_plan plan;
-                tn_tray trays[TEST_LENGTH_MAX];
-                uint32_t length = test_random_below(&random, 5);
-                test_plan_random(&random, made.schema, length, &plan, trays);
-                compare(&made, trays, length);
-            }
-        }
+        for (size_t i = 0; i < SEVERAL && (i > 0 || test_library_make(&made, seed, &test_schema_house, 1, 3)); i++)
+            compare_all(&made, &random, &several[i], 1, 4);
         test_library_clear(&made);
     }
 }
