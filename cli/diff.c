@@ -12,7 +12,7 @@
 
 enum { SHOWN = 3, SHOWN_MAX = 1000, NOTE_SIZE = 400 };
 
-/* ---- the picture: removed plans, then added ones */
+/* ---- the picture: removed plans, added ones, kept ones, each under a heading */
 
 typedef struct sheet {
     tn_drawn_plan *plans; /* trays and numbers owned */
@@ -28,40 +28,21 @@ static void sheet_clear(sheet *s)
     free(s->plans);
 }
 
-/* "removed, rank 17" stands under a plan. */
-static tn_status add_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, sheet *s, tn_error *error)
+/* Its rank among those of its part stands under a plan. */
+static tn_status add_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, const char *heading,
+                          sheet *s, tn_error *error)
 {
     const tn_library *library = tn_library_diff_part(report->diff, part);
     tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
-    char *digits = mpz_get_str(NULL, 10, rank), *label = NULL;
+    char *digits = mpz_get_str(NULL, 10, rank);
     uint32_t length = 0;
-    if (digits) {
-        size_t size = strlen(digits) + strlen(tn_diff_part_names[part]) + 2;
-        label = malloc(size);
-        if (label)
-            snprintf(label, size, "%s %s", tn_diff_part_names[part], digits);
-    }
-    free(digits);
-    if (!trays || !label || !tn_library_unrank(library, rank, trays, &length)) {
+    if (!trays || !digits || !tn_library_unrank(library, rank, trays, &length)) {
         free(trays);
-        free(label);
+        free(digits);
         return tn_fail_memory(error);
     }
-    s->plans[s->count++] = (tn_drawn_plan){trays, length, label};
+    s->plans[s->count++] = (tn_drawn_plan){trays, length, digits, heading};
     return TN_OK;
-}
-
-static tn_status collect(const tn_diff_report *report, sheet *s, tn_error *error)
-{
-    size_t all = report->samples[TN_DIFF_REMOVED].count + report->samples[TN_DIFF_ADDED].count;
-    s->plans = calloc(all + 1, sizeof *s->plans);
-    if (!s->plans)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    for (int part = TN_DIFF_REMOVED; part <= TN_DIFF_ADDED; part++)
-        for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++)
-            status = add_plan(report, (tn_diff_part)part, report->samples[part].ranks[i], s, error);
-    return status;
 }
 
 static void describe(const tn_diff_report *report, tn_diff_part part, char *note)
@@ -76,20 +57,40 @@ static void describe(const tn_diff_report *report, tn_diff_part part, char *note
     mpz_clear(count);
 }
 
+/* headings: of the three parts. */
+static tn_status collect(const tn_diff_report *report, char headings[TN_DIFF_PARTS][NOTE_SIZE], sheet *s,
+                         tn_error *error)
+{
+    size_t all = 0;
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        all += report->samples[part].count;
+    s->plans = calloc(all + 1, sizeof *s->plans);
+    if (!s->plans)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++)
+            status = add_plan(report, (tn_diff_part)part, report->samples[part].ranks[i], i ? NULL : headings[part], s,
+                              error);
+    return status;
+}
+
 static tn_status draw(const tn_diff_report *report, const tn_settings *settings, tn_error *error)
 {
-    char notes[3][NOTE_SIZE], title[NOTE_SIZE];
-    const char *lines[3] = {notes[0], notes[1], notes[2]};
+    char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
+    const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
     sheet s = {0};
-    tn_status status = collect(report, &s, error);
-    describe(report, TN_DIFF_REMOVED, notes[0]);
-    describe(report, TN_DIFF_ADDED, notes[1]);
-    snprintf(notes[2], NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, report->paths[0], report->paths[1],
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        describe(report, (tn_diff_part)part, headings[part]);
+    tn_status status = collect(report, headings, &s, error);
+    snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, report->paths[0], report->paths[1],
              settings->seed.value);
-    snprintf(title, sizeof title, "%.160s: removed and added plans",
+    snprintf(title, sizeof title, "%.160s: what changes",
              tn_text(report->modules[1], report->records[1]->name));
-    tn_draw_options options = {
-        .title = settings->title ? settings->title : title, .number_name = "", .notes = lines, .note_count = 3};
+    tn_draw_options options = {.title = settings->title ? settings->title : title,
+                               .number_name = "rank",
+                               .notes = lines,
+                               .note_count = TN_DIFF_PARTS + 1};
     if (status == TN_OK)
         status = tn_plans_draw(tn_library_schema(tn_library_diff_part(report->diff, TN_DIFF_KEPT)), s.plans, s.count,
                                &options, settings->output, error);

@@ -51,7 +51,7 @@ static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *n
     }
     if (length)
         memcpy(copy, trays, sizeof *copy * length);
-    s->plans[s->count++] = (tn_drawn_plan){copy, length, number};
+    s->plans[s->count++] = (tn_drawn_plan){copy, length, number, NULL};
     return TN_OK;
 }
 

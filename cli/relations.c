@@ -42,7 +42,7 @@ static void write_matrix(const tn_plan_analyses *analyses, size_t a, FILE *out)
     const tn_plan_analysis *analysis = analyses->items[a];
     size_t count = tn_plan_analysis_rule_count(analysis);
     int width = name_width(analyses, a), digits = snprintf(NULL, 0, "%zu", count);
-    bool used[sizeof signs / sizeof *signs] = {false};
+    size_t cells[sizeof signs / sizeof *signs] = {0};
     fprintf(out, "%*s", digits + 1 + width, "");
     for (size_t j = 0; j < count; j++)
         fprintf(out, " %*zu", digits, j + 1);
@@ -51,14 +51,15 @@ static void write_matrix(const tn_plan_analyses *analyses, size_t a, FILE *out)
         fprintf(out, "%*zu %-*s", digits, i + 1, width, rule_name(analyses, a, i));
         for (size_t j = 0; j < count; j++) {
             tn_rule_relation relation = tn_plan_analysis_relation(analysis, i, j);
-            used[relation] |= i != j;
+            cells[relation] += i != j;
             fprintf(out, " %*c", digits, i == j ? '.' : signs[relation].letter);
         }
         fputc('\n', out);
     }
     for (size_t s = 0; s < sizeof signs / sizeof *signs; s++)
-        if (used[s])
-            fprintf(out, "%c %s: %s\n", signs[s].letter, signs[s].word, signs[s].meaning);
+        if (cells[s]) /* inside and contains are one relation seen from both rules */
+            fprintf(out, "%c %s: %s (%zu)\n", signs[s].letter, signs[s].word, signs[s].meaning,
+                    s == TN_RULES_INSIDE || s == TN_RULES_CONTAINS ? cells[s] : cells[s] / 2);
 }
 
 static tn_status write_example(const tn_schema *schema, const char *who, const tn_shown_plan *plan, FILE *out,

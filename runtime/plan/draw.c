@@ -15,6 +15,8 @@
 #define STRIP_PAPER 1296.0 /* width of the paper that the strip is made for: ARCH B, 18 inches */
 #define NUMBER_ROOM 12.0
 #define NUMBER_SIZE 6.2
+#define HEADING_ROOM 22.0 /* above each row, where there are groups */
+#define HEADING_SIZE 10.0
 #define LEGIBLE_SIZE 5.5 /* of the dimensions, which with some room choose the smallest good scale */
 #define LEGIBLE_ROOM 7.0
 
@@ -33,7 +35,29 @@ typedef struct drawing {
     double factor;        /* points a nanometre; for a table, points a point */
     size_t columns, rows; /* of cells on a page */
     double cell_width, cell_height;
+    bool grouped;
 } drawing;
+
+/* The place of the plan after one at `slot` (SIZE_MAX: none), counting cells along the rows: a group begins a row. */
+static size_t next_slot(const drawing *d, size_t slot, const tn_drawn_plan *plan)
+{
+    size_t next = slot == SIZE_MAX ? 0 : slot + 1;
+    return plan->heading ? (next + d->columns - 1) / d->columns * d->columns : next;
+}
+
+/* How many cells all plans take, with those left empty at the ends of groups. */
+static size_t slots(const drawing *d)
+{
+    size_t slot = SIZE_MAX;
+    for (size_t i = 0; i < d->count; i++)
+        slot = next_slot(d, slot, &d->plans[i]);
+    return slot + 1;
+}
+
+static double heading_room(const drawing *d)
+{
+    return d->grouped ? HEADING_ROOM : 0;
+}
 
 /* The size of a cell at a scale: points a nanometre for a plan to scale, points a point for a table. */
 static void size_cells(drawing *d, double factor)
@@ -42,11 +66,11 @@ static void size_cells(drawing *d, double factor)
     if (d->roles.to_scale) {
         double marks = d->roles.public_end == TN_NO_FIELD ? 0 : 2 * TN_MARK_ROOM;
         d->cell_width = d->extent.width * factor + marks;
-        d->cell_height =
-            (d->extent.above + d->extent.below) * factor + tn_draw_dimension_room(&d->extent) + NUMBER_ROOM;
+        d->cell_height = (d->extent.above + d->extent.below) * factor + tn_draw_dimension_room(&d->extent) +
+                         NUMBER_ROOM + heading_room(d);
     } else {
         d->cell_width = d->extent.width * factor;
-        d->cell_height = tn_draw_table_height(&d->table, &d->roles) * factor + NUMBER_ROOM;
+        d->cell_height = tn_draw_table_height(&d->table, &d->roles) * factor + NUMBER_ROOM + heading_room(d);
     }
 }
 
@@ -91,7 +115,7 @@ static bool lay_out(drawing *d, const tn_paper *paper, double factor)
 
 static bool holds_all(const drawing *d)
 {
-    return d->columns * d->rows >= d->count;
+    return d->columns > 0 && d->columns * d->rows >= slots(d);
 }
 
 static bool is_metric(const drawing *d)
@@ -178,7 +202,8 @@ static void lay_out_tables(drawing *d, const tn_paper *papers, size_t paper_coun
     if (lay_out(d, usual, 1))
         return;
     double across = room_across(usual->width) / d->extent.width,
-           down = (room_down(usual->width, usual->height) - NUMBER_ROOM) / tn_draw_table_height(&d->table, &d->roles);
+           down = (room_down(usual->width, usual->height) - NUMBER_ROOM - heading_room(d)) /
+                  tn_draw_table_height(&d->table, &d->roles);
     lay_out(d, usual, fmin(across, down));
 }
 
@@ -227,8 +252,8 @@ static tn_status choose_layout(drawing *d, tn_error *error)
 /* A sheet that is not paged grows downwards until it holds all; rows on a single page are made equally long. */
 static void fit_sheet(drawing *d)
 {
-    size_t needed = (d->count + d->columns - 1) / d->columns;
-    if (needed > 0 && needed <= d->rows && !d->options->columns)
+    size_t needed = (slots(d) + d->columns - 1) / d->columns;
+    if (needed > 0 && needed <= d->rows && !d->options->columns && !d->grouped)
         d->columns = (d->count + needed - 1) / needed;
     if (d->format == TN_CANVAS_PDF || needed <= d->rows)
         return;
@@ -266,13 +291,18 @@ static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan 
     tn_type_digits(context, x + used, baseline, width - used, plan->number);
 }
 
-static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double y)
+static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double top)
 {
+    double y = top + heading_room(d), height = d->cell_height - heading_room(d);
+    if (plan->heading) {
+        tn_type_face(context, HEADING_SIZE, true);
+        tn_type_line(context, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);
+    }
     if (d->roles.to_scale) {
         double left = x + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double spine = y + d->extent.above * d->factor, bottom = spine + d->extent.below * d->factor;
         tn_draw_plan(context, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
-        draw_number(d, context, plan, left, y + d->cell_height - 2, d->cell_width - (left - x));
+        draw_number(d, context, plan, left, y + height - 2, d->cell_width - (left - x));
         return;
     }
     cairo_save(context);
@@ -281,7 +311,7 @@ static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *p
     tn_draw_table_plan(context, &d->roles, &d->table, plan, 0, 0);
     cairo_restore(context);
     double indent = d->table.name_width * d->factor;
-    draw_number(d, context, plan, x + indent, y + d->cell_height - 2, d->cell_width - indent);
+    draw_number(d, context, plan, x + indent, y + height - 2, d->cell_width - indent);
 }
 
 /* The gap that spreads `count` cells over the room, between the usual gap and three times that. */
@@ -293,9 +323,10 @@ static double spread(double room, double cell, size_t count, double gap)
     return fmax(gap, fmin(even, 3 * gap));
 }
 
+/* The page whose first cell is `first`. */
 static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t page, size_t pages)
 {
-    size_t on_page = d->columns * d->rows, left = d->count - first, here = left < on_page ? left : on_page;
+    size_t on_page = d->columns * d->rows, left = slots(d) - first, here = left < on_page ? left : on_page;
     size_t columns = here < d->columns ? here : d->columns, rows = columns ? (here + d->columns - 1) / d->columns : 0;
     double across = room_across(d->width), down = room_down(d->width, d->height);
     double column_gap = spread(across, d->cell_width, d->columns, COLUMN_GAP),
@@ -305,14 +336,18 @@ static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t p
     double x0 = MARGIN + INSET + fmax(0, (across - used) / 2);
     double y0 = MARGIN + INSET + (pages == 1 ? fmax(0, (down - used_down) / 2) : 0);
     draw_frame(d, context, page, pages);
-    for (size_t i = 0; i < here; i++)
-        draw_cell(d, context, &d->plans[first + i], x0 + (double)(i % d->columns) * (d->cell_width + column_gap),
-                  y0 + (double)(i / d->columns) * (d->cell_height + row_gap));
+    for (size_t i = 0, slot = SIZE_MAX; i < d->count; i++) {
+        slot = next_slot(d, slot, &d->plans[i]);
+        size_t at = slot - first; /* wraps where it is on an earlier page */
+        if (at < here)
+            draw_cell(d, context, &d->plans[i], x0 + (double)(at % d->columns) * (d->cell_width + column_gap),
+                      y0 + (double)(at / d->columns) * (d->cell_height + row_gap));
+    }
 }
 
 static tn_status draw_pages(const drawing *d, tn_canvas *canvas, tn_error *error)
 {
-    size_t on_page = d->columns * d->rows, pages = d->count ? (d->count + on_page - 1) / on_page : 1;
+    size_t on_page = d->columns * d->rows, pages = d->count ? (slots(d) + on_page - 1) / on_page : 1;
     for (size_t page = 0; page < pages; page++) {
         tn_status status = page ? tn_canvas_page(canvas, d->width, d->height, error) : TN_OK;
         if (status != TN_OK)
@@ -343,8 +378,11 @@ tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, siz
     if (status != TN_OK)
         return status;
     tn_draw_roles_find(schema, &d.roles);
-    for (size_t i = 0; d.roles.to_scale && i < count; i++)
-        tn_draw_measure(&d.roles, &plans[i], &d.extent);
+    for (size_t i = 0; i < count; i++) {
+        d.grouped = d.grouped || plans[i].heading;
+        if (d.roles.to_scale)
+            tn_draw_measure(&d.roles, &plans[i], &d.extent);
+    }
     status = choose_layout(&d, error);
     if (status != TN_OK)
         return status;

@@ -13,6 +13,7 @@
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/paper.h"
 #include "runtime/draw/svg_ids.h"
+#include "runtime/draw/svg_page.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/draw.h"
 #include "runtime/vm/file.h"
@@ -151,7 +152,7 @@ static int open_sheet(void **state)
     for (size_t i = 0; i < PLAN_COUNT; i++) {
         for (size_t k = 0; k < LENGTH; k++)
             s->trays[i][k] = (tn_tray)((i * 131 + k * 57) % s->schema->tray_count);
-        s->plans[i] = (tn_drawn_plan){s->trays[i], i % (LENGTH + 1), "123456789"};
+        s->plans[i] = (tn_drawn_plan){s->trays[i], i % (LENGTH + 1), "123456789", NULL};
     }
     snprintf(s->path, sizeof s->path, "/tmp/tartan-draw-%ld", (long)getpid());
     *state = s;
@@ -213,6 +214,94 @@ static void refuses_what_it_cannot_draw(void **state)
     assert_int_not_equal(access("/tmp/tartan-x.png", F_OK), 0);
 }
 
+/* How high an SVG is, in points. */
+static double height_of(const uint8_t *svg, size_t size)
+{
+    char head[400];
+    snprintf(head, sizeof head, "%.*s", (int)(size < sizeof head ? size : sizeof head), (const char *)svg);
+    const char *height = strstr(head, "height=\"");
+    assert_non_null(height);
+    return strtod(height + strlen("height=\""), NULL);
+}
+
+static double sheet_height(const sheet *s, const char *heading)
+{
+    tn_drawn_plan plans[40];
+    tn_draw_options options = {.paper = "a4", .columns = 2, .number_name = "rank"};
+    uint8_t *bytes;
+    size_t size;
+    char path[80];
+    tn_error error;
+    for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
+        plans[i] = s->plans[i % PLAN_COUNT];
+        plans[i].heading = heading;
+    }
+    snprintf(path, sizeof path, "%s.svg", s->path);
+    test_ok(tn_plans_draw(s->schema, plans, sizeof plans / sizeof *plans, &options, path, &error), &error);
+    test_ok(tn_file_read(path, 100 << 20, &bytes, &size, &error), &error);
+    remove(path);
+    double height = height_of(bytes, size);
+    free(bytes);
+    return height;
+}
+
+/* Forty plans in two columns are twenty rows; a group for each, forty rows, and each row has room for a heading. */
+static void groups_begin_rows(void **state)
+{
+    const sheet *s = *state;
+    assert_true(sheet_height(s, "a group") > 1.6 * sheet_height(s, NULL));
+}
+
+/* ---- pictures for a page */
+
+static void letters_pages_with_text(void **state)
+{
+    (void)state;
+    tn_picture picture = {.number = 7};
+    tn_canvas *canvas;
+    tn_error error;
+    test_ok(tn_canvas_begin(&picture, 200, 100, "title", &canvas, &error), &error);
+    cairo_t *context = tn_canvas_context(canvas);
+    tn_type_face(context, 10, true);
+    tn_type_line(context, 20.255, 30, TN_ALIGN_CENTRE, "a < b & \"c\"");
+    cairo_push_group(context); /* a mask, which needs ids */
+    cairo_paint(context);
+    cairo_pop_group_to_source(context);
+    cairo_paint_with_alpha(context, 0.5);
+    cairo_set_source_rgb(context, 1, 0, 0);
+    cairo_scale(context, 2, 2);
+    tn_type_face(context, 5, false);
+    tn_type_line(context, 10, 10, TN_ALIGN_RIGHT, "red");
+    cairo_rotate(context, 1);
+    tn_type_line(context, 0, 0, TN_ALIGN_LEFT, "turned");
+    test_ok(tn_canvas_commit(canvas, &error), &error);
+    tn_canvas_free(canvas);
+    assert_int_equal(strlen(picture.element), picture.size);
+    assert_int_equal(strncmp(picture.element, "<svg ", 5), 0);
+    assert_non_null(strstr(picture.element, "<text x=\"20.26\" y=\"30\" font-size=\"10\" font-weight=\"bold\" "
+                                            "text-anchor=\"middle\">a &lt; b &amp; \"c\"</text>"));
+    assert_non_null(strstr(picture.element,
+                           "<text x=\"20\" y=\"20\" font-size=\"10\" text-anchor=\"end\" fill=\"#ff0000\">red</text>"));
+    assert_non_null(strstr(picture.element, "transform=\"matrix(1.08 1.68 -1.68 1.08 0 0)\">turned</text>"));
+    assert_null(strstr(picture.element, "<symbol"));
+    assert_null(strstr(picture.element, "id=\"i"));
+    assert_non_null(strstr(picture.element, "id=\"p7-"));
+    assert_string_equal(picture.element + picture.size - strlen("</g>\n</svg>\n"), "</g>\n</svg>\n");
+    free(picture.element);
+}
+
+static void shortens_paths(void **state)
+{
+    (void)state;
+    char text[] =
+        "<path style=\"fill:none;stroke-linecap:butt;stroke:red;stroke-miterlimit:10;\" d=\"M 1.2345 -0.5 L 3. "
+        "17.001\"/><text x=\"1.2345\">fill-opacity:1; 0.12345</text>";
+    size_t size = tn_svg_shorten(text, strlen(text));
+    assert_string_equal(text, "<path style=\"fill:none;stroke:red;\" d=\"M 1.23 -0.5 L 3. 17.00\"/><text "
+                              "x=\"1.2345\">fill-opacity:1; 0.12345</text>");
+    assert_int_equal(size, strlen(text));
+}
+
 static void draws_nothing(void **state)
 {
     sheet *s = *state;
@@ -234,6 +323,9 @@ int main(void)
         cmocka_unit_test(sets_any_text),
         cmocka_unit_test_setup_teardown(draws_the_same_bytes, open_sheet, close_sheet),
         cmocka_unit_test_setup_teardown(refuses_what_it_cannot_draw, open_sheet, close_sheet),
+        cmocka_unit_test_setup_teardown(groups_begin_rows, open_sheet, close_sheet),
+        cmocka_unit_test(letters_pages_with_text),
+        cmocka_unit_test(shortens_paths),
         cmocka_unit_test_setup_teardown(draws_nothing, open_sheet, close_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
