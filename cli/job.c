@@ -17,6 +17,8 @@ int tn_exit_code(tn_status status)
     case TN_LIMIT:
     case TN_MEMORY:
         return TN_EXIT_LIMIT;
+    case TN_STOPPED:
+        return TN_EXIT_INTERRUPTED;
     case TN_INTERNAL:
         break;
     }

@@ -24,9 +24,10 @@ const tn_command tn_command_lsp = {
     .usage = "",
     .description =
         "Speaks the Language Server Protocol on standard input and output. Editors start it: for VS Code there is an "
-        "extension in editors/vscode. It shows what is wrong as you type, completes fields, values and rules, says "
-        "what a name means and what its rule prunes, finds and renames names, lists a file's contents, lays it out, "
-        "and offers the fixes that diagnostics suggest.",
+        "extension in editors/vscode. For every notation (.plan, .hemls, .study, .bnf) it shows what is wrong as you "
+        "type, lists a file's contents and lays it out. For .plan files it also says in the background what rules "
+        "mean where that is hardly meant, completes fields, values and rules, says what a name means, what its rule "
+        "prunes and how it lies to others, finds and renames names, and offers the fixes that diagnostics suggest.",
     .example = "$ tartan lsp 2>lsp.log",
     .operands = "no operands",
     .run = run,

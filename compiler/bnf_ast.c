@@ -116,8 +116,10 @@ void tn_bnf_note_stray(tn_bnf_reader *reader, tn_span span, const char *text)
 /* A directive is a line, which a comment may end. */
 void tn_bnf_note_directive(tn_bnf_reader *reader, tn_span span, const char *text)
 {
-    uint32_t comment = span.begin + (uint32_t)strcspn(text, "#");
-    tn_token_add(reader->tokens, TN_TOKEN_WORD, (tn_span){span.file, span.begin, comment});
+    uint32_t comment = span.begin + (uint32_t)strcspn(text, "#"), end = comment;
+    while (strchr(" \t", text[end - 1 - span.begin]))
+        end--;
+    tn_token_add(reader->tokens, TN_TOKEN_WORD, (tn_span){span.file, span.begin, end});
     tn_token_add(reader->tokens, TN_TOKEN_COMMENT, (tn_span){span.file, comment, span.end});
 }
 

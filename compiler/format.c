@@ -4,62 +4,12 @@
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/evolution.h"
 #include "compiler/format_bnf.h"
 #include "compiler/format_clauses.h"
 #include "compiler/lexical.h"
-#include "compiler/parse.h"
-#include "compiler/study.h"
+#include "compiler/reading.h"
 
 enum { PASSES_MAX = 8 };
-
-/* One text being formatted, or formatted. */
-typedef struct format_text {
-    uint32_t file;
-    tn_tokens tokens;
-    void *tree; /* what the notation's parser made of it */
-} format_text;
-
-/* ---- reading: false where out of memory; what is wrong is in the diagnostics */
-
-static bool read_plan(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
-{
-    text->tree = tn_parse_plan(arena, diagnostics, text->file, &text->tokens);
-    return text->tree != NULL;
-}
-
-static bool read_hemls(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
-{
-    text->tree = tn_parse_hemls(arena, diagnostics, text->file, &text->tokens);
-    return text->tree != NULL;
-}
-
-static bool read_study(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
-{
-    const tn_source *source = &diagnostics->sources->files[text->file];
-    tn_evolution_reader reader = {
-        .arena = arena, .diagnostics = diagnostics, .file = text->file, .tokens = &text->tokens};
-    if (!tn_has_evolution(source->text)) {
-        text->tree = tn_parse_study(arena, diagnostics, text->file, &text->tokens);
-        return text->tree != NULL;
-    }
-    tn_evolution_read(&reader, source->text, source->size);
-    return !reader.failed;
-}
-
-static bool read_bnf(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text)
-{
-    const tn_source *source = &diagnostics->sources->files[text->file];
-    size_t errors = diagnostics->error_count;
-    tn_bnf_reader *reader = TN_NEW(arena, tn_bnf_reader);
-    if (!reader)
-        return false;
-    *reader = (tn_bnf_reader){.arena = arena, .diagnostics = diagnostics, .file = text->file, .tokens = &text->tokens};
-    tn_bnf_read(reader, source->text, source->size);
-    tn_format_bnf_trim(source, &text->tokens);
-    text->tree = reader;
-    return !reader->failed || diagnostics->error_count > errors;
-}
 
 /* ---- what was laid out against what it was made from */
 
@@ -97,7 +47,7 @@ static bool is_brace(const tn_sources *sources, tn_token token)
 }
 
 /* Do the two have the same tokens, comments aside, on the same lines where these mean something? */
-static bool same_tokens(const tn_sources *sources, const format_text *before, const format_text *after)
+static bool same_tokens(const tn_sources *sources, const tn_reading *before, const tn_reading *after)
 {
     const tn_tokens *one = &before->tokens, *other = &after->tokens;
     bool line, other_line, free = true;
@@ -113,7 +63,7 @@ static bool same_tokens(const tn_sources *sources, const format_text *before, co
     return i == one->count && k == other->count;
 }
 
-static bool same_grammar(const tn_sources *sources, const format_text *before, const format_text *after)
+static bool same_grammar(const tn_sources *sources, const tn_reading *before, const tn_reading *after)
 {
     (void)sources;
     return tn_format_bnf_same(before->tree, after->tree);
@@ -131,39 +81,39 @@ static const char *spell_hemls(tn_arena *arena, const char *text, size_t size)
 }
 
 typedef struct format_notation {
-    bool (*read)(tn_arena *arena, tn_diagnostics *diagnostics, format_text *text);
     tn_format_spell *spell;
     bool nests; /* has brackets that come in pairs, or else an error of syntax */
     void (*lay_out)(tn_format *format);
-    bool (*same)(const tn_sources *sources, const format_text *before, const format_text *after);
+    bool (*same)(const tn_sources *sources, const tn_reading *before, const tn_reading *after);
 } format_notation;
 
 static const format_notation notations[TN_NOTATION_COUNT] = {
-    [TN_NOTATION_PLAN] = {read_plan, tn_format_small_letters, true, tn_format_plan, same_tokens},
-    [TN_NOTATION_HEMLS] = {read_hemls, spell_hemls, false, tn_format_hemls, same_tokens},
-    [TN_NOTATION_STUDY] = {read_study, tn_format_small_letters, false, tn_format_study, same_tokens},
-    [TN_NOTATION_BNF] = {read_bnf, tn_format_bnf_directive, true, tn_format_bnf, same_grammar},
+    [TN_NOTATION_PLAN] = {tn_format_small_letters, true, tn_format_plan, same_tokens},
+    [TN_NOTATION_HEMLS] = {spell_hemls, false, tn_format_hemls, same_tokens},
+    [TN_NOTATION_STUDY] = {tn_format_small_letters, false, tn_format_study, same_tokens},
+    [TN_NOTATION_BNF] = {tn_format_bnf_directive, true, tn_format_bnf, same_grammar},
 };
 
 /* ---- one text */
 
 static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
-                           const char *text, size_t size, format_text *read, tn_error *error)
+                           const char *text, size_t size, tn_reading *read, tn_error *error)
 {
     size_t errors = diagnostics->error_count;
     tn_status status = tn_sources_add(diagnostics->sources, path, text, size, &read->file, error);
     if (status != TN_OK)
         return status;
-    read->tokens = (tn_tokens){.arena = arena};
     if (!tn_text_check(diagnostics, read->file))
         return TN_INVALID;
-    bool done = notations[notation].read(arena, diagnostics, read);
+    bool done = tn_read(arena, diagnostics, notation, read->file, read);
     if (!done || diagnostics->failed || tn_arena_failed(arena))
         return tn_fail_memory(error);
+    if (notation == TN_NOTATION_BNF)
+        tn_format_bnf_trim(&diagnostics->sources->files[read->file], &read->tokens);
     return diagnostics->error_count > errors ? TN_INVALID : TN_OK;
 }
 
-static tn_status report_depth(tn_diagnostics *diagnostics, const format_text *text, size_t offset)
+static tn_status report_depth(tn_diagnostics *diagnostics, const tn_reading *text, size_t offset)
 {
     tn_span span = {text->file, (uint32_t)offset, (uint32_t)offset + 1};
     tn_diagnostic *d =
@@ -174,7 +124,7 @@ static tn_status report_depth(tn_diagnostics *diagnostics, const format_text *te
 }
 
 /* Lays the file out, and again until the lines that clauses are named by have come to rest. */
-static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const format_text *from,
+static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const tn_reading *from,
                          char **text, size_t *size, tn_error *error)
 {
     const tn_source *source = &diagnostics->sources->files[from->file];
@@ -203,10 +153,10 @@ static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notati
 
 /* Reads what was laid out; *same: it is what it was made from. What there is to say about it has been said. */
 static tn_status compare(tn_arena *arena, tn_sources *sources, tn_notation notation, const char *path, const char *text,
-                         size_t size, const format_text *before, bool *same, tn_error *error)
+                         size_t size, const tn_reading *before, bool *same, tn_error *error)
 {
     tn_diagnostics scratch;
-    format_text after;
+    tn_reading after;
     tn_diagnostics_init(&scratch, sources);
     tn_status status = read_text(arena, &scratch, notation, path, text, size, &after, error);
     *same = status == TN_OK && notations[notation].same(sources, before, &after);
@@ -219,7 +169,7 @@ static tn_status compare(tn_arena *arena, tn_sources *sources, tn_notation notat
 static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
                            const char *text, size_t size, char **formatted, size_t *formatted_size, tn_error *error)
 {
-    format_text before;
+    tn_reading before;
     char *laid_out;
     bool same;
     tn_status status = read_text(arena, diagnostics, notation, path, text, size, &before, error);

@@ -4,6 +4,7 @@
 
 #include "compiler/format.h"
 #include "compiler/format_tokens.h"
+#include "compiler/study.h"
 
 enum {
     BODY = 2,      /* indents */
@@ -24,12 +25,8 @@ static bool starts_block(const tn_format *format, size_t i)
 
 static bool starts_statement(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {
-        "use",    "title",        "rules",         "steps",      "scale",        "start",        "start-length",
-        "seed",   "branch-angle", "branch-length", "edge-limit", "fixed-centre", "fixed-center", "facing",
-        "mirror", "gravity",      "attractor",     "repeller",   "boundary",     "fitness",      "fixed-perimeter",
-        NULL};
-    return tn_format_is_any(format, i, words) || starts_block(format, i);
+    const tn_format_token *token = &format->tokens[i];
+    return (token->kind == TN_TOKEN_WORD && tn_study_heads(token->text, token->size)) || starts_block(format, i);
 }
 
 static bool at_word(const tn_format *format, size_t i)

@@ -77,7 +77,7 @@ static void take_token(taker *t, const tn_token *from, size_t lines)
     token->offset = from->span.begin;
     token->width = tn_text_width(token->text, token->size);
     token->blank = lines > 1;
-    if (token->size == 1 && *token->text == ',' && format->count > 0 &&
+    if (token->kind == TN_TOKEN_SIGN && *token->text == ',' && format->count > 0 &&
         !token->comment_count) { /* `a # why , b`: after the comma */
         token->remark = token[-1].remark;
         token[-1].remark.text = NULL;

@@ -83,6 +83,9 @@ typedef struct tn_study_text {
 /* Parses the source as a .study file without evolution; as tn_parse_hemls. */
 tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
+/* Does a statement start with this word? */
+bool tn_study_heads(const char *text, size_t size);
+
 /* Is this a word of the notation, in capitals or not? */
 bool tn_study_has_word(const char *text, size_t size);
 

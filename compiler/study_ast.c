@@ -1,4 +1,5 @@
 #include <string.h>
+#include <strings.h>
 
 #include "compiler/study.h"
 
@@ -41,6 +42,18 @@ void tn_study_lost(tn_growth_parse *parse)
 {
     tn_study_file *file = parse->result;
     file->damaged = true;
+}
+
+bool tn_study_heads(const char *text, size_t size)
+{
+    static const char *const words[] = {
+        "use",           "title",     "rules",        "steps",        "scale",           "start",   "start-length",
+        "seed",          "facing",    "branch-angle", "edge-limit",   "fixed-perimeter", "mirror",  "gravity",
+        "branch-length", "attractor", "repeller",     "fixed-centre", "boundary",        "fitness", "fixed-center"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
+            return true;
+    return false;
 }
 
 static bool ends_in(const char *path, const char *extension)

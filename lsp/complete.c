@@ -243,8 +243,8 @@ static void complete_schema(cursor *c)
 
 static void complete_test(cursor *c)
 {
-    static const char *const rule_words[] = {"match", "reject", "todo", NULL}, *const library_words[] = {"keep", "drop", "by",
-                                                                                                 NULL};
+    static const char *const rule_words[] = {"match", "reject", "todo", NULL}, *const library_words[] = {"keep", "drop",
+                                                                                                         "by", NULL};
     char *subject = c->item + 1 < c->count ? word_at(c, c->item + 1) : NULL;
     const tn_symbol *symbol = subject ? tn_names_get(&c->analysis->index.names, subject) : NULL;
     free(subject);

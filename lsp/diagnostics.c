@@ -29,16 +29,28 @@ static tn_span visible(const tn_analysis *analysis, tn_span span)
     return span;
 }
 
+/* With the notes that have no place of their own, and the help. */
 static json_t *message_of(tn_analysis *analysis, const tn_diagnostic *item, bool elsewhere)
 {
-    char place[600] = "";
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
     if (elsewhere) {
         tn_place at = tn_sources_place(&analysis->compilation.sources, item->span);
-        snprintf(place, sizeof place, "%.500s:%zu: ", at.path, at.line);
+        fprintf(out, "%s:%zu: ", at.path, at.line);
     }
-    const char *message = item->message ? item->message : "";
-    return item->help ? json_sprintf("%s%s\nhelp: %s", place, message, item->help)
-                      : json_sprintf("%s%s", place, message);
+    fprintf(out, "%s", item->message ? item->message : "");
+    for (size_t i = 0; i < item->note_count; i++)
+        if (!item->notes[i].has_span && item->notes[i].text)
+            fprintf(out, "\nnote: %s", item->notes[i].text);
+    if (item->help)
+        fprintf(out, "\nhelp: %s", item->help);
+    fclose(out);
+    json_t *message = text ? json_string(text) : NULL;
+    free(text);
+    return message;
 }
 
 static json_t *related(tn_document *document, const tn_diagnostic *item)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "compiler/format.h"
-#include "lsp/counts.h"
+#include "lsp/facts.h"
 #include "lsp/features.h"
 
 enum { SHOWN_MAX = 4096 }; /* bytes of a definition that are shown */
@@ -25,7 +25,6 @@ static const char *code_of(const tn_analysis *analysis, tn_span span, int *size)
     return source->text + span.begin;
 }
 
-/* How many of a library's rules name it is told by the index. */
 static json_t *text_of(const tn_document *document, tn_analysis *analysis, const tn_symbol *symbol)
 {
     int size;
@@ -36,11 +35,11 @@ static json_t *text_of(const tn_document *document, tn_analysis *analysis, const
         snprintf(of, sizeof of, " of %s `%.200s`", kind_name(symbol->parent), symbol->parent->name);
     if (symbol->span.file != 0)
         snprintf(where, sizeof where, ", from `%.200s`", slash ? slash + 1 : path);
-    char *counts = tn_counts_text(document->counts, symbol);
+    char *facts = tn_facts_text(document->facts, symbol);
     json_t *text = json_sprintf("```plan\n%.*s\n```\n%s%s%s%s`%s`%s%s%s%s", size, code, symbol->doc ? symbol->doc : "",
                                 symbol->doc ? "\n\n" : "", kind_name(symbol), " ", symbol->name, of, where,
-                                counts ? "\n\n" : "", counts ? counts : "");
-    free(counts);
+                                facts ? "\n\n" : "", facts ? facts : "");
+    free(facts);
     return text;
 }
 
@@ -63,7 +62,7 @@ json_t *tn_lsp_format(tn_document *document)
     size_t size;
     json_t *edits = json_array();
     tn_diagnostics_init(&diagnostics, &sources);
-    tn_format_text(&diagnostics, TN_NOTATION_PLAN, document->path, document->text, document->size, &text, &size);
+    tn_format_text(&diagnostics, document->notation, document->path, document->text, document->size, &text, &size);
     tn_lines lines;
     if (text && strcmp(text, document->text) != 0 && tn_lines_make(&lines, document->text, document->size)) {
         json_array_append_new(

@@ -1,4 +1,4 @@
-/* Definition, references, highlights, renaming, and the outline: what the index knows. */
+/* Definition, references, highlights and renaming: what the index knows. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -228,48 +228,4 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysi
     renaming r = {json_object(), name};
     each_occurrence(workspace, document, found->symbol, add_edit, &r);
     return json_pack("{s:o}", "changes", r.changes);
-}
-
-/* ---- outline */
-
-/* SymbolKind of the protocol. */
-static int outline_kind(tn_symbol_kind kind)
-{
-    static const int kinds[] = {[TN_SYMBOL_SCHEMA] = 23, /* Struct */
-                                [TN_SYMBOL_FIELD] = 8,   /* Field */
-                                [TN_SYMBOL_VALUE] = 22,  /* EnumMember */
-                                [TN_SYMBOL_RULE] = 12,   /* Function */
-                                [TN_SYMBOL_LIBRARY] = 2, /* Module */
-                                [TN_SYMBOL_CLAUSE] = 20 /* Key */};
-    return kinds[kind];
-}
-
-static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
-{
-    json_t *item = json_pack("{s:s,s:i,s:o,s:o}", "name", symbol->name, "kind", outline_kind(symbol->kind), "range",
-                             tn_analysis_range(analysis, symbol->span), "selectionRange",
-                             tn_analysis_range(analysis, symbol->name_span));
-    if (symbol->doc)
-        json_object_set_new(item, "detail", json_string(symbol->doc));
-    json_t *children = json_array();
-    for (const tn_symbol *s = symbol->next; s && symbol->kind != TN_SYMBOL_RULE; s = s->next) {
-        if (s->parent == symbol)
-            json_array_append_new(children, outline_item(analysis, s));
-        else if (s->kind != TN_SYMBOL_VALUE && symbol->kind != TN_SYMBOL_LIBRARY && s->parent != symbol)
-            break;
-    }
-    if (json_array_size(children) > 0)
-        json_object_set(item, "children", children);
-    json_decref(children);
-    return item;
-}
-
-json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis)
-{
-    (void)document;
-    json_t *list = json_array();
-    for (const tn_symbol *s = analysis->index.first; s; s = s->next)
-        if (s->span.file == 0 && !s->parent)
-            json_array_append_new(list, outline_item(analysis, s));
-    return list;
 }

@@ -1,8 +1,11 @@
 /* The server's loop: messages in, answers out. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
 
-#include "lsp/counts.h"
+#include "lsp/background.h"
 #include "lsp/features.h"
 #include "lsp/lsp.h"
 #include "lsp/wire.h"
@@ -18,9 +21,18 @@ enum {
     REQUEST_FAILED = -32803,
 };
 
+enum {
+    PAUSE = 200,        /* milliseconds without an edit, after which rules are looked at in the background */
+    BACKGROUND = 60000, /* milliseconds after which that is given up */
+};
+
 typedef struct server {
     tn_wire wire;
     tn_workspace workspace;
+    tn_background *background; /* at work, or NULL */
+    tn_document *subject;      /* what it is about; NULL where it was cancelled */
+    int wake;                  /* the event by which it says that it is done */
+    int64_t time;              /* when to begin, or, while one is at work, to give up; in milliseconds */
     bool initialized, shut_down, exiting;
     int error;          /* of the request at hand; 0: none */
     const char *reason; /* what to say about it */
@@ -31,6 +43,24 @@ static json_t *fail(server *s, int code, const char *reason)
     s->error = code;
     s->reason = reason;
     return NULL;
+}
+
+/* ---- looking at rules in the background */
+
+static int64_t now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (int64_t)time.tv_sec * 1000 + time.tv_nsec / 1000000;
+}
+
+/* A text has changed: what is found out about the old one is of no use, and nobody wants to wait for it. */
+static void cancel_background(server *s)
+{
+    if (s->background)
+        tn_background_cancel(s->background);
+    s->subject = NULL;
+    s->time = now() + PAUSE;
 }
 
 /* ---- what is asked about */
@@ -90,6 +120,7 @@ static json_t *shut_down(server *s, const json_t *params)
 {
     (void)params;
     s->shut_down = true;
+    cancel_background(s);
     return json_null();
 }
 
@@ -154,7 +185,7 @@ static json_t *formatting(server *s, const json_t *params)
     question a;
     if (!find_document(s, params, &a))
         return NULL;
-    return tn_is_plan(a.document->path) ? tn_lsp_format(a.document) : json_null();
+    return tn_lsp_format(a.document);
 }
 
 static json_t *actions(server *s, const json_t *params)
@@ -225,8 +256,11 @@ static void did_open(server *s, const json_t *params)
 {
     const json_t *document = json_object_get(params, "textDocument");
     const char *uri = uri_of(params), *text = json_string_value(json_object_get(document, "text"));
-    if (uri && text &&
-        !tn_workspace_put(&s->workspace, uri, text, json_integer_value(json_object_get(document, "version"))))
+    const char *language = json_string_value(json_object_get(document, "languageId"));
+    if (!uri || !text)
+        return;
+    cancel_background(s);
+    if (!tn_workspace_put(&s->workspace, uri, language, text, json_integer_value(json_object_get(document, "version"))))
         s->wire.failed = true;
 }
 
@@ -235,8 +269,10 @@ static void did_change(server *s, const json_t *params)
     const char *uri = uri_of(params);
     tn_document *document = uri ? tn_workspace_find(&s->workspace, uri) : NULL;
     json_int_t version = json_integer_value(json_object_get(json_object_get(params, "textDocument"), "version"));
-    if (document)
-        tn_workspace_change(&s->workspace, document, json_object_get(params, "contentChanges"), version);
+    if (!document)
+        return;
+    cancel_background(s);
+    tn_workspace_change(&s->workspace, document, json_object_get(params, "contentChanges"), version);
 }
 
 static void notify(server *s, const char *method, json_t *params)
@@ -249,6 +285,7 @@ static void did_close(server *s, const json_t *params)
     const char *uri = uri_of(params);
     if (!uri || !tn_workspace_find(&s->workspace, uri))
         return;
+    cancel_background(s);
     notify(s, "textDocument/publishDiagnostics", json_pack("{s:s,s:[]}", "uri", uri, "diagnostics"));
     tn_workspace_remove(&s->workspace, uri);
 }
@@ -269,20 +306,6 @@ static void take_notification(server *s, const char *method, const json_t *param
 
 /* ---- the loop */
 
-/* Counts for hovering are started anew where what compiles means something else; while a thread counts, it is left to.
- */
-static void start_counts(tn_document *document)
-{
-    const tn_compilation *compilation = &document->analysis->compilation;
-    if (!compilation->module)
-        return;
-    if (document->counts && (!tn_counts_done(document->counts) ||
-                             tn_counts_are_of(document->counts, compilation->module, compilation->module_size)))
-        return;
-    tn_counts_free(document->counts);
-    document->counts = tn_counts_start(compilation->module, compilation->module_size);
-}
-
 static void publish(server *s)
 {
     for (tn_document *document = s->workspace.documents; document; document = document->next) {
@@ -293,8 +316,75 @@ static void publish(server *s)
         if (!analysis)
             continue;
         notify(s, "textDocument/publishDiagnostics", tn_lsp_diagnostics(document, analysis));
-        start_counts(document);
     }
+}
+
+static bool is_due(const tn_document *document)
+{
+    return document->due && document->analysis && document->analysis->compilation.module;
+}
+
+static tn_document *find_due(const server *s)
+{
+    tn_document *document = s->workspace.documents;
+    while (document && !is_due(document))
+        document = document->next;
+    return document;
+}
+
+/* How long to wait at most for a message; -1: for ever. */
+static int patience(const server *s)
+{
+    if (!s->background && !find_due(s))
+        return -1;
+    int64_t left = s->time - now();
+    return left < 0 ? 0 : (int)left;
+}
+
+/* It is time to begin with the next document, or to give up the one at work. */
+static void time_is_up(server *s)
+{
+    tn_document *document = find_due(s);
+    if (s->background && s->subject) {
+        s->subject->due = false;
+        cancel_background(s);
+    }
+    if (s->background || !document) {
+        s->time = now() + PAUSE; /* one that was cancelled is about to end */
+        return;
+    }
+    s->subject = document;
+    s->time = now() + BACKGROUND;
+    s->background = tn_background_start(&s->workspace, document, s->wake);
+    document->due = s->background != NULL;
+}
+
+/* Takes over what was found, if that one at work has come to its end. */
+static void take_background(server *s)
+{
+    tn_document *document = s->subject;
+    tn_analysis *analysis;
+    tn_facts *facts;
+    uint64_t count;
+    (void)!read(s->wake, &count, sizeof count);
+    if (!s->background || !tn_background_ended(s->background))
+        return;
+    tn_background_finish(s->background, &analysis, &facts);
+    s->background = NULL;
+    s->subject = NULL;
+    if (document && analysis) {
+        tn_analysis_free(document->analysis);
+        tn_facts_free(document->facts);
+        document->analysis = analysis;
+        document->facts = facts;
+        document->dirty = true;
+        s->time = now();
+    } else {
+        tn_analysis_free(analysis);
+        tn_facts_free(facts);
+    }
+    if (document)
+        document->due = false;
 }
 
 static void take(server *s, const json_t *message)
@@ -308,30 +398,53 @@ static void take(server *s, const json_t *message)
         take_notification(s, method, params);
 }
 
-static void loop(server *s)
+static void take_message(server *s)
 {
     json_t *message;
-    while (!s->exiting && !s->wire.failed) {
-        tn_wire_result result = tn_wire_read(&s->wire, &message);
-        if (result == TN_WIRE_END)
-            return;
-        if (result == TN_WIRE_MESSAGE) {
-            take(s, message);
-            json_decref(message);
-        } else {
-            json_t *null = json_null();
-            fail(s, PARSE_ERROR, "the message cannot be read");
-            respond(s, null, NULL);
-        }
-        if (!tn_wire_waiting(&s->wire))
-            publish(s);
+    tn_wire_result result = tn_wire_read(&s->wire, &message);
+    if (result == TN_WIRE_END) {
+        s->exiting = true;
+    } else if (result == TN_WIRE_MESSAGE) {
+        take(s, message);
+        json_decref(message);
+    } else {
+        json_t *null = json_null();
+        fail(s, PARSE_ERROR, "the message cannot be read");
+        respond(s, null, NULL);
     }
+}
+
+static void loop(server *s)
+{
+    while (!s->exiting && !s->wire.failed) {
+        tn_wire_event event = tn_wire_wait(&s->wire, s->wake, 0);
+        if (event != TN_WIRE_INPUT) {
+            publish(s);
+            event = tn_wire_wait(&s->wire, s->wake, patience(s));
+        }
+        if (event == TN_WIRE_INPUT)
+            take_message(s);
+        else if (event == TN_WIRE_WOKEN)
+            take_background(s);
+        else
+            time_is_up(s);
+    }
+}
+
+static void end_background(server *s)
+{
+    tn_analysis *analysis = NULL;
+    tn_facts *facts = NULL;
+    if (!s->background)
+        return;
+    tn_background_cancel(s->background);
+    tn_background_finish(s->background, &analysis, &facts);
 }
 
 tn_status tn_lsp_serve(int input, FILE *output, tn_error *error)
 {
-    server s = {.wire = {.input = input, .output = output}};
-    tn_status status = tn_workspace_open(&s.workspace, error);
+    server s = {.wire = {.input = input, .output = output}, .wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    tn_status status = s.wake >= 0 ? tn_workspace_open(&s.workspace, error) : tn_fail_memory(error);
     if (status == TN_OK)
         loop(&s);
     if (status == TN_OK && s.wire.failed)
@@ -339,7 +452,10 @@ tn_status tn_lsp_serve(int input, FILE *output, tn_error *error)
                                 : tn_fail_memory(error);
     else if (status == TN_OK && !s.shut_down)
         status = tn_fail(error, TN_INVALID, 0, "the client went away without `shutdown`");
+    end_background(&s);
     tn_workspace_clear(&s.workspace);
     tn_wire_clear(&s.wire);
+    if (s.wake >= 0)
+        close(s.wake);
     return status;
 }

@@ -106,10 +106,18 @@ tn_wire_result tn_wire_read(tn_wire *wire, json_t **message)
     return *message ? TN_WIRE_MESSAGE : TN_WIRE_MALFORMED;
 }
 
-bool tn_wire_waiting(const tn_wire *wire)
+tn_wire_event tn_wire_wait(const tn_wire *wire, int wake, int milliseconds)
 {
-    struct pollfd ready = {.fd = wire->input, .events = POLLIN};
-    return wire->end > wire->begin || poll(&ready, 1, 0) > 0;
+    struct pollfd files[2] = {{.fd = wire->input, .events = POLLIN}, {.fd = wake, .events = POLLIN}};
+    int ready;
+    if (wire->end > wire->begin)
+        return TN_WIRE_INPUT;
+    do
+        ready = poll(files, 2, milliseconds);
+    while (ready < 0 && errno == EINTR);
+    if (ready < 0 || files[0].revents)
+        return TN_WIRE_INPUT;
+    return ready > 0 ? TN_WIRE_WOKEN : TN_WIRE_TIME;
 }
 
 void tn_wire_send(tn_wire *wire, json_t *message)

@@ -21,8 +21,11 @@ typedef enum tn_wire_result { TN_WIRE_MESSAGE, TN_WIRE_MALFORMED, TN_WIRE_END } 
 /* Waits for the next message, which the caller releases. TN_WIRE_MALFORMED: it was skipped. */
 tn_wire_result tn_wire_read(tn_wire *wire, json_t **message);
 
-/* Is there input to be read at once? */
-bool tn_wire_waiting(const tn_wire *wire);
+typedef enum tn_wire_event { TN_WIRE_INPUT, TN_WIRE_WOKEN, TN_WIRE_TIME } tn_wire_event;
+
+/* Waits for input (also its end), for the file `wake` to be readable, or for so many milliseconds (-1: for ever),
+ * whichever is first. */
+tn_wire_event tn_wire_wait(const tn_wire *wire, int wake, int milliseconds);
 
 /* Sends a message and releases it; NULL (out of memory) is a failure. */
 void tn_wire_send(tn_wire *wire, json_t *message);

@@ -1,12 +1,11 @@
 #include "lsp/workspace.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/ast.h"
-#include "compiler/parse.h"
-#include "lsp/counts.h"
+#include "lsp/facts.h"
 
 tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error)
 {
@@ -16,21 +15,14 @@ tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error)
 
 static void forget_analysis(tn_document *document)
 {
-    tn_analysis *analysis = document->analysis;
-    if (!analysis)
-        return;
-    for (size_t i = 0; analysis->lines && i < analysis->compilation.sources.count; i++)
-        tn_lines_clear(&analysis->lines[i]);
-    free(analysis->lines);
-    tn_compilation_clear(&analysis->compilation);
-    free(analysis);
+    tn_analysis_free(document->analysis);
     document->analysis = NULL;
 }
 
 static void free_document(tn_document *document)
 {
     forget_analysis(document);
-    tn_counts_free(document->counts);
+    tn_facts_free(document->facts);
     free(document->uri);
     free(document->path);
     free(document->text);
@@ -69,49 +61,74 @@ bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path)
     return false;
 }
 
-bool tn_is_plan(const char *path)
+/* Does the analysis rest on the text of the file? Where a name leads to nothing yet, it may from now on. */
+static bool rests_on(const tn_analysis *analysis, const char *path)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    return !dot || strcmp(dot, ".plan") == 0;
+    const tn_imports *imports = analysis->compilation.imports;
+    if (!imports || imports->count == 0 || imports->units[imports->count - 1]->incomplete)
+        return true;
+    for (size_t i = 0; i < imports->count; i++)
+        if (strcmp(imports->units[i]->identity, path) == 0)
+            return true;
+    return false;
 }
 
-/* Every analysis may rest on the text that changed. */
-static void text_changed(tn_workspace *workspace)
+static void text_changed(tn_workspace *workspace, const char *path)
 {
     for (tn_document *document = workspace->documents; document; document = document->next) {
+        bool own = strcmp(document->path, path) == 0;
+        if (!own && document->analysis && !rests_on(document->analysis, path))
+            continue;
         forget_analysis(document);
-        document->dirty = true;
+        document->dirty = document->due = true;
     }
 }
 
-static char *real_path(const char *uri)
+/* The file's real path, or what would be: ends so that it says the notation. */
+static char *path_of_uri(const char *uri, const char *language, tn_notation *notation)
 {
-    char *path = tn_uri_path(uri), *real = path ? realpath(path, NULL) : NULL;
-    if (!real)
-        return path;
-    free(path);
-    return real;
+    char *path = tn_uri_path(uri), *real = path ? realpath(path, NULL) : NULL, *longer = NULL;
+    char *found = real ? real : path;
+    if (real)
+        free(path);
+    *notation = found ? tn_notation_of(found) : TN_NOTATION_PLAN;
+    if (!found || *notation != TN_NOTATION_COUNT)
+        return found;
+    for (*notation = 0; *notation < TN_NOTATION_COUNT; ++*notation)
+        if (language && strcmp(language, tn_notation_name(*notation)) == 0)
+            break;
+    if (*notation == TN_NOTATION_COUNT)
+        *notation = TN_NOTATION_PLAN;
+    if (asprintf(&longer, "%s.%s", found, tn_notation_name(*notation)) < 0)
+        longer = NULL;
+    free(found);
+    return longer;
 }
 
-bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *text, json_int_t version)
+static tn_document *new_document(tn_workspace *workspace, const char *uri, const char *language)
+{
+    tn_document *document = calloc(1, sizeof *document);
+    if (!document)
+        return NULL;
+    document->uri = strdup(uri);
+    document->path = path_of_uri(uri, language, &document->notation);
+    if (!document->uri || !document->path) {
+        free_document(document);
+        return NULL;
+    }
+    document->next = workspace->documents;
+    workspace->documents = document;
+    return document;
+}
+
+bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *language, const char *text,
+                      json_int_t version)
 {
     char *copy = strdup(text);
-    tn_document *document = tn_workspace_find(workspace, uri);
-    if (copy && !document) {
-        document = calloc(1, sizeof *document);
-        if (document) {
-            document->uri = strdup(uri);
-            document->path = real_path(uri);
-        }
-        if (document && document->uri && document->path) {
-            document->next = workspace->documents;
-            workspace->documents = document;
-        } else if (document) {
-            free_document(document);
-            document = NULL;
-        }
-    }
-    if (!copy || !document) {
+    tn_document *document = copy ? tn_workspace_find(workspace, uri) : NULL;
+    if (copy && !document)
+        document = new_document(workspace, uri, language);
+    if (!document) {
         free(copy);
         return false;
     }
@@ -119,7 +136,7 @@ bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *text
     document->text = copy;
     document->size = strlen(copy);
     document->version = version;
-    text_changed(workspace);
+    text_changed(workspace, document->path);
     return true;
 }
 
@@ -130,8 +147,8 @@ void tn_workspace_remove(tn_workspace *workspace, const char *uri)
         if (strcmp(document->uri, uri) != 0)
             continue;
         *place = document->next;
+        text_changed(workspace, document->path);
         free_document(document);
-        text_changed(workspace);
         return;
     }
 }
@@ -178,7 +195,7 @@ bool tn_workspace_change(tn_workspace *workspace, tn_document *document, const j
         good = good && apply_change(document, change);
     }
     document->version = version;
-    text_changed(workspace);
+    text_changed(workspace, document->path);
     return good;
 }
 
@@ -197,57 +214,12 @@ static bool open_text(void *context, const char *real_path, const char **text, s
     return false;
 }
 
-/* The compilation has read the tokens and forgotten them. */
-static void read_tokens(tn_analysis *analysis)
-{
-    tn_diagnostics scratch;
-    analysis->tokens = (tn_tokens){.arena = analysis->compilation.arena};
-    tn_diagnostics_init(&scratch, &analysis->compilation.sources);
-    tn_parse_plan(analysis->compilation.arena, &scratch, 0, &analysis->tokens);
-    tn_diagnostics_clear(&scratch);
-}
-
 tn_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document)
 {
-    if (document->analysis)
-        return document->analysis;
-    tn_analysis *analysis = calloc(1, sizeof *analysis);
-    if (!analysis)
-        return NULL;
-    tn_compile_options options = {.stdlib_dirs = (const char *const *)workspace->stdlib.dirs,
-                                  .stdlib_dir_count = workspace->stdlib.count,
-                                  .overlay = open_text,
-                                  .overlay_context = workspace};
-    tn_status status =
-        tn_compile_text(document->path, document->text, document->size, &options, &analysis->compilation);
-    document->analysis = analysis;
-    analysis->lines = calloc(analysis->compilation.sources.count + 1, sizeof *analysis->lines);
-    bool read = analysis->compilation.sources.count > 0 && analysis->compilation.arena;
-    if (read && tn_is_plan(document->path)) {
-        read_tokens(analysis);
-        tn_index_build(&analysis->index, &analysis->compilation);
-    }
-    if (analysis->lines && status != TN_MEMORY)
-        return analysis;
-    forget_analysis(document);
-    return NULL;
-}
-
-const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file)
-{
-    if (file >= analysis->compilation.sources.count)
-        return NULL;
-    tn_lines *lines = &analysis->lines[file];
-    const tn_source *source = &analysis->compilation.sources.files[file];
-    if (!lines->starts && !tn_lines_make(lines, source->text, source->size))
-        return NULL;
-    return lines;
-}
-
-json_t *tn_analysis_range(tn_analysis *analysis, tn_span span)
-{
-    const tn_lines *lines = tn_analysis_lines(analysis, span.file);
-    return lines ? tn_lines_range(lines, span.begin, span.end) : json_null();
+    if (!document->analysis)
+        document->analysis = tn_analysis_new(document->path, document->notation, document->text, document->size,
+                                             &workspace->stdlib, open_text, workspace);
+    return document->analysis;
 }
 
 char *tn_document_source_uri(const tn_document *document, uint32_t file)

@@ -2,29 +2,19 @@
 #ifndef TARTAN_LSP_WORKSPACE_H
 #define TARTAN_LSP_WORKSPACE_H
 
-#include <jansson.h>
-
-#include "driver/stdlib_dirs.h"
-#include "lsp/index.h"
-#include "lsp/lines.h"
-
-/* What one document means, with all that it uses. */
-typedef struct tn_analysis {
-    tn_compilation compilation;
-    tn_lines *lines; /* of each source, made when needed */
-    tn_index index;
-    tn_tokens tokens; /* of the document itself, where it is a .plan file */
-} tn_analysis;
+#include "lsp/analysis.h"
 
 typedef struct tn_document {
     struct tn_document *next;
-    char *uri, *path; /* path: the real one where there is such a file */
+    char *uri, *path; /* path: the real one where there is such a file; ends as files of the notation do */
+    tn_notation notation;
     char *text;
     size_t size;
     json_int_t version;
-    bool dirty;               /* its diagnostics are to be sent */
-    tn_analysis *analysis;    /* NULL: to be made */
-    struct tn_counts *counts; /* of the last text that compiled and was at rest; or NULL */
+    bool dirty;             /* its diagnostics are to be sent */
+    bool due;               /* its rules are to be looked at in the background */
+    tn_analysis *analysis;  /* NULL: to be made */
+    struct tn_facts *facts; /* of the last text that compiled and was at rest; or NULL */
 } tn_document;
 
 typedef struct tn_workspace {
@@ -37,8 +27,10 @@ void tn_workspace_clear(tn_workspace *workspace);
 
 tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri);
 
-/* Adds or replaces a document, takes one out. False where out of memory. */
-bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *text, json_int_t version);
+/* Adds or replaces a document, takes one out. `language`: what the editor calls its notation, for texts whose name does
+ * not say. False where out of memory. */
+bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *language, const char *text,
+                      json_int_t version);
 void tn_workspace_remove(tn_workspace *workspace, const char *uri);
 
 /* Applies the changes of a didChange notification. False where they make no sense (then nothing of the rest is applied)
@@ -48,12 +40,6 @@ bool tn_workspace_change(tn_workspace *workspace, tn_document *document, const j
 /* The analysis of the text as it is now; NULL where out of memory. Valid until the next change of any document. */
 tn_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document);
 
-/* The lines of a source of an analysis; NULL where out of memory. */
-const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file);
-
-/* {"start", "end"}, or null. */
-json_t *tn_analysis_range(tn_analysis *analysis, tn_span span);
-
 /* {"uri", "range"} of a place, or null. The document's own URI is as the editor wrote it. */
 json_t *tn_analysis_location(const tn_document *document, tn_span span);
 
@@ -62,8 +48,6 @@ char *tn_document_source_uri(const tn_document *document, uint32_t file);
 
 /* Is the source in the standard library? */
 bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path);
-
-bool tn_is_plan(const char *path);
 
 /* A path from a `file:` URI, and back; other URIs stay as they are. The caller frees them. */
 char *tn_uri_path(const char *uri);

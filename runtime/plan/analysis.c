@@ -76,7 +76,13 @@ tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_sea
                                   tn_error *error)
 {
     uint32_t most = count > 2 ? analysis->max_joint : analysis->max_states;
-    tn_search search = {.parts = parts, .count = count, .min = min, .max = max, .what = what, .max_states = most};
+    tn_search search = {.parts = parts,
+                        .count = count,
+                        .min = min,
+                        .max = max,
+                        .what = what,
+                        .max_states = most,
+                        .stop = analysis->schema->module->stop};
     return tn_search_shortest(&search, word, found, error);
 }
 

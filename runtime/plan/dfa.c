@@ -15,6 +15,8 @@ tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, 
                           tn_error *error)
 {
     bounds->work += work;
+    if (bounds->stop && *bounds->stop)
+        return tn_fail(error, TN_STOPPED, 0, "stopped while the automaton of this %s was being made", what);
     tn_status status = TN_OK;
     if (states > bounds->max_states)
         status = tn_fail(error, TN_LIMIT, 802, "the automaton of this %s passes the limit of %u states", what,

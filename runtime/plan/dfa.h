@@ -33,13 +33,14 @@ typedef struct tn_bounds {
     uint64_t max_transitions; /* states times columns of any intermediate automaton */
     uint64_t max_work;        /* elementary steps in all */
     uint64_t work;
+    const _Atomic bool *stop; /* or NULL: gives up (TN_STOPPED) once this is true */
 } tn_bounds;
 
 /* The defaults for everything but the states: 64 M transitions (256 MB), 2 G steps (a minute at most). */
 tn_bounds tn_bounds_make(uint32_t max_states);
 
 /* Counts work and compares what a construction has reached with the bounds: TN_OK, or E0802 saying that `what` passed
- * them. */
+ * them; or TN_STOPPED. */
 tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, uint64_t columns, uint64_t work,
                           tn_error *error);
 

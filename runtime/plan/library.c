@@ -88,7 +88,8 @@ tn_bounds tn_library_bounds(const tn_library *library)
         states = TN_LIBRARY_STATES_DEFAULT;
     return (tn_bounds){.max_states = library->max_joint,
                        .max_transitions = TRANSITIONS_PER_STATE * states,
-                       .max_work = WORK_PER_STATE * states};
+                       .max_work = WORK_PER_STATE * states,
+                       .stop = library->schema->module->stop};
 }
 
 tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,

@@ -32,6 +32,10 @@ static tn_status explorer_make(explorer *e, const tn_search *search, tn_error *e
 {
     *e = (explorer){.search = search, .bounds = tn_bounds_make(search->max_states)};
     e->bounds.max_work = TN_SEARCH_WORK;
+    e->bounds.stop = search->stop;
+    tn_status status = tn_bounds_check(&e->bounds, search->what, 1, 1, 0, error);
+    if (status != TN_OK)
+        return status;
     const tn_dfa **parts = malloc(search->count * sizeof *parts);
     e->lost = malloc(search->count * sizeof *e->lost);
     e->next = calloc(search->count + 1, sizeof *e->next);
@@ -43,7 +47,7 @@ static tn_status explorer_make(explorer *e, const tn_search *search, tn_error *e
         parts[p] = search->parts[p].dfa;
         e->lost[p] = tn_dfa_sink(parts[p], !search->parts[p].accepts);
     }
-    tn_status status = tn_join_make(&e->join, parts, (uint32_t)search->count, parts[0]->letters, NULL, false, error);
+    status = tn_join_make(&e->join, parts, (uint32_t)search->count, parts[0]->letters, NULL, false, error);
     free(parts);
     return status;
 }

@@ -19,6 +19,7 @@ typedef enum tn_status {
     TN_LIMIT,    /* an explicit limit was reached */
     TN_MEMORY,   /* an allocation failed */
     TN_INTERNAL, /* a broken invariant of ours */
+    TN_STOPPED,  /* whoever asked for it does not want it any more */
 } tn_status;
 
 #define TN_NO_OFFSET UINT32_MAX

@@ -114,6 +114,8 @@ typedef struct tn_module {
 #include "runtime/vm/records.def"
 #undef SECTION
     uint64_t hash; /* the file's */
+    /* Set by the owner, or NULL: long work on the module's rules gives up (TN_STOPPED) once this is true. */
+    const _Atomic bool *stop;
 } tn_module;
 
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */

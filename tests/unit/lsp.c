@@ -1,6 +1,7 @@
 /* The language server over streams: random edits to rule files, with every question asked anywhere, never crash it,
  * every request has its answer, and what it knows after a thousand edits is what it knows of the same text opened
  * afresh. */
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -145,12 +146,51 @@ static uint32_t next(uint32_t *seed)
     return *seed;
 }
 
-static const char *const pieces[] = {
+static const char *const plan_pieces[] = {
     "(",        ")",          "{",          "}",           "[",       "]",      "|",     ",",     "=",
     "\n",       " ",          "\"",         "'",           "12'",     "tray(",  "rule ", "test ", "use \"",
     "library ", "schema ",    "prune ",     "require ",    "zone ",   "role ",  "not ",  "and ",  "or ",
     "x",        "neighbour(", "symmetric ", "quantity(",   "n > 1",   "#",      "\r\n",  "é",     "\xF0\x9F\x8F\xA0",
-    "..",       "from ",      "using ",     "allow W002 ", "match [", "drop [", " by ",  "as ",   "-"};
+    "..",       "from ",      "using ",     "allow W002 ", "match [", "drop [", " by ",  "as ",   "-",
+    NULL};
+static const char *const hemls_pieces[] = {"+",      "-",      "[", "]",    "A",      "Edge0",  "_i+1",
+                                           "->",     "\n//",   ";", " ",    "If i<2", "Weight", "3",
+                                           "Angle ", "Sync\n", "<", "\r\n", "é",      NULL};
+static const char *const study_pieces[] = {"rules ",
+                                           "\"square\"",
+                                           "1.5 ",
+                                           "-3 ",
+                                           "attractor at ",
+                                           "evolution {",
+                                           "}",
+                                           "\n",
+                                           ";",
+                                           "grammar \"words\"\n",
+                                           "boundary box from ",
+                                           "fitness ",
+                                           "#",
+                                           "\"",
+                                           "(",
+                                           ",",
+                                           "size ",
+                                           "é",
+                                           NULL};
+static const char *const bnf_pieces[] = {"<a>", "<b> ::= ",   "|",   "{ ", " }", "[ ",    " ]",  "%dialect genr8\n",
+                                         "#",   "'",          "\"",  "\n", "\t", "Edge ", "::=", "<",
+                                         ">",   "GE_RANGE:3", "\\x", "é",  NULL};
+
+static const struct {
+    const char *name; /* of the notation, and of its files */
+    const char *const *pieces;
+} notations[] = {{"plan", plan_pieces}, {"hemls", hemls_pieces}, {"study", study_pieces}, {"bnf", bnf_pieces}};
+
+static size_t count_pieces(const char *const *pieces)
+{
+    size_t count = 0;
+    while (pieces[count])
+        count++;
+    return count;
+}
 
 /* A place between characters. */
 static size_t random_offset(const char *text, uint32_t *seed)
@@ -170,11 +210,11 @@ static char *edited(const char *text, size_t begin, size_t end, const char *adde
     return result;
 }
 
-static char *edit(session *s, const char *uri, char *text, uint32_t *seed)
+static char *edit(session *s, const char *uri, char *text, const char *const *pieces, uint32_t *seed)
 {
     tn_lines lines;
     size_t begin = random_offset(text, seed), end = begin;
-    const char *added = next(seed) % 3 ? pieces[next(seed) % (sizeof pieces / sizeof *pieces)] : "";
+    const char *added = next(seed) % 3 ? pieces[next(seed) % count_pieces(pieces)] : "";
     if (next(seed) % 2)
         for (end += next(seed) % 12; end > strlen(text) || ((unsigned char)text[end] & 0xC0) == 0x80;)
             end--;
@@ -241,26 +281,31 @@ static char *read_text(const char *name)
     return (char *)bytes;
 }
 
-static void edit_randomly(const char *name, uint32_t seed, int edits)
+static void edit_randomly(const char *name, size_t notation, uint32_t seed, int edits)
 {
-    static const char one[] = "file:///nowhere/one.plan", two[] = "file:///nowhere/two.plan";
+    char one[100], two[100];
     session s;
+    snprintf(one, sizeof one, "file:///nowhere/one.%s", notations[notation].name);
+    snprintf(two, sizeof two, "file:///nowhere/two.%s", notations[notation].name);
     start(&s);
     char *text = read_text(name);
     open_document(&s, one, text);
     for (int i = 0; i < edits; i++) {
-        text = edit(&s, one, text, &seed);
+        text = edit(&s, one, text, notations[notation].pieces, &seed);
         if (next(&seed) % 4 == 0)
             ask_anything(&s, one, text, &seed);
     }
     int outline = ask(&s, "textDocument/documentSymbol", of(one));
     int actions = ask(&s, "textDocument/codeAction", everything(one));
+    int layout = ask(&s, "textDocument/formatting", of(one));
     tell(&s, "textDocument/didClose", of(one));
     open_document(&s, two, text);
     int other_outline = ask(&s, "textDocument/documentSymbol", of(two));
     int other_actions = ask(&s, "textDocument/codeAction", everything(two));
+    int other_layout = ask(&s, "textDocument/formatting", of(two));
     serve(&s);
     assert_true(json_equal(answer(&s, outline, "result"), answer(&s, other_outline, "result")));
+    assert_true(json_equal(answer(&s, layout, "result"), answer(&s, other_layout, "result")));
     assert_int_equal(json_array_size(answer(&s, actions, "result")),
                      json_array_size(answer(&s, other_actions, "result")));
     finish(&s);
@@ -271,9 +316,15 @@ static void test_random_edits(void **state)
 {
     (void)state;
     for (uint32_t seed = 1; seed <= 6; seed++) {
-        edit_randomly("stdlib/lahave.plan", seed, 300);
-        edit_randomly("tests/cli/files/sheds.plan", 100 + seed, 300);
-        edit_randomly("tests/diagnostics/many-mistakes.plan", 200 + seed, 200);
+        edit_randomly("stdlib/lahave.plan", 0, seed, 300);
+        edit_randomly("tests/cli/files/sheds.plan", 0, 100 + seed, 300);
+        edit_randomly("tests/diagnostics/many-mistakes.plan", 0, 200 + seed, 200);
+        edit_randomly("stdlib/ruffle.hemls", 1, 300 + seed, 300);
+        edit_randomly("tests/fuzz/corpus/hemls/mixed", 1, 400 + seed, 200);
+        edit_randomly("examples/growing-surfaces/canopy.study", 2, 500 + seed, 300);
+        edit_randomly("examples/learning-a-rule/learn.study", 2, 600 + seed, 300);
+        edit_randomly("stdlib/genr8-symmetric.bnf", 3, 700 + seed, 300);
+        edit_randomly("tests/data/gene/tiny2.bnf", 3, 800 + seed, 300);
     }
 }
 
@@ -371,6 +422,218 @@ static void test_wrong_messages(void **state)
     finish(&s);
 }
 
+/* ---- a live session: the server is a thread, and what it says by itself can be waited for */
+
+typedef struct live {
+    session session; /* its input is the pipe to the server */
+    FILE *heard;     /* from the server */
+    int input;
+    FILE *output;
+    pthread_t thread;
+    tn_status status;
+} live;
+
+static void *serve_live(void *context)
+{
+    live *l = context;
+    tn_error error;
+    l->status = tn_lsp_serve(l->input, l->output, &error);
+    fclose(l->output);
+    return NULL;
+}
+
+static json_t *hear(live *l)
+{
+    char header[200];
+    assert_non_null(fgets(header, sizeof header, l->heard));
+    size_t size = strtoul(strchr(header, ':') + 1, NULL, 10);
+    assert_non_null(fgets(header, sizeof header, l->heard));
+    char *text = malloc(size + 1);
+    assert_int_equal(fread(text, 1, size, l->heard), size);
+    json_t *message = json_loadb(text, size, 0, NULL);
+    assert_non_null(message);
+    free(text);
+    return message;
+}
+
+/* The answer to a request; what is said in between is passed over. */
+static json_t *hear_answer(live *l, int id)
+{
+    json_t *message;
+    fflush(l->session.input);
+    while (json_integer_value(json_object_get(message = hear(l), "id")) != id)
+        json_decref(message);
+    return message;
+}
+
+static bool mentions(const json_t *message, const char *text)
+{
+    char *all = json_dumps(message, JSON_COMPACT);
+    bool found = strstr(all, text) != NULL;
+    free(all);
+    return found;
+}
+
+/* Diagnostics of this version, until some say what is wanted. */
+static void await_diagnostics(live *l, int version, const char *wanted)
+{
+    bool found = false;
+    fflush(l->session.input);
+    while (!found) {
+        json_t *message = hear(l), *params = json_object_get(message, "params");
+        found = params && json_integer_value(json_object_get(params, "version")) == version && mentions(params, wanted);
+        json_decref(message);
+    }
+}
+
+static void start_live(live *l)
+{
+    int there[2], back[2];
+    *l = (live){0};
+    assert_int_equal(pipe(there), 0);
+    assert_int_equal(pipe(back), 0);
+    l->session.input = fdopen(there[1], "w");
+    l->heard = fdopen(back[0], "r");
+    l->input = there[0];
+    l->output = fdopen(back[1], "w");
+    assert_int_equal(pthread_create(&l->thread, NULL, serve_live, l), 0);
+    json_decref(hear_answer(l, ask(&l->session, "initialize", json_object())));
+    tell(&l->session, "initialized", json_object());
+}
+
+static void finish_live(live *l)
+{
+    json_decref(hear_answer(l, ask(&l->session, "shutdown", json_object())));
+    tell(&l->session, "exit", json_object());
+    fflush(l->session.input);
+    pthread_join(l->thread, NULL);
+    assert_int_equal(l->status, TN_OK);
+    fclose(l->session.input);
+    fclose(l->heard);
+    close(l->input);
+}
+
+static const char related[] = "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
+                              "rule never = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
+                              "library l using lahave { trays 1..3 prune one, wide }\n";
+
+static void test_meaning(void **state)
+{
+    static const char uri[] = "file:///nowhere/a.plan";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, related);
+    await_diagnostics(&l, 1, "W001");
+    json_t *hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "wide") - related))));
+    assert_true(mentions(hovered, "subsumes (matches all that they match): `one`"));
+    assert_true(mentions(hovered, "plans of `l`"));
+    json_decref(hovered);
+    json_t *actions = hear_answer(&l, ask(&l.session, "textDocument/codeAction", everything(uri)));
+    assert_true(mentions(actions, "Allow W001 in never"));
+    assert_true(mentions(actions, "Allow W003 in one"));
+    json_decref(actions);
+    tell(&l.session, "textDocument/didChange",
+         json_pack("{s:{s:s,s:i},s:[{s:s}]}", "textDocument", "uri", uri, "version", 2, "contentChanges", "text",
+                   "use \"lahave\"\nrule all = any or not any\nrule same = any\n"));
+    await_diagnostics(&l, 2, "W002");
+    finish_live(&l);
+}
+
+/* What is at work is given up: by an edit, by closing, by the end. */
+static void test_meaning_given_up(void **state)
+{
+    static const char uri[] = "untitled:1", other[] = "untitled:2";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, related);
+    for (int version = 2; version < 40; version++) {
+        tell(&l.session, "textDocument/didChange",
+             json_pack("{s:{s:s,s:i},s:[{s:s}]}", "textDocument", "uri", uri, "version", version, "contentChanges",
+                       "text", related));
+        if (version % 4 == 0)
+            await_diagnostics(&l, version, "[]");
+        if (version % 10 == 0)
+            await_diagnostics(&l, version, "W001");
+        if (version == 33) {
+            open_document(&l.session, other, related);
+            await_diagnostics(&l, 1, "W001");
+            tell(&l.session, "textDocument/didClose", of(other));
+        }
+    }
+    finish_live(&l);
+}
+
+/* A grammar's own warnings come so too. */
+static void test_meaning_of_grammar(void **state)
+{
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, "file:///nowhere/a.bnf", "<a> ::= <a><a> | <a><a> | x\n");
+    await_diagnostics(&l, 1, "W15");
+    finish_live(&l);
+}
+
+/* "name kind detail(children);" */
+static void show_outline(const json_t *list, char *shown, size_t size)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+    {
+        const char *detail = json_string_value(json_object_get(item, "detail"));
+        const json_t *children = json_object_get(item, "children");
+        size_t used = strlen(shown);
+        snprintf(shown + used, size - used, "%s %d%s%s%s", json_string_value(json_object_get(item, "name")),
+                 (int)json_integer_value(json_object_get(item, "kind")), detail ? " " : "", detail ? detail : "",
+                 children ? "(" : "");
+        if (children)
+            show_outline(children, shown, size);
+        strcat(shown, children ? ");" : ";");
+    }
+}
+
+static void test_outlines(void **state)
+{
+    static const char *const cases[][3] = {
+        {"file:///nowhere/a.hemls", "A + B + A\nA -> A\n -> B\nAngle 90", "A + B + A 14;A 12 -> A;Angle 7 90;"},
+        {"file:///nowhere/a.study", "rules \"square\" fitness size target 3\nevolution { grammar \"words\"; seed 3",
+         "rules 7 \"square\";fitness size 7 target 3;evolution 2(grammar 7 \"words\";seed 7 3;);"},
+        {"file:///nowhere/a.bnf", "%wraps 2 # c\n<a> ::= x | <b>\n\n<b> ::= y", "%wraps 2 7;<a> 12;<b> 12;"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char shown[500] = "";
+        session s;
+        start(&s);
+        open_document(&s, cases[i][0], cases[i][1]);
+        int id = ask(&s, "textDocument/documentSymbol", of(cases[i][0]));
+        serve(&s);
+        show_outline(answer(&s, id, "result"), shown, sizeof shown);
+        assert_string_equal(shown, cases[i][2]);
+        finish(&s);
+    }
+}
+
+/* What a text without a file is, the editor says. */
+static void test_language_of_untitled(void **state)
+{
+    (void)state;
+    session s;
+    start(&s);
+    tell(&s, "textDocument/didOpen",
+         json_pack("{s:{s:s,s:s,s:i,s:s}}", "textDocument", "uri", "untitled:1", "languageId", "hemls", "version", 1,
+                   "text", "A+B+A"));
+    int id = ask(&s, "textDocument/formatting", of("untitled:1"));
+    serve(&s);
+    json_t *edit = json_array_get(answer(&s, id, "result"), 0);
+    assert_string_equal(json_string_value(json_object_get(edit, "newText")), "A + B + A\n");
+    finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -378,6 +641,11 @@ int main(void)
         cmocka_unit_test(test_positions_are_utf16),
         cmocka_unit_test(test_rename_across_documents),
         cmocka_unit_test(test_wrong_messages),
+        cmocka_unit_test(test_meaning),
+        cmocka_unit_test(test_meaning_given_up),
+        cmocka_unit_test(test_meaning_of_grammar),
+        cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_language_of_untitled),
     };
     setenv("TARTAN_PATH", TARTAN_SOURCE_DIR "/stdlib", 1);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,70 @@
+#include "lsp/analysis.h"
+
+#include <stdlib.h>
+
+#include "compiler/lexical.h"
+#include "compiler/reading.h"
+
+void tn_analysis_free(tn_analysis *analysis)
+{
+    if (!analysis)
+        return;
+    for (size_t i = 0; analysis->lines && i < analysis->compilation.sources.count; i++)
+        tn_lines_clear(&analysis->lines[i]);
+    free(analysis->lines);
+    tn_compilation_clear(&analysis->compilation);
+    free(analysis);
+}
+
+/* The compilation has read the tokens and forgotten them. */
+static void read_tokens(tn_analysis *analysis)
+{
+    tn_diagnostics scratch;
+    tn_reading reading;
+    tn_diagnostics_init(&scratch, &analysis->compilation.sources);
+    if (tn_text_check(&scratch, 0) && tn_read(analysis->compilation.arena, &scratch, analysis->notation, 0, &reading))
+        analysis->tokens = reading.tokens;
+    tn_diagnostics_clear(&scratch);
+}
+
+tn_analysis *tn_analysis_new(const char *path, tn_notation notation, const char *text, size_t size,
+                             const tn_stdlib_dirs *stdlib, tn_overlay *overlay, void *context)
+{
+    tn_analysis *analysis = calloc(1, sizeof *analysis);
+    if (!analysis)
+        return NULL;
+    tn_compile_options options = {.stdlib_dirs = (const char *const *)stdlib->dirs,
+                                  .stdlib_dir_count = stdlib->count,
+                                  .overlay = overlay,
+                                  .overlay_context = context};
+    analysis->notation = notation;
+    tn_status status = tn_compile_text(path, text, size, &options, &analysis->compilation);
+    analysis->compilation.sources.overlay = NULL;
+    analysis->lines = calloc(analysis->compilation.sources.count + 1, sizeof *analysis->lines);
+    if (analysis->compilation.sources.count > 0 && analysis->compilation.arena) {
+        read_tokens(analysis);
+        if (notation == TN_NOTATION_PLAN)
+            tn_index_build(&analysis->index, &analysis->compilation);
+    }
+    if (analysis->lines && status != TN_MEMORY)
+        return analysis;
+    tn_analysis_free(analysis);
+    return NULL;
+}
+
+const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file)
+{
+    if (file >= analysis->compilation.sources.count)
+        return NULL;
+    tn_lines *lines = &analysis->lines[file];
+    const tn_source *source = &analysis->compilation.sources.files[file];
+    if (!lines->starts && !tn_lines_make(lines, source->text, source->size))
+        return NULL;
+    return lines;
+}
+
+json_t *tn_analysis_range(tn_analysis *analysis, tn_span span)
+{
+    const tn_lines *lines = tn_analysis_lines(analysis, span.file);
+    return lines ? tn_lines_range(lines, span.begin, span.end) : json_null();
+}

@@ -1,0 +1,202 @@
+#include "lsp/facts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/library.h"
+
+enum {
+    STATES_MAX = 50000, /* larger libraries are not counted */
+    TABLE_MAX = 64 << 20,
+    ITEMS_MAX = 100000,
+    NAMES_SHOWN = 8, /* of the rules that one lies so to; the others are counted */
+};
+
+/* ---- counts */
+
+static void add_count(tn_facts *facts, const char *library, const char *rule, const mpz_t prunes, const mpz_t only)
+{
+    if (facts->count == facts->capacity) {
+        size_t capacity = facts->capacity ? 2 * facts->capacity : 32;
+        tn_rule_count *grown = capacity <= ITEMS_MAX ? realloc(facts->counts, capacity * sizeof *grown) : NULL;
+        if (!grown)
+            return;
+        facts->counts = grown;
+        facts->capacity = capacity;
+    }
+    tn_rule_count *item = &facts->counts[facts->count++];
+    *item = (tn_rule_count){strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, prunes),
+                            mpz_get_str(NULL, 10, only)};
+}
+
+static void count_library(tn_facts *facts, const tn_module *module, const tn_library *library, const char *name)
+{
+    tn_error error;
+    mpz_t prunes, only;
+    mpz_inits(prunes, only, NULL);
+    if (tn_library_generated(library, TN_ALL_LENGTHS, prunes, &error) == TN_OK) {
+        tn_library_kept(library, TN_ALL_LENGTHS, only);
+        add_count(facts, name, NULL, prunes, only);
+    }
+    for (size_t i = 0; i < tn_library_prune_count(library); i++) {
+        uint32_t clause, states;
+        if (tn_library_prune(library, i, &clause, prunes, only, &states, &error) == TN_OK)
+            add_count(facts, name, tn_text(module, module->CLAUSE_records[clause].name), prunes, only);
+    }
+    mpz_clears(prunes, only, NULL);
+}
+
+static void count_module(tn_facts *facts, const tn_module *module)
+{
+    for (size_t i = 0; i < module->LIBRARY_count; i++) {
+        const tn_library_record *record = &module->LIBRARY_records[i];
+        tn_library_options options = {.max_states = STATES_MAX, .max_table = TABLE_MAX};
+        tn_schema *schema = NULL;
+        tn_library *library = NULL;
+        tn_error error;
+        if (tn_schema_new(module, record->schema, 0, &schema, &error) == TN_OK &&
+            tn_library_new(schema, (uint32_t)i, &options, &library, &error) == TN_OK)
+            count_library(facts, module, library, tn_text(module, record->name));
+        tn_library_free(library);
+        tn_schema_free(schema);
+    }
+}
+
+/* ---- relations */
+
+static bool take_matrix(tn_rule_matrix *matrix, const tn_module *module, const tn_plan_analysis *analysis)
+{
+    size_t count = tn_plan_analysis_rule_count(analysis);
+    matrix->names = calloc(count + 1, sizeof *matrix->names);
+    matrix->relations = malloc(count * count + 1);
+    if (!matrix->names || !matrix->relations)
+        return false;
+    matrix->count = count;
+    for (size_t i = 0; i < count; i++) {
+        matrix->names[i] = strdup(tn_text(module, module->RULE_records[tn_plan_analysis_rule(analysis, i)].name));
+        if (!matrix->names[i])
+            return false;
+        for (size_t j = 0; j < count; j++)
+            matrix->relations[i * count + j] = (uint8_t)tn_plan_analysis_relation(analysis, i, j);
+    }
+    return true;
+}
+
+tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses)
+{
+    tn_facts *facts = calloc(1, sizeof *facts);
+    if (!facts)
+        return NULL;
+    facts->matrices = calloc(analyses->count + 1, sizeof *facts->matrices);
+    bool good = facts->matrices != NULL;
+    for (size_t i = 0; good && i < analyses->count; i++)
+        good = take_matrix(&facts->matrices[facts->matrix_count++], module, analyses->items[i]);
+    if (good) {
+        count_module(facts, module);
+        return facts;
+    }
+    tn_facts_free(facts);
+    return NULL;
+}
+
+void tn_facts_free(tn_facts *facts)
+{
+    if (!facts)
+        return;
+    for (size_t i = 0; i < facts->count; i++) {
+        free(facts->counts[i].library);
+        free(facts->counts[i].rule);
+        free(facts->counts[i].prunes);
+        free(facts->counts[i].only);
+    }
+    for (size_t i = 0; i < facts->matrix_count; i++) {
+        for (size_t k = 0; k < facts->matrices[i].count; k++)
+            free(facts->matrices[i].names[k]);
+        free(facts->matrices[i].names);
+        free(facts->matrices[i].relations);
+    }
+    free(facts->matrices);
+    free(facts->counts);
+    free(facts);
+}
+
+/* ---- in words */
+
+/* "1,234,567" */
+static void write_grouped(FILE *out, const char *digits)
+{
+    size_t size = strlen(digits);
+    for (size_t i = 0; i < size; i++) {
+        if (i > 0 && (size - i) % 3 == 0)
+            fputc(',', out);
+        fputc(digits[i], out);
+    }
+}
+
+static void write_count(FILE *out, const tn_rule_count *item)
+{
+    fprintf(out, "\n- ");
+    if (item->rule)
+        fprintf(out, "prunes ");
+    write_grouped(out, item->prunes);
+    fprintf(out, item->rule ? " plans of `%s`, " : " plans generated, ", item->library);
+    write_grouped(out, item->only);
+    fprintf(out, item->rule ? " of them alone" : " kept");
+}
+
+static void write_counts(FILE *out, const tn_facts *facts, const tn_symbol *symbol)
+{
+    bool library = symbol->kind == TN_SYMBOL_LIBRARY;
+    for (size_t i = 0; i < facts->count; i++) {
+        const tn_rule_count *item = &facts->counts[i];
+        const char *name = !library ? item->rule : item->rule ? NULL : item->library;
+        if (name && strcmp(name, symbol->name) == 0 && item->library && item->prunes && item->only)
+            write_count(out, item);
+    }
+}
+
+static void write_relation(FILE *out, const tn_rule_matrix *matrix, size_t rule, tn_rule_relation relation,
+                           const char *words)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < matrix->count; i++) {
+        if (i == rule || matrix->relations[rule * matrix->count + i] != relation)
+            continue;
+        if (found < NAMES_SHOWN)
+            fprintf(out, "%s`%s`", found ? ", " : words, matrix->names[i]);
+        found++;
+    }
+    if (found > NAMES_SHOWN)
+        fprintf(out, " and %zu more", found - NAMES_SHOWN);
+}
+
+static void write_relations(FILE *out, const tn_rule_matrix *matrix, const tn_symbol *symbol)
+{
+    for (size_t i = 0; i < matrix->count; i++) {
+        if (strcmp(matrix->names[i], symbol->name) != 0)
+            continue;
+        write_relation(out, matrix, i, TN_RULES_EQUAL, "\n- matches the same plans as ");
+        write_relation(out, matrix, i, TN_RULES_CONTAINS, "\n- subsumes (matches all that they match): ");
+        write_relation(out, matrix, i, TN_RULES_INSIDE, "\n- subsumed by ");
+        write_relation(out, matrix, i, TN_RULES_APART, "\n- has no plan in common with ");
+    }
+}
+
+char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol)
+{
+    char *text = NULL;
+    size_t size = 0;
+    bool rule = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_CLAUSE;
+    FILE *out = facts && (rule || symbol->kind == TN_SYMBOL_LIBRARY) ? open_memstream(&text, &size) : NULL;
+    if (!out)
+        return NULL;
+    write_counts(out, facts, symbol);
+    for (size_t i = 0; i < facts->matrix_count && symbol->kind == TN_SYMBOL_RULE; i++)
+        write_relations(out, &facts->matrices[i], symbol);
+    fclose(out);
+    if (size > 0)
+        return text;
+    free(text);
+    return NULL;
+}

@@ -1,0 +1,37 @@
+/* What is known of a module's rules beyond their text, for hovering: how many plans each prunes, and how the plans that
+ * it matches lie to those of the others. Owns its texts. */
+#ifndef TARTAN_LSP_FACTS_H
+#define TARTAN_LSP_FACTS_H
+
+#include "driver/analysis.h"
+#include "lsp/index.h"
+
+typedef struct tn_rule_count {
+    char *library, *rule;
+    char *prunes, *only; /* in digits; rule NULL: how many are generated and kept */
+} tn_rule_count;
+
+/* The relations of the rules of one schema. */
+typedef struct tn_rule_matrix {
+    char **names;       /* [count] */
+    uint8_t *relations; /* [count][count]: a tn_rule_relation */
+    size_t count;
+} tn_rule_matrix;
+
+typedef struct tn_facts {
+    tn_rule_count *counts;
+    size_t count, capacity;
+    tn_rule_matrix *matrices;
+    size_t matrix_count;
+} tn_facts;
+
+/* Counts the libraries of a module, and takes over the relations that were found. What does not fit into the limits is
+ * left out. NULL where out of memory. */
+tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses);
+void tn_facts_free(tn_facts *facts);
+
+/* What there is to say about a rule, clause or library, as Markdown; NULL where there is nothing. The caller frees it.
+ */
+char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol);
+
+#endif
