@@ -275,7 +275,7 @@ const tn_command tn_command_count = {
                    "pruning rule how many it prunes and how many nothing else would. Counts are exact whatever their "
                    "size: they are "
                    "computed over the library's automaton, and no plan is made.",
-    .example = "$ tartan count lahave-houses.plan --json",
+    .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "one FILE",

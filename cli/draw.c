@@ -352,8 +352,8 @@ const tn_command tn_command_draw = {
         "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
         "of "
         "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.",
-    .example = "$ tartan draw lahave-houses.plan --sample 24 --seed 7 -o sheet.svg\n"
-               "$ tartan enumerate terrace.plan --limit 50 | tartan draw terrace.plan - -o rows.pdf",
+    .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
+               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a rule file and a file of plans",

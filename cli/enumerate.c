@@ -8,6 +8,7 @@
 #include "cli/option_rows.h"
 #include "cli/plan_output.h"
 #include "cli/progress.h"
+#include "driver/digits.h"
 
 /* How often the loop looks at the clock and for interruptions. */
 enum { LOOK_EVERY = 4096 };
@@ -23,8 +24,22 @@ typedef struct enumeration {
     bool limited;
 } enumeration;
 
-/* The ranks asked for, no further than the library goes. */
-static void find_range(enumeration *e)
+static void refuse_range(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_diagnostic *d = tn_job_usage(job, "no rank is from %.60s on and before %.60s", settings->from, settings->to);
+    tn_help(tn_job_diagnostics(job), d, "write the smaller rank after --from");
+}
+
+static void note_end(tn_job *job, const mpz_t kept)
+{
+    char *digits = tn_digits(kept, false);
+    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?", job->settings->from);
+    free(digits);
+}
+
+/* The ranks asked for, no further than the library goes. False where no stretch was asked for. */
+static bool find_range(enumeration *e)
 {
     const tn_settings *settings = e->job->settings;
     mpz_t kept, zero;
@@ -32,12 +47,18 @@ static void find_range(enumeration *e)
     tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
     tn_job_rank(settings->from, zero, e->rank);
     tn_job_rank(settings->to, kept, e->to);
+    bool backwards = settings->to && mpz_cmp(e->rank, e->to) > 0;
+    if (backwards)
+        refuse_range(e->job);
+    else if (mpz_sgn(kept) > 0 && mpz_cmp(e->rank, kept) >= 0)
+        note_end(e->job, kept);
     if (mpz_cmp(e->to, kept) > 0)
         mpz_set(e->to, kept);
     if (mpz_cmp(e->rank, e->to) > 0)
         mpz_set(e->rank, e->to);
     mpz_set(e->first, e->rank);
     mpz_clears(kept, zero, NULL);
+    return !backwards;
 }
 
 /* What decides the result. The limit is left out: a library can be resumed to go on past it. */
@@ -183,8 +204,7 @@ static int run(const tn_command *command, const tn_settings *settings)
             .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
         char *made = describe(settings);
         mpz_inits(e.rank, e.to, e.first, NULL);
-        find_range(&e);
-        if (made && tn_job_plan_writer(&job, &ready, made, &e.writer))
+        if (find_range(&e) && made && tn_job_plan_writer(&job, &ready, made, &e.writer))
             enumerate(&e);
         mpz_clears(e.rank, e.to, e.first, NULL);
         free(made);
@@ -220,7 +240,7 @@ const tn_command tn_command_enumerate = {
         "that survive a crash; --resume goes on where one ended. Anything else that is interrupted keeps the plans "
         "written, and a note says "
         "from which rank to go on.",
-    .example = "$ tartan enumerate terrace.plan --from 1000000 --limit 100 --format csv",
+    .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "one FILE",

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/chosen_rules.h"
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
@@ -16,8 +17,7 @@ typedef struct explaining {
     tn_job *job;
     const tn_settings *settings;
     const tn_library_record *record; /* or NULL: rules by themselves */
-    uint32_t *rules;
-    size_t rule_count;
+    tn_chosen_rules rules;
     tn_schema *schema;
     tn_library *library;    /* for ranks; NULL where they are not asked for, or it passed a limit */
     tn_near_finder *finder; /* NULL where nobody asked, or a clause passed a limit */
@@ -30,30 +30,6 @@ static void fail_memory(tn_job *job)
     tn_error error;
     tn_fail_memory(&error);
     tn_job_fail(job, &error);
-}
-
-static bool choose_rules(explaining *e)
-{
-    const tn_option_list *asked = &e->settings->rules;
-    const tn_module *module = e->job->opened.module;
-    e->rules = malloc(sizeof *e->rules * (asked->count + module->RULE_count + 1));
-    if (!e->rules) {
-        fail_memory(e->job);
-        return false;
-    }
-    for (size_t i = 0; i < asked->count; i++) {
-        tn_status status = tn_rule_choose(&e->job->opened, asked->items[i], &e->rules[e->rule_count]);
-        tn_job_status(e->job, status);
-        if (status != TN_OK)
-            return false;
-        e->rule_count++;
-    }
-    for (uint32_t i = 0; !asked->count && i < module->RULE_count; i++)
-        if (!(module->RULE_records[i].flags & TN_IMPORTED))
-            e->rules[e->rule_count++] = i;
-    if (e->rule_count == 0)
-        tn_job_status(e->job, tn_rule_choose(&e->job->opened, "", &e->rules[0]));
-    return e->rule_count > 0;
 }
 
 /* The library that --library names, or the only one; without any, or with --rule, rules by themselves. */
@@ -75,17 +51,11 @@ static bool choose(explaining *e)
         if (status != TN_OK)
             return false;
     } else {
-        if (!choose_rules(e))
+        static const char otherwise[] = "name one of those it uses with --rule";
+        if (!tn_job_choose_rules(e->job, otherwise, &e->rules))
             return false;
-        schema = opened->module->RULE_records[e->rules[0]].schema;
+        schema = e->rules.schema;
     }
-    for (size_t i = 1; i < e->rule_count; i++)
-        if (opened->module->RULE_records[e->rules[i]].schema != schema) {
-            tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "the rules are about the trays of different schemas");
-            tn_error_help(&error, "choose rules about the same trays with --rule");
-            tn_job_fail(e->job, &error);
-            return false;
-        }
     e->record = library == UINT32_MAX ? NULL : &opened->module->LIBRARY_records[library];
     if (tn_schema_new(opened->module, schema, 0, &e->schema, &error) == TN_OK)
         return true;
@@ -174,8 +144,8 @@ static void explain_plan(explaining *e, const tn_tray *trays, size_t length)
     tn_explained explained;
     tn_error error;
     size_t longest = e->settings->max_length.given ? (size_t)e->settings->max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
-    tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules, e->rule_count,
-                                         trays, length, longest, &error);
+    tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules.indices,
+                                         e->rules.count, trays, length, longest, &error);
     if (e->settings->json || e->settings->full) /* ranks take several times as long as all the rest */
         make_library(e);
     explained.automaton = e->library;
@@ -301,7 +271,7 @@ static void explain(tn_job *job)
     tn_near_finder_free(e.finder);
     tn_library_free(e.library);
     tn_schema_free(e.schema);
-    free(e.rules);
+    tn_chosen_rules_clear(&e.rules);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -342,7 +312,7 @@ const tn_command tn_command_explain = {
         "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
         "the "
         "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.",
-    .example = "$ tartan explain terrace.plan \"$(tartan unrank terrace.plan 1000)\"",
+    .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a FILE and a PLAN",

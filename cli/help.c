@@ -53,11 +53,11 @@ static void write_option(const tn_option *option, FILE *out)
 /* Each line of `text` with something before it. */
 static void write_lines(const char *before, const char *text, FILE *out)
 {
-    while (*text) {
+    do {
         size_t size = strcspn(text, "\n");
-        fprintf(out, "%s%.*s\n", before, (int)size, text);
+        fprintf(out, "%s%s%.*s\n", before, size ? " " : "", (int)size, text);
         text += size + (text[size] == '\n');
-    }
+    } while (*text);
 }
 
 void tn_help_overview(FILE *out)
@@ -69,7 +69,7 @@ void tn_help_overview(FILE *out)
         fprintf(out, "  %-12s%s\n", tn_commands[i]->name, tn_commands[i]->summary);
     fputs("\nA file of the standard library is named without folder and extension: lahave, square, genr8.\n"
           "\nExit codes: 0 done; 1 the rules or the input are wrong, or a test failed; 2 wrong usage;\n"
-          "3 a file could not be read or written; 4 a limit was reached; 70 an internal error.\n",
+          "3 a file could not be read or written; 4 a limit was reached; 70 an internal error; 130 interrupted.\n",
           out);
 }
 
@@ -77,7 +77,7 @@ void tn_help_command(const tn_command *command, FILE *out)
 {
     char before[64];
     fprintf(out, "tartan %s: %s\n\nUsage:\n", command->name, command->summary);
-    snprintf(before, sizeof before, "  tartan %s ", command->name);
+    snprintf(before, sizeof before, "  tartan %s", command->name);
     write_lines(before, command->usage, out);
     fputc('\n', out);
     write_wrapped(command->description, 0, 0, out);
@@ -87,5 +87,5 @@ void tn_help_command(const tn_command *command, FILE *out)
     for (size_t i = 0; i < tn_common_option_count; i++)
         write_option(&tn_common_options[i], out);
     fputs("\nExample:\n", out);
-    write_lines("  ", command->example, out);
+    write_lines(" ", command->example, out);
 }

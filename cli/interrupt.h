@@ -1,10 +1,12 @@
-/* Interrupting long work: after Ctrl-C (or a polite kill) the loop that asks ends, so that what was finished stays. */
+/* Interrupting long work: after Ctrl-C (or a polite kill, or when the terminal is closed) the loop that asks ends, so
+ * that what was finished stays. */
 #ifndef TARTAN_CLI_INTERRUPT_H
 #define TARTAN_CLI_INTERRUPT_H
 
 #include <stdbool.h>
 
-/* From here on SIGINT and SIGTERM are taken note of instead of ending the program; a second one ends it. */
+/* From here on SIGINT, SIGTERM and SIGHUP are taken note of instead of ending the program; a second one ends it. One that
+ * was ignored stays so (nohup). */
 void tn_interrupt_watch(void);
 
 bool tn_interrupted(void);

@@ -151,7 +151,7 @@ void tn_job_commit(tn_job *job, tn_output *output)
 
 void tn_job_close(tn_job *job, tn_output *output, bool complete)
 {
-    if (complete || !output->temporary)
+    if (complete || !output->replaces)
         tn_job_commit(job, output);
     else
         tn_output_discard(output);

@@ -29,9 +29,9 @@ static int refuse(const tn_settings *settings, const tn_error *error)
     return tn_job_end(&job);
 }
 
-static int unknown_command(const char *name)
+static int unknown_command(const char *name, int count, char **words)
 {
-    const tn_settings settings = {0};
+    const tn_settings settings = {.diagnostics = tn_options_diagnostics(count, words)};
     const char *names[64];
     for (size_t i = 0; i < tn_commands_count; i++)
         names[i] = tn_commands[i]->name;
@@ -51,7 +51,7 @@ static int help(const char *name, bool manual)
 {
     const tn_command *command = name ? tn_command_find(name) : NULL;
     if (name && !command)
-        return unknown_command(name);
+        return unknown_command(name, 0, NULL);
     if (manual && command)
         tn_manual_command(command, stdout);
     else if (manual)
@@ -84,12 +84,14 @@ static int run(const tn_command *command, int count, char **words)
     tn_settings settings = {0};
     tn_error error;
     int exit_code;
-    if (tn_options_parse(command, count, words, &settings, &error) != TN_OK)
+    if (tn_options_parse(command, count, words, &settings, &error) != TN_OK) {
+        settings.diagnostics = tn_options_diagnostics(count, words);
         exit_code = refuse(&settings, &error);
-    else if (settings.help)
+    } else if (settings.help) {
         exit_code = help(command->name, false);
-    else
+    } else {
         exit_code = command->run(command, &settings);
+    }
     tn_settings_clear(&settings);
     return exit_code;
 }
@@ -115,5 +117,5 @@ int main(int argc, char **argv)
         return written();
     }
     const tn_command *command = tn_command_find(name);
-    return command ? run(command, argc - 2, argv + 2) : unknown_command(name);
+    return command ? run(command, argc - 2, argv + 2) : unknown_command(name, argc - 2, argv + 2);
 }

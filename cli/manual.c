@@ -27,13 +27,13 @@ static void write_all(const char *text, FILE *out)
 /* Each line of `text` with a macro or words before it. */
 static void write_lines(const char *before, const char *text, const char *after, FILE *out)
 {
-    while (*text) {
+    do {
         size_t size = strcspn(text, "\n");
         fputs(before, out);
         write_text(text, size, out);
         fputs(after, out);
         text += size + (text[size] == '\n');
-    }
+    } while (*text);
 }
 
 static void write_head(const char *page, const char *name, const char *summary, FILE *out)
@@ -87,11 +87,11 @@ void tn_manual_overview(FILE *out)
     }
     fputs(".SH ENVIRONMENT\n.TP\n.B TARTAN_PATH\nfolders, separated by colons, where\n.B use \\(dqname\\(dq\nlooks "
           "before the "
-          "installed rule files\n.TP\n.B NO_COLOR\nno colours, whatever its value\n.SH EXIT STATUS\n0 done; 1 the "
+          "installed rule files\n.TP\n.B NO_COLOR\nno colours, where it is not empty\n.SH EXIT STATUS\n0 done; 1 the "
           "rules or the input "
           "are wrong, or a test failed; 2 wrong usage; 3 a file could not be read or written; 4 a limit was reached; "
           "70 an internal "
-          "error.\n",
+          "error; 130 interrupted.\n",
           out);
     write_see_also(true, out);
 }

@@ -12,6 +12,7 @@
 #include "runtime/gene/invert.h"
 #include "runtime/gene/mapper.h"
 #include "runtime/gene/tree.h"
+#include "runtime/vm/file_error.h"
 #include "runtime/vm/random.h"
 #include "runtime/vm/utf8.h"
 
@@ -156,7 +157,7 @@ static void read_genomes(mapping_run *run, const char *path)
     FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
     if (!in) {
         tn_error error;
-        tn_fail(&error, TN_IO, E_CANNOT_READ, "cannot read %.200s: %s", path, strerror(errno));
+        tn_cannot_read(path, errno, &error);
         fail(run, &error);
         return;
     }
@@ -172,7 +173,7 @@ static void read_genomes(mapping_run *run, const char *path)
     }
     if (ferror(in) && !run->stop) {
         tn_error error;
-        tn_fail(&error, TN_IO, E_CANNOT_READ, "cannot read %.200s: %s", path, strerror(errno));
+        tn_cannot_read(path, errno, &error);
         fail(run, &error);
     }
     free(text);
@@ -311,7 +312,9 @@ static int run(const tn_command *command, const tn_settings *settings)
             read_genomes(&run, settings->genomes);
         else
             random_genomes(&run);
-        tn_job_commit(&job, &output);
+        if (tn_interrupted())
+            job.exit_code = TN_EXIT_INTERRUPTED;
+        tn_job_close(&job, &output, !tn_interrupted());
     }
     tn_genome_clear(&run.genome);
     tn_mapper_free(run.mapper);

@@ -2,6 +2,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 
+#include "cli/chosen_rules.h"
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
@@ -13,9 +14,7 @@ enum { FORMAT_NAMES, FORMAT_JSON, FORMAT_BITS };
 typedef struct matching {
     tn_job *job;
     const char *path; /* of the plans */
-    uint32_t *rules;  /* RULE records, in file order or as asked for */
-    size_t count;
-    uint32_t schema_index;
+    tn_chosen_rules rules;
     tn_schema *schema;
     tn_rules *compiled;
     tn_output output;
@@ -28,60 +27,20 @@ static const char *rule_name(const void *context, size_t i)
 {
     const matching *m = context;
     const tn_module *module = m->job->opened.module;
-    return tn_text(module, module->RULE_records[m->rules[i]].name);
+    return tn_text(module, module->RULE_records[m->rules.indices[i]].name);
 }
 
-/* The rules of --rule, or those of the file itself. */
 static bool choose_rules(matching *m)
 {
-    const tn_option_list *asked = &m->job->settings->rules;
-    const tn_module *module = m->job->opened.module;
     tn_error error;
-    m->rules = malloc(sizeof *m->rules * (asked->count + module->RULE_count + 1));
-    m->digits = malloc(asked->count + module->RULE_count + 1);
-    if (!m->rules || !m->digits) {
+    if (!tn_job_choose_rules(m->job, "name one of those it uses with --rule, or filter with `tartan prune`", &m->rules))
+        return false;
+    m->digits = malloc(m->rules.count + 1);
+    if (!m->digits) {
         tn_fail_memory(&error);
         tn_job_fail(m->job, &error);
-        return false;
     }
-    for (size_t i = 0; i < asked->count; i++) {
-        tn_status status = tn_rule_choose(&m->job->opened, asked->items[i], &m->rules[m->count]);
-        tn_job_status(m->job, status);
-        m->count += status == TN_OK;
-    }
-    if (asked->count)
-        return m->count == asked->count;
-    for (uint32_t i = 0; i < module->RULE_count; i++)
-        if (!(module->RULE_records[i].flags & TN_IMPORTED))
-            m->rules[m->count++] = i;
-    if (m->count > 0)
-        return true;
-    tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rules of its own", m->job->opened.path);
-    tn_error_help(&error, "name one of those it uses with --rule, or filter with `tartan prune`");
-    tn_job_fail(m->job, &error);
-    return false;
-}
-
-/* All rules have to be about the same trays, or the plans could not be read. */
-static bool choose_schema(matching *m)
-{
-    const tn_module *module = m->job->opened.module;
-    uint32_t schema = module->RULE_records[m->rules[0]].schema;
-    tn_error error;
-    for (size_t i = 1; i < m->count; i++) {
-        uint32_t other = module->RULE_records[m->rules[i]].schema;
-        if (other == schema)
-            continue;
-        tn_fail(&error, TN_INVALID, E_NOT_IN_FILE,
-                "`%.80s` is about the trays of `%.80s`, `%.80s` about those of `%.80s`", rule_name(m, 0),
-                tn_text(module, module->SCHEMA_records[schema].name), rule_name(m, i),
-                tn_text(module, module->SCHEMA_records[other].name));
-        tn_error_help(&error, "choose rules about the same trays with --rule");
-        tn_job_fail(m->job, &error);
-        return false;
-    }
-    m->schema_index = schema;
-    return true;
+    return m->digits != NULL;
 }
 
 static bool compile_rules(matching *m)
@@ -91,14 +50,14 @@ static bool compile_rules(matching *m)
     tn_rules_options options = {.engine = (tn_engine)settings->engine,
                                 .max_states = (uint32_t)settings->max_states.value,
                                 .max_length = tn_job_max_length(settings)};
-    uint32_t *functions = malloc(sizeof *functions * m->count);
+    uint32_t *functions = malloc(sizeof *functions * m->rules.count);
     tn_error error;
     tn_status status =
-        functions ? tn_schema_new(module, m->schema_index, 0, &m->schema, &error) : tn_fail_memory(&error);
-    for (size_t i = 0; functions && i < m->count; i++)
-        functions[i] = module->RULE_records[m->rules[i]].holds;
+        functions ? tn_schema_new(module, m->rules.schema, 0, &m->schema, &error) : tn_fail_memory(&error);
+    for (size_t i = 0; functions && i < m->rules.count; i++)
+        functions[i] = module->RULE_records[m->rules.indices[i]].holds;
     if (status == TN_OK)
-        status = tn_rules_new(m->schema, functions, m->count, &options, &m->compiled, &error);
+        status = tn_rules_new(m->schema, functions, m->rules.count, &options, &m->compiled, &error);
     free(functions);
     if (status != TN_OK)
         tn_job_fail(m->job, &error);
@@ -113,16 +72,16 @@ static bool is_matched(const tn_sifted *plan, size_t i)
 /* In one piece: a plan is matched in some nanoseconds, and a call a rule would take longer. */
 static void write_bits(const matching *m, const tn_sifted *plan)
 {
-    for (size_t i = 0; i < m->count; i++)
+    for (size_t i = 0; i < m->rules.count; i++)
         m->digits[i] = is_matched(plan, i) ? '1' : '0';
-    m->digits[m->count] = '\n';
-    fwrite_unlocked(m->digits, 1, m->count + 1, m->output.stream);
+    m->digits[m->rules.count] = '\n';
+    fwrite_unlocked(m->digits, 1, m->rules.count + 1, m->output.stream);
 }
 
 static void write_names(const matching *m, const tn_sifted *plan)
 {
     const char *between = "";
-    for (size_t i = 0; i < m->count; i++) {
+    for (size_t i = 0; i < m->rules.count; i++) {
         if (!is_matched(plan, i))
             continue;
         fprintf(m->output.stream, "%s%s", between, rule_name(m, i));
@@ -140,7 +99,7 @@ static bool write_object(matching *m, const tn_sifted *plan)
     json_t *object = json_object(), *names = json_array();
     json_object_set_new(object, "line", json_integer((json_int_t)plan->line));
     json_object_set_new(object, "plan", json_string(m->line.data ? m->line.data : ""));
-    for (size_t i = 0; i < m->count; i++)
+    for (size_t i = 0; i < m->rules.count; i++)
         if (is_matched(plan, i))
             json_array_append_new(names, json_string(rule_name(m, i)));
     json_object_set_new(object, "rules", names);
@@ -202,12 +161,11 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&job, settings);
     matching m = {.job = &job, .path = tn_job_plans_path(&job)};
     tn_job_threads(settings);
-    if (m.path && tn_job_open(&job, settings->operands.items[0]) && choose_rules(&m) && choose_schema(&m) &&
-        compile_rules(&m))
+    if (m.path && tn_job_open(&job, settings->operands.items[0]) && choose_rules(&m) && compile_rules(&m))
         match_plans(&m);
     tn_rules_free(m.compiled);
     tn_schema_free(m.schema);
-    free(m.rules);
+    tn_chosen_rules_clear(&m.rules);
     free(m.line.data);
     free(m.digits);
     return tn_job_end(&job);
@@ -236,7 +194,7 @@ const tn_command tn_command_match = {
                    "for each: the rules it matches, of those that the file itself holds, in their order. The exit code "
                    "is 0 whether or "
                    "not a rule matches.",
-    .example = "$ tartan match lahave.plan plans.txt --rule narrow-pair --format bits",
+    .example = "$ tartan match lahave plans.txt --rule narrow-pair --format bits",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a rule file and a file of plans",

@@ -95,6 +95,15 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
     return see_help(p, status);
 }
 
+static tn_status unknown_letter(parse *p, const char *letters)
+{
+    tn_status status =
+        tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` has no option -%.60s", p->command->name, letters);
+    if (letters[0] >= '0' && letters[0] <= '9')
+        tn_error_help(p->error, "numbers here are 0 or more; what is no option goes after --");
+    return see_help(p, status);
+}
+
 static void *place_of(parse *p, const tn_option *option)
 {
     return (char *)p->settings + option->offset;
@@ -114,18 +123,20 @@ bool tn_number_read(const char *text, uint64_t *value)
     return true;
 }
 
+static uint64_t most(const tn_option *option)
+{
+    return option->high ? option->high : UINT64_MAX;
+}
+
 static bool within(const tn_option *option, uint64_t value)
 {
-    return value >= option->low && (!option->high || value <= option->high);
+    return value >= option->low && value <= most(option);
 }
 
 static tn_status bad_number(parse *p, const tn_option *option, const char *text, const char *what)
 {
-    if (option->high)
-        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes %s from %llu to %llu, not `%.60s`", option->name, what,
-                       (unsigned long long)option->low, (unsigned long long)option->high, text);
-    return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes %s of at least %llu, not `%.60s`", option->name, what,
-                   (unsigned long long)option->low, text);
+    return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes %s from %llu to %llu, not `%.60s`", option->name, what,
+                   (unsigned long long)option->low, (unsigned long long)most(option), text);
 }
 
 static tn_status set_number(parse *p, const tn_option *option, const char *text)
@@ -213,6 +224,18 @@ static tn_status set_real(parse *p, const tn_option *option, const char *text)
     return TN_OK;
 }
 
+/* A file's name, and any other text but that: empty ones are what a variable of a script without a value gives. */
+static tn_status set_text(parse *p, const tn_option *option, const char *text)
+{
+    static const char *const names[] = {"FILE", "FOLDER", "DIR", "NAME"};
+    for (size_t i = 0; i < OPTION_COUNT(names) && !*text; i++)
+        if (strcmp(option->argument, names[i]) == 0)
+            return tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s, which is empty here", option->name,
+                           option->argument);
+    *(const char **)place_of(p, option) = text;
+    return TN_OK;
+}
+
 /* Lists have room for every word of the command line. */
 static tn_status list_add(parse *p, tn_option_list *list, const char *text)
 {
@@ -231,8 +254,7 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
         *(bool *)place_of(p, option) = true;
         return TN_OK;
     case TN_OPTION_TEXT:
-        *(const char **)place_of(p, option) = text;
-        return TN_OK;
+        return set_text(p, option, text);
     case TN_OPTION_LIST:
         return list_add(p, place_of(p, option), text);
     case TN_OPTION_NUMBER:
@@ -284,8 +306,7 @@ static tn_status read_letters(parse *p, const char *letters)
     for (; *letters; letters++) {
         const tn_option *option = find_letter(p->command, *letters);
         if (!option)
-            return see_help(
-                p, tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` has no option -%c", p->command->name, *letters));
+            return unknown_letter(p, letters);
         if (option->argument)
             return see_help(p, set_from_words(p, option, letters[1] ? letters + 1 : NULL));
         tn_status status = set_from_words(p, option, NULL);
@@ -295,13 +316,27 @@ static tn_status read_letters(parse *p, const char *letters)
     return TN_OK;
 }
 
+/* All forms of the command: "tartan check FILE..., or tartan check FILE --relations". */
+static void help_usage(parse *p)
+{
+    char forms[sizeof p->error->help] = "";
+    size_t used = 0;
+    for (const char *at = p->command->usage; *at && used < sizeof forms;) {
+        int size = (int)strcspn(at, "\n");
+        used += (size_t)snprintf(forms + used, sizeof forms - used, "%startan %s %.*s", used ? ", or " : "",
+                                 p->command->name, size, at);
+        at += size + (at[size] == '\n');
+    }
+    tn_error_help(p->error, "%s", forms);
+}
+
 static tn_status check_operands(parse *p)
 {
     size_t count = p->settings->operands.count;
     if (count < p->command->operands_min) {
         tn_status status =
             tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` needs %s", p->command->name, p->command->operands);
-        tn_error_help(p->error, "tartan %s %.200s", p->command->name, p->command->usage);
+        help_usage(p);
         return status;
     }
     if (count > p->command->operands_max) {
@@ -336,6 +371,20 @@ tn_status tn_options_parse(const tn_command *command, int count, char **words, t
             return status;
     }
     return settings->help ? TN_OK : check_operands(&p);
+}
+
+int tn_options_diagnostics(int count, char *const *words)
+{
+    static const char name[] = "--diagnostics";
+    const tn_option *option = &tn_common_options[0];
+    int found = 0;
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        const char *rest = strncmp(words[i], name, sizeof name - 1) == 0 ? words[i] + sizeof name - 1 : "?";
+        const char *value = *rest == '=' ? rest + 1 : !*rest && i + 1 < count ? words[i + 1] : "";
+        int index = choice_index(option->choices, value);
+        found = index < 0 ? found : index;
+    }
+    return found;
 }
 
 void tn_settings_clear(tn_settings *settings)

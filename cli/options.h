@@ -39,7 +39,8 @@ typedef enum tn_option_kind {
     TN_OPTION_RANGE,  /* tn_option_range, written a..b or a, from `low` to `high` */
     TN_OPTION_RANK,   /* const char *: decimal digits, as many as one likes */
     TN_OPTION_CHOICE, /* int: index of the word among `choices` */
-    TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the first */
+    TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the
+                         first */
     TN_OPTION_REAL,   /* tn_option_real */
 } tn_option_kind;
 
@@ -80,7 +81,8 @@ typedef struct tn_settings {
     const char *paper, *title;
 
     /* grow: what a study can say too is kept as the words of its statement */
-    const char *steps, *growth_scale, *start, *start_length, *growth_seed, *branch_angle, *branch_length, *edge_limit, *until;
+    const char *steps, *growth_scale, *start, *start_length, *growth_seed, *branch_angle, *branch_length, *edge_limit,
+        *until;
     tn_option_list attractors, repellers, gravity, boundaries, fitness;
     bool fixed_centre, fixed_perimeter, facing, grow_mirror;
     bool each_step, sheet, groups, normals, triangulate, lines, explain;
@@ -136,6 +138,10 @@ const tn_option *tn_option_at(const tn_command *command, size_t i);
 /* Reads the words after the command's name. TN_INVALID (E0904) says what is wrong and what was probably meant; what was
  * read before stays in the settings. Clear the settings in any case. */
 tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error);
+
+/* What --diagnostics says among the words, 0 where it does not: for what is wrong with the command line itself. */
+int tn_options_diagnostics(int count, char *const *words);
+
 void tn_settings_clear(tn_settings *settings);
 
 /* Reads a number or a range as the options do; false where the text is not one. */

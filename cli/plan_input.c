@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/library_job.h"
+#include "driver/suggest_file.h"
 
 const char *tn_job_plans_path(tn_job *job)
 {
@@ -22,6 +23,7 @@ bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_pl
     tn_error error;
     if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
         return true;
+    tn_suggest_file(path, &error);
     tn_job_fail(job, &error);
     return false;
 }

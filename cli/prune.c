@@ -213,7 +213,7 @@ const tn_command tn_command_prune = {
         "are dropped: by "
         "a pruning rule that matches, a requirement or total that is not met, or their number of trays. --dropped says "
         "which of these dropped each.",
-    .example = "$ tartan prune lahave-houses.plan plans.txt --dropped why.txt",
+    .example = "$ tartan prune lahave-houses plans.txt --dropped why.txt",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a rule file and a file of plans",

@@ -113,7 +113,7 @@ const tn_command tn_command_rank = {
                    "PLAN is a plan line or a JSON object, in quotes. For a plan that the library does not hold, the "
                    "exit code is 1 and "
                    "the message says which clause it fails.",
-    .example = "$ tartan rank terrace.plan \"$(tartan unrank terrace.plan 1000)\"\n1000",
+    .example = "$ tartan rank terrace \"$(tartan unrank terrace 1000)\"\n1000",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a FILE and a PLAN",

@@ -1,5 +1,4 @@
 /* tartan report: a library as an HTML page. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -14,9 +13,8 @@
 static bool make_folder(tn_job *job, const char *path)
 {
     tn_error error;
-    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+    if (tn_folder_make(path, &error) == TN_OK)
         return true;
-    tn_fail(&error, TN_IO, E_CANNOT_WRITE, "cannot make the folder %s: %s", path, strerror(errno));
     tn_job_fail(job, &error);
     return false;
 }
@@ -97,7 +95,7 @@ const tn_command tn_command_report = {
         "show it, and which of its parts the tests notice; "
         "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
         "filtered.",
-    .example = "$ tartan report lahave-houses.plan -o report",
+    .example = "$ tartan report lahave-houses -o report",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a FILE",

@@ -108,7 +108,7 @@ const tn_command tn_command_sample = {
                    "Nearly all plans of a library have its greatest number of trays, and so have samples: --length and "
                    "--per-length "
                    "draw from the others. The same file, seed and options give the same plans on every machine.",
-    .example = "$ tartan sample lahave-houses.plan 1000 --seed 7 -o sample.sqlite",
+    .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a FILE and a number N",

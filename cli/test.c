@@ -112,7 +112,7 @@ const tn_command tn_command_test = {
         "many of the plans that the library generates (without a library: of all plans of up to 4 trays) "
         "would be decided otherwise if it never matched, counted exactly, and whether a test case would "
         "notice. Tests of files that are only used (`use`) do not run.",
-    .example = "$ tartan test lahave.plan",
+    .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "at least one FILE",

@@ -88,7 +88,7 @@ const tn_command tn_command_unrank = {
     .usage = "FILE RANK [--library NAME]",
     .description =
         "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank.",
-    .example = "$ tartan unrank lahave-houses.plan 123456789",
+    .example = "$ tartan unrank lahave-houses 123456789",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "a FILE and a RANK",

@@ -102,9 +102,7 @@ static tn_status write_best(tn_run *run, tn_error *error)
     char *dir = NULL;
     if (asprintf(&dir, "%s/best", run->dir) < 0)
         return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    if (mkdir(dir, 0777) != 0 && errno != EEXIST)
-        status = tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: %s", dir, strerror(errno));
+    tn_status status = tn_folder_make(dir, error);
     empty_best(dir);
     size_t count, front = tn_evolution_front(run->evolution), written = 0;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);

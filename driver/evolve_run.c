@@ -26,18 +26,6 @@ void tn_run_clear(tn_run *run)
     *run = (tn_run){0};
 }
 
-static tn_status make_dir(const char *path, tn_error *error)
-{
-    struct stat there;
-    if (mkdir(path, 0777) == 0)
-        return TN_OK;
-    if (errno == EEXIST && stat(path, &there) == 0)
-        return S_ISDIR(there.st_mode)
-                   ? TN_OK
-                   : tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: there is a file of that name", path);
-    return tn_fail(error, TN_IO, 902, "cannot make the folder %.200s: %s", path, strerror(errno));
-}
-
 /* ---- beginning */
 
 static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
@@ -262,7 +250,7 @@ tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_opti
 {
     *run = (tn_run){.job = job, .dir = strdup(dir)};
     char *path = tn_run_database(dir);
-    tn_status status = run->dir && path ? make_dir(dir, error) : tn_fail_memory(error);
+    tn_status status = run->dir && path ? tn_folder_make(dir, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
     if (status == TN_OK)

@@ -185,6 +185,12 @@ tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index,
     if (module->SCHEMA_count == 1)
         return TN_OK;
     tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    if (module->SCHEMA_count == 0) {
+        tn_diagnostic *none = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                                             "%s has no schema that says what a tray is", opened->path);
+        tn_help(diagnostics, none, "write `use \"lahave\"` at its top, or declare a `schema` of your own");
+        return TN_INVALID;
+    }
     tn_diagnostic *unclear = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
                                             "%s has %zu schemas, and it is not clear which one the plans are of",
                                             opened->path, module->SCHEMA_count);

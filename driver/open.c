@@ -6,6 +6,7 @@
 
 #include "driver/stdlib_dirs.h"
 #include "driver/stdlib_find.h"
+#include "driver/suggest_file.h"
 #include "runtime/vm/file.h"
 
 static void start(const char *path, tn_opened *opened)
@@ -74,7 +75,7 @@ static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **b
     if (status != TN_OK)
         return status;
     status = tn_file_read(found->path ? found->path : path, tn_module_limits_default().bytes, bytes, size, error);
-    if (status == TN_IO && !found->path && access(path, F_OK) != 0)
+    if (status == TN_IO && !found->path && access(path, F_OK) != 0 && !tn_suggest_file(path, error))
         tn_stdlib_suggest(path, error);
     return status;
 }

@@ -39,7 +39,7 @@ static tartan_status find(const tn_module *module, const char *name, uint32_t *i
         }
     }
     if (found == 0 && name)
-        return tn_api_refuse(error, TARTAN_INVALID, "the module has no library '%s'", name);
+        return tn_api_refuse(error, TARTAN_INVALID, "the module has no library `%s`", name);
     if (found != 1)
         return tn_api_refuse(error, TARTAN_INVALID, "the module has %zu libraries: say which by its name", found);
     return TARTAN_OK;
@@ -118,7 +118,7 @@ static tartan_status decimal(const mpz_t number, char **text, tartan_error *erro
 static tartan_status read_rank(const char *text, mpz_t number, tartan_error *error)
 {
     if (text[0] == '\0' || strspn(text, "0123456789") != strlen(text))
-        return tn_api_refuse(error, TARTAN_INVALID, "a rank is a decimal number, not '%.40s'", text);
+        return tn_api_refuse(error, TARTAN_INVALID, "a rank is a decimal number, not `%.40s`", text);
     if (mpz_set_str(number, text, 10) != 0)
         return out_of_memory(error);
     return TARTAN_OK;

@@ -20,7 +20,7 @@ tartan_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_
     for (size_t i = 0; i < length; i++)
         if (trays[i] >= schema->tray_count)
             return tn_api_refuse(
-                error, TARTAN_INVALID, "tray %zu of the plan has number %u, and schema '%s' has trays 0 to %u", i + 1,
+                error, TARTAN_INVALID, "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
                 (unsigned)trays[i], tn_text(schema->module, schema->record->name), (unsigned)schema->tray_count - 1);
     return TARTAN_OK;
 }

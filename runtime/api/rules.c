@@ -47,7 +47,7 @@ static tartan_status choose(tartan_rules *rules, const char *const *names, size_
         return out_of_memory(error);
     for (size_t i = 0; i < count; i++)
         if (!find(module, names[i], &rules->records[rules->count++]))
-            return tn_api_refuse(error, TARTAN_INVALID, "the module has no rule '%s'", names[i]);
+            return tn_api_refuse(error, TARTAN_INVALID, "the module has no rule `%s`", names[i]);
     for (size_t i = 0; count == 0 && i < module->RULE_count; i++)
         if (!(module->RULE_records[i].flags & TN_IMPORTED))
             rules->records[rules->count++] = (uint32_t)i;
@@ -69,7 +69,7 @@ static tartan_status prepare(tartan_rules *rules, tartan_error *error)
         functions[i] = rule->holds;
         if (rule->schema != first->schema) {
             free(functions);
-            return tn_api_refuse(error, TARTAN_INVALID, "rules '%s' and '%s' are of different schemas",
+            return tn_api_refuse(error, TARTAN_INVALID, "rules `%s` and `%s` are of different schemas",
                                  tn_text(rules->module, first->name), tn_text(rules->module, rule->name));
         }
     }

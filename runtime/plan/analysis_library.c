@@ -30,7 +30,7 @@ static bool is_own(const work *w, size_t i)
 static tn_status name_clause(const work *w, size_t i, tn_error *error)
 {
     tn_error inner = *error;
-    tn_fail(error, inner.status, inner.code, "in the clause '%.80s': %.360s",
+    tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s",
             tn_text(w->analysis->schema->module, w->clauses[i].name), inner.message);
     tn_error_help(error, "%s", inner.help);
     error->code_offset = inner.code_offset;

@@ -320,7 +320,7 @@ static tn_status no_such_field(tn_json *json, const tn_word *key)
 {
     char shown[TN_WORD_SHOWN], fields[200];
     const tn_schema *schema = json->scanner->schema;
-    tn_fail(json->error, TN_INVALID, 601, "'%s' is not a field of schema %.60s", tn_word_show(key, shown),
+    tn_fail(json->error, TN_INVALID, 601, "`%s` is not a field of schema %.60s", tn_word_show(key, shown),
             tn_text(schema->module, schema->record->name));
     tn_error_help(json->error, "its fields are: %s", tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(key, json->error);

@@ -46,7 +46,7 @@ static tn_status name_clause(const tn_library *library, size_t i, tn_error *erro
         return TN_LIMIT;
     tn_error inner = *error;
     const char *name = tn_text(library->schema->module, clause_record(library, i)->name);
-    tn_fail(error, inner.status, inner.code, "in the clause '%.80s': %.360s", name, inner.message);
+    tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s", name, inner.message);
     tn_error_help(error, "%s", inner.help);
     error->code_offset = inner.code_offset;
     return inner.status;
@@ -130,10 +130,10 @@ void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)
     const tn_module *module = library->schema->module;
     char others[200] = "";
     if (most[1] != worst)
-        snprintf(others, sizeof others, ", '%.60s' or '%.60s', which multiply the states most",
+        snprintf(others, sizeof others, ", `%.60s` or `%.60s`, which multiply the states most",
                  tn_text(module, clause_record(library, most[0])->name),
                  tn_text(module, clause_record(library, most[1])->name));
-    tn_error_help(error, "leave out '%.60s'%s, give fewer trays with --trays, or raise the limit with --max-states",
+    tn_error_help(error, "leave out `%.60s`%s, give fewer trays with --trays, or raise the limit with --max-states",
                   tn_text(module, clause_record(library, worst)->name), others);
 }
 

@@ -47,7 +47,7 @@ static tn_status too_few(const tn_schema *schema, const tn_word *tray, uint32_t 
 static tn_status too_many(const tn_schema *schema, const tn_word *word, tn_error *error)
 {
     char fields[160], shown[TN_WORD_SHOWN];
-    tn_fail(error, TN_INVALID, 601, "a tray has %u values, and '%s' is one more", (unsigned)schema->field_count,
+    tn_fail(error, TN_INVALID, 601, "a tray has %u values, and `%s` is one more", (unsigned)schema->field_count,
             tn_word_show(word, shown));
     tn_error_help(error, "separate trays with | ; the values of a tray are: %s",
                   tn_value_fields(schema, fields, sizeof fields));

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "runtime/plan/pack.h"
+#include "runtime/vm/file_error.h"
 
 #define INPUT_BYTES (size_t)(256u << 10) /* read at a time */
 #define LENGTH_DEFAULT 4096u
@@ -63,7 +64,7 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
         if (count < 0 && errno == EINTR)
             continue;
         if (count < 0)
-            return tn_fail(error, TN_IO, 901, "%s: %s", reader->path, strerror(errno));
+            return tn_cannot_read(reader->path, errno, error);
         reader->input_ended = count == 0;
         reader->end += (size_t)count;
     }
@@ -243,7 +244,7 @@ static tn_status open_reader(tn_plan_reader *reader, const char *path, tn_error 
         return status;
     reader->file = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     if (reader->file < 0)
-        return tn_fail(error, TN_IO, 901, "%s: %s", reader->path, strerror(errno));
+        return tn_cannot_read(reader->path, errno, error);
     return open_format(reader, error);
 }
 

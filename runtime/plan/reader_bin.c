@@ -14,8 +14,10 @@ static const uint8_t *input(const tn_plan_reader *reader)
 static tn_status damaged(const tn_plan_reader *reader, const char *what, tn_error *error)
 {
     bool opening = reader->line == 0;
-    return tn_fail(error, TN_INVALID, 604, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
-                   opening ? ": " : "", what);
+    tn_fail(error, TN_INVALID, 604, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
+            opening ? ": " : "", what);
+    tn_error_help(error, "make the file anew from its library, or get another copy of it");
+    return TN_INVALID;
 }
 
 /* Drops `count` bytes of input, which may be more than fit in memory. */
@@ -103,5 +105,5 @@ tn_status tn_reader_bin_next(tn_plan_reader *reader, bool *found, tn_error *erro
     reader->begin += bytes;
     return tn_unpack_trays(reader->schema, packed, (size_t)length, reader->plan.trays)
                ? TN_OK
-               : tn_fail(error, TN_INVALID, 601, "the plan holds a tray that the schema does not have");
+               : damaged(reader, "this one holds a tray that the schema does not have", error);
 }

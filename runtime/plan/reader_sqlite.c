@@ -36,7 +36,7 @@ static tn_status check_schema(tn_plan_reader *reader, tn_error *error)
 tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error)
 {
     if (reader->file == STDIN_FILENO)
-        return tn_fail(error, TN_INVALID, 604, "a SQLite library cannot be read from standard input: give its file");
+        return tn_fail(error, TN_INVALID, 604, "a SQLite library cannot be read from standard input: name its file");
     close(reader->file);
     reader->file = -1;
     /* Opened for writing where that is allowed, as SQLite must roll back what a killed writer left half done. */

@@ -149,7 +149,7 @@ static void help_value(const tn_schema *schema, uint32_t field, const tn_word *w
     char fields[160];
     int64_t length;
     if (other != UINT32_MAX)
-        tn_error_help(error, "'%s' is a value of %s; the values of a tray stand in the schema's order: %s", shown,
+        tn_error_help(error, "`%s` is a value of %s; the values of a tray stand in the schema's order: %s", shown,
                       text_of(schema, schema->fields[other].name), tn_value_fields(schema, fields, sizeof fields));
     else if (near && !read_length(word, &length)) /* another length is no slip of the pen */
         tn_error_help(error, "did you mean %s?", near);
@@ -160,7 +160,7 @@ tn_status tn_value_unknown(const tn_schema *schema, uint32_t field, const tn_wor
     char shown[TN_WORD_SHOWN], values[240];
     list_values(schema, field, values, sizeof values);
     tn_word_show(word, shown);
-    tn_fail(error, TN_INVALID, 602, "'%s' is not a value of %.60s, which can be %s", shown,
+    tn_fail(error, TN_INVALID, 602, "`%s` is not a value of %.60s, which can be %s", shown,
             text_of(schema, schema->fields[field].name), values);
     help_value(schema, field, word, shown, error);
     return tn_word_refuse(word, error);

@@ -6,6 +6,7 @@
 
 #include "runtime/plan/pack.h"
 #include "runtime/vm/bytes.h"
+#include "runtime/vm/file_error.h"
 
 #define BATCH_DEFAULT 100000u
 
@@ -107,15 +108,13 @@ static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
     if (size == 0 || fwrite(writer->text.data, 1, size, writer->output.stream) == size)
         return TN_OK;
     const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
-    if (errno == EPIPE)
-        return tn_fail(error, TN_IO, 903, "the reader of %s went away", shown);
-    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", shown, strerror(errno));
+    return tn_cannot_write(shown, errno, error);
 }
 
 static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
 {
     if (options->resume) {
-        tn_fail(error, TN_INVALID, 606, "%s: only SQLite libraries can be gone on with", writer->path);
+        tn_fail(error, TN_INVALID, 904, "%s: only SQLite libraries can be gone on with", writer->path);
         tn_error_help(error, "write to a file that ends in .sqlite");
         return TN_INVALID;
     }

@@ -1,11 +1,13 @@
 /* Plan libraries in SQLite: docs/plan-files.md says what is in them. Plans go in in batches, each a transaction, so
  * that a library whose writer was killed holds whole batches and can be gone on with: the plan after the last one comes
  * next. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/plan/pack.h"
 #include "runtime/plan/writer.h"
+#include "runtime/vm/file_error.h"
 
 #define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
 
@@ -19,7 +21,12 @@ static tn_status failed(const tn_plan_writer *writer, tn_error *error)
         tn_error_help(error, "somebody else may be writing to it");
         return TN_INVALID;
     }
-    return tn_fail(error, TN_IO, 902, "%s: %s", writer->path, sqlite3_errmsg(writer->database));
+    int reason = code == SQLITE_FULL ? ENOSPC : code == SQLITE_READONLY ? EACCES : 0;
+    if (code == SQLITE_CANTOPEN)
+        reason = sqlite3_system_errno(writer->database);
+    if (reason)
+        return tn_cannot_write(writer->path, reason, error);
+    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", writer->path, sqlite3_errmsg(writer->database));
 }
 
 static tn_status run(tn_plan_writer *writer, const char *sql, tn_error *error)

@@ -8,12 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- reading */
+#include "runtime/vm/file_error.h"
 
-static tn_status cannot_read(const char *path, int reason, tn_error *error)
-{
-    return tn_fail(error, TN_IO, 901, "cannot read %s: %s", path, strerror(reason));
-}
+/* ---- reading */
 
 static tn_status too_large(const char *path, size_t limit, tn_error *error)
 {
@@ -36,7 +33,7 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
                 break;
             int reason = errno;
             free(memory);
-            return cannot_read(path, reason, error);
+            return tn_cannot_read(path, reason, error);
         }
         used += (size_t)got;
         if (used > limit) {
@@ -67,7 +64,7 @@ tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *
         return read_all(STDIN_FILENO, "standard input", limit, bytes, size, error);
     int file = open(path, O_RDONLY | O_CLOEXEC);
     if (file < 0)
-        return cannot_read(path, errno, error);
+        return tn_cannot_read(path, errno, error);
     tn_status status = read_all(file, path, limit, bytes, size, error);
     close(file);
     return status;
@@ -75,13 +72,15 @@ tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *
 
 /* ---- writing */
 
-static tn_status cannot_write(const char *path, int reason, tn_error *error)
+tn_status tn_folder_make(const char *path, tn_error *error)
 {
-    if (reason == ENOMEM)
-        return tn_fail_memory(error);
-    if (reason == EPIPE)
-        return tn_fail(error, TN_IO, 903, "the reader of %s went away", path);
-    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", path, strerror(reason ? reason : EIO));
+    struct stat known;
+    if (mkdir(path, 0777) == 0)
+        return TN_OK;
+    int reason = errno;
+    if (reason == EEXIST && stat(path, &known) == 0 && S_ISDIR(known.st_mode))
+        return TN_OK;
+    return tn_cannot_make(path, reason, error);
 }
 
 static const char *shown(const tn_output *output)
@@ -89,11 +88,38 @@ static const char *shown(const tn_output *output)
     return strcmp(output->path, "-") == 0 ? "standard output" : output->path;
 }
 
-/* Makes a file that was not there before, in the target's folder: ".tartan-4711-0.tmp". */
-static int open_temporary(tn_output *output, mode_t mode)
+/* Opens the folder that `target` is in; -1 where that cannot be. */
+static int open_folder(const char *target, int flags)
+{
+    char *folder = strdup(target);
+    if (!folder)
+        return -1;
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        slash[slash == folder] = '\0';
+    int file = open(slash ? folder : ".", flags | O_CLOEXEC, 0666);
+    free(folder);
+    return file;
+}
+
+/* What the system calls the open file, so that it can be given a name: "/proc/self/fd/4". */
+typedef struct file_link {
+    char path[40];
+} file_link;
+
+static const char *link_of(int file, file_link *link)
+{
+    snprintf(link->path, sizeof link->path, "/proc/self/fd/%d", file);
+    return link->path;
+}
+
+/* Gives a name in the target's folder to an open file that has none, or (file < 0) makes one of that name:
+ * ".tartan-4711-0.tmp". Returns what was done, or -1. */
+static int take_name(tn_output *output, int file)
 {
     const char *slash = strrchr(output->target, '/');
     int folder = slash ? (int)(slash + 1 - output->target) : 0;
+    file_link link;
     for (unsigned attempt = 0; attempt < 1000; attempt++) {
         if (asprintf(&output->temporary, "%.*s.tartan-%ld-%u.tmp", folder, output->target, (long)getpid(), attempt) <
             0) {
@@ -101,12 +127,10 @@ static int open_temporary(tn_output *output, mode_t mode)
             errno = ENOMEM;
             return -1;
         }
-        int file = open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0) {
-            if (mode != 0)
-                (void)!fchmod(file, mode); /* the target's own, where it was there; failing that, the usual */
-            return file;
-        }
+        int done = file >= 0 ? linkat(AT_FDCWD, link_of(file, &link), AT_FDCWD, output->temporary, AT_SYMLINK_FOLLOW)
+                             : open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (done >= 0)
+            return done;
         int reason = errno;
         free(output->temporary);
         output->temporary = NULL;
@@ -115,6 +139,28 @@ static int open_temporary(tn_output *output, mode_t mode)
             return -1;
     }
     return -1;
+}
+
+/* A file of the target's folder without a name: however the program ends, nothing is left of it. -1 where the system
+ * has no such files. */
+static int open_nameless(const tn_output *output)
+{
+    int file = open_folder(output->target, O_TMPFILE | O_WRONLY);
+    file_link link;
+    if (file < 0 || access(link_of(file, &link), F_OK) == 0)
+        return file;
+    close(file); /* it could not be named afterwards */
+    return -1;
+}
+
+static int open_beside(tn_output *output, mode_t mode)
+{
+    int file = open_nameless(output);
+    if (file < 0)
+        file = take_name(output, -1);
+    if (file >= 0 && mode != 0)
+        (void)!fchmod(file, mode); /* the target's own, where it was there; failing that, the usual */
+    return file;
 }
 
 static void forget(tn_output *output)
@@ -140,12 +186,13 @@ tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
     struct stat known;
     bool exists = stat(output->target, &known) == 0;
     int file;
-    if (exists && !S_ISREG(known.st_mode)) /* a device or a pipe is written to, not replaced */
+    output->replaces = !exists || S_ISREG(known.st_mode);
+    if (!output->replaces) /* a device or a pipe */
         file = open(output->target, O_WRONLY | O_CLOEXEC);
     else if (exists && access(output->target, W_OK) != 0)
         file = -1; /* renaming would get round the protection of a file that may not be written */
     else
-        file = open_temporary(output, exists ? known.st_mode & 0777 : 0);
+        file = open_beside(output, exists ? known.st_mode & 0777 : 0);
     output->stream = file < 0 ? NULL : fdopen(file, "wb");
     if (output->stream)
         return TN_OK;
@@ -153,24 +200,17 @@ tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
     if (file >= 0)
         close(file);
     tn_output_discard(output);
-    return cannot_write(path, reason, error);
+    return tn_cannot_write(path, reason, error);
 }
 
 /* The rename itself is on the disk only when the folder is. */
 static void sync_folder(const char *target)
 {
-    char *folder = strdup(target);
-    if (!folder)
-        return;
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        slash[slash == folder] = '\0';
-    int file = open(slash ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int file = open_folder(target, O_RDONLY | O_DIRECTORY);
     if (file >= 0) {
         fsync(file);
         close(file);
     }
-    free(folder);
 }
 
 /* Why writing failed some time ago, when only the stream's mark of it is left: what writing one more byte would fail
@@ -183,15 +223,17 @@ static int probe(int file)
     return write(file, "\n", 1) < 0 ? errno : EIO;
 }
 
-/* Flushes what is buffered; 0, or why that failed. */
-static int flush(const tn_output *output)
+/* Flushes what is buffered, and sees to it that the file has a name to be renamed from; 0, or why that failed. */
+static int flush(tn_output *output)
 {
     if (ferror(output->stream))
         return probe(fileno(output->stream));
     errno = 0;
     if (fflush(output->stream) != 0)
         return errno ? errno : EIO;
-    if (output->temporary && fsync(fileno(output->stream)) != 0)
+    if (output->replaces && fsync(fileno(output->stream)) != 0)
+        return errno;
+    if (output->replaces && !output->temporary && take_name(output, fileno(output->stream)) < 0)
         return errno;
     return 0;
 }
@@ -203,15 +245,15 @@ tn_status tn_output_commit(tn_output *output, tn_error *error)
         if (fclose(output->stream) != 0 && reason == 0)
             reason = errno;
         output->stream = NULL;
-        if (reason == 0 && output->temporary && rename(output->temporary, output->target) != 0)
+        if (reason == 0 && output->replaces && rename(output->temporary, output->target) != 0)
             reason = errno;
     }
     if (reason != 0) {
-        tn_status status = cannot_write(shown(output), reason, error);
+        tn_status status = tn_cannot_write(shown(output), reason, error);
         tn_output_discard(output);
         return status;
     }
-    if (output->temporary)
+    if (output->replaces)
         sync_folder(output->target);
     forget(output);
     return TN_OK;

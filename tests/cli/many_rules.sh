@@ -60,8 +60,8 @@ python3 "$here/many_rules.py" 20 1 4..8 >"$scratch/rules.plan"
 code=0
 "$TARTAN" count "$scratch/rules.plan" -l pruned --max-states 20000 >"$scratch/out" 2>"$scratch/err" || code=$?
 is 'the exit code' "$code" 4
-grep -q "error\[E0802\]: in the clause 'r[0-9]*': the automaton of this library, of its lengths alone, passes the limit of 20000 states" \
+grep -q "error\[E0802\]: in the clause \`r[0-9]*\`: the automaton of this library, of its lengths alone, passes the limit of 20000 states" \
     "$scratch/err" || fail 'the limit is not named'
-grep -q "help: leave out 'r[0-9]*', 'r[0-9]*' or 'r[0-9]*', which multiply the states most, give fewer trays with --trays, or raise the limit with --max-states" \
+grep -q "help: leave out \`r[0-9]*\`, \`r[0-9]*\` or \`r[0-9]*\`, which multiply the states most, give fewer trays with --trays, or raise the limit with --max-states" \
     "$scratch/err" || fail 'the rules in the way are not named'
 finish

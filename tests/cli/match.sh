@@ -26,6 +26,11 @@ golden bad_plan_json "tartan match sheds.plan $scratch/bad --diagnostics=json --
 golden fallback "tartan match sheds.plan $scratch/plans --format bits --max-states 1"
 golden dfa_limit "tartan match sheds.plan $scratch/plans --format bits --max-states 1 --engine dfa"
 golden missing_file 'tartan match sheds.plan nowhere.txt'
+echo 'use "lahave"' >"$scratch/none.plan"
+golden no_rules "tartan match $scratch/none.plan $scratch/plans"
+golden no_schema "tartan draw /dev/null $scratch/plans -o $scratch/x.svg"
+cp "$scratch/plans" "$scratch/houses.plans"
+golden near_file "tartan match sheds.plan $scratch/hovses.plans"
 
 # A file is written whole or not at all; skipping a bad plan is the author's own wish.
 exits 1 "$TARTAN" match "$files/sheds.plan" "$scratch/bad" -o "$scratch/answers"

@@ -33,6 +33,17 @@ for attempt in 'KILL 0.05' 'KILL 0.2' 'TERM 0.1' 'KILL 0.4'; do
 done
 [ "$broken" -gt 0 ] || echo 'note: every run ended before it was killed'
 
+# Nothing is left of a file whose writer was killed, where the system has files without a name.
+if python3 -c 'import os, sys; os.close(os.open(sys.argv[1], os.O_TMPFILE | os.O_WRONLY))' "$scratch" 2>/dev/null; then
+    mkdir "$scratch/folder"
+    "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..20 --limit 5000000 -o "$scratch/folder/x.csv" &
+    pid=$!
+    sleep 0.1
+    kill -KILL "$pid"
+    wait "$pid" 2>/dev/null || true
+    is 'files after SIGKILL' "$(ls -A "$scratch/folder")" ''
+fi
+
 # Another library, or another stretch of it, is not gone on with.
 exits 1 "$TARTAN" enumerate "$files/sheds.plan" -l sheds -o "$scratch/part.sqlite" --resume
 exits 1 "${enumerate[@]}" --from 5 -o "$scratch/part.sqlite" --resume

@@ -469,7 +469,7 @@ static void test_refused_writers(void **state)
     expect_plans(f->schema, path, TN_FORMAT_SQLITE, true, 10); /* none of them changed it */
 
     options.format = TN_FORMAT_CSV;
-    refuse_writer(f, f->schema, "new.csv", &options, 606);
+    refuse_writer(f, f->schema, "new.csv", &options, 904);
     refuse_writer(f, f->schema, "no/such/folder.sqlite", &sqlite_options, 902);
     options = (tn_writer_options){.format = TN_FORMAT_LINES};
     refuse_writer(f, f->schema, "no/such/folder", &options, 902);
