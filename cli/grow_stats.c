@@ -1,8 +1,18 @@
 #include <inttypes.h>
+#include <math.h>
 
 #include "cli/grow.h"
 
-static void write_json(FILE *out, const tn_growth_system *system, const tn_stats *stats)
+/* Expressions by their names; what has no value is null. */
+static void write_json_named(FILE *out, const tn_fitness_goal *goal, const tn_fitness *fitness)
+{
+    for (uint32_t i = 0; i < goal->named_count; i++) {
+        double value = tn_named_value(&goal->named[i], fitness);
+        fprintf(out, isfinite(value) ? ", \"%s\": %.17g" : ", \"%s\": null", goal->named[i].name, value);
+    }
+}
+
+static void write_json(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats)
 {
     const char *comma = "";
     fprintf(out, "{\"step\": %u, \"V\": %" PRIu64 ", \"E\": %" PRIu64 ", \"F\": %" PRIu64 ", \"labels\": {",
@@ -25,6 +35,7 @@ static void write_json(FILE *out, const tn_growth_system *system, const tn_stats
         double value = tn_fitness_value(&stats->fitness, (tn_fitness_term)t);
         fprintf(out, "%s\"%s\": %.17g", t ? ", " : "", tn_fitness_term_name((tn_fitness_term)t), value);
     }
+    write_json_named(out, &study->goal, &stats->fitness);
     fputs("}}", out);
 }
 
@@ -43,6 +54,8 @@ static void write_table(FILE *out, const tn_growth_system *system, const tn_stud
                 fprintf(out, " %s %" PRIu64, system->labels[l].name, s->labels[l]);
         if (s->fitness.soft_boundary_nodes > 0)
             fprintf(out, ", %.0f past soft boundaries", s->fitness.soft_boundary_nodes);
+        for (uint32_t n = 0; n < study->goal.named_count; n++)
+            fprintf(out, ", %s %.6g", study->goal.named[n].name, tn_named_value(&study->goal.named[n], &s->fitness));
         if (study->has_goal)
             fprintf(out, ", fitness %.6g", tn_fitness_total(&s->fitness, &study->goal, study->options.start_length));
         fputc('\n', out);
@@ -58,7 +71,7 @@ void tn_grow_stats(tn_job *job, const tn_growth_system *system, const tn_study *
     if (job->settings->stats == 2) {
         for (size_t i = 0; i < count; i++) {
             fputs(i ? ",\n" : "[", output.stream);
-            write_json(output.stream, system, &stats[i]);
+            write_json(output.stream, system, study, &stats[i]);
         }
         fputs("]\n", output.stream);
     } else {

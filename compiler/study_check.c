@@ -131,45 +131,72 @@ static void check_boundary(check *c, const tn_study_item *item)
     tn_help(c->diagnostics, d, "%s", help);
 }
 
-/* The names of fitness terms, in the order of tn_fitness_term. */
-static const char *const terms[TN_FITNESS_TERM_COUNT] = {"size",         "smoothness", "soft-boundary",
-                                                         "subdivisions", "symmetry",   "undulation"};
-
 uint32_t tn_study_term(const char *name)
 {
     uint32_t term = 0;
-    while (term < TN_FITNESS_TERM_COUNT && strcmp(terms[term], name) != 0)
+    while (term < TN_FITNESS_TERM_COUNT && strcmp(tn_measured_names[term], name) != 0)
         term++;
     return term;
 }
 
-static void check_goal(check *c, const tn_study_item *item)
+static void goal_twice(check *c, const tn_study_item *item)
 {
-    if (!item->text || tn_study_term(item->text) < TN_FITNESS_TERM_COUNT) {
-        for (uint32_t i = 0; item->text && i < c->study->goal_count; i++) {
-            if (strcmp(c->study->goals[i]->text, item->text) != 0 || c->study->goals[i]->span.file != item->span.file)
-                continue;
-            tn_diagnostic *d =
-                tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "the term `%s` is there twice", item->text);
-            tn_note(c->diagnostics, d, &c->study->goals[i]->span, "the first is here");
-            tn_help(c->diagnostics, d, "leave one of them out");
-        }
-        return;
+    for (uint32_t i = 0; i < c->study->goal_count; i++) {
+        const tn_study_item *other = c->study->goals[i];
+        if (strcmp(other->text, item->text) != 0 || other->span.file != item->span.file)
+            continue;
+        tn_diagnostic *d =
+            tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "the term `%s` is there twice", item->text);
+        tn_note(c->diagnostics, d, &other->span, "the first is here");
+        tn_help(c->diagnostics, d, "leave one of them out");
     }
+}
+
+static void unknown_term(check *c, const tn_study_item *item)
+{
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_UNKNOWN_TERM, item->text_span, "there is no fitness term `%s`", item->text);
-    const char *near = tn_nearest(item->text, terms, TN_FITNESS_TERM_COUNT);
+    const char *near = tn_nearest(item->text, tn_measured_names, TN_FITNESS_TERM_COUNT);
     if (near)
         tn_help(c->diagnostics, d, "did you mean `%s`?", near);
     else
-        tn_help(c->diagnostics, d, "terms are size, smoothness, soft-boundary, subdivisions, symmetry and undulation");
+        tn_help(c->diagnostics, d,
+                "terms are size, smoothness, soft-boundary, subdivisions, symmetry and undulation; others are made of "
+                "them: `fitness %.60s = undulation / size`",
+                item->text);
+}
+
+static void check_expression(check *c, const tn_study_item *item)
+{
+    tn_check_measure(c->diagnostics, item->measure);
+    if (strlen(item->text) > TN_NAME_MAX)
+        tn_report(c->diagnostics, E_MEASURE, item->text_span, "a term's name has at most %u bytes", TN_NAME_MAX);
+    if (!tn_measure_reserves(item->text))
+        return;
+    tn_diagnostic *d =
+        tn_report(c->diagnostics, E_MEASURE, item->text_span, "`%s` is a name that expressions use", item->text);
+    tn_help(c->diagnostics, d, "give this one another name, as `my-%s`", item->text);
+}
+
+/* Is it a term, or a name for an expression? */
+static bool check_goal(check *c, const tn_study_item *item)
+{
+    if (!item->text)
+        return false;
+    if (item->measure)
+        check_expression(c, item);
+    else if (tn_study_term(item->text) == TN_FITNESS_TERM_COUNT) {
+        unknown_term(c, item);
+        return false;
+    }
+    goal_twice(c, item);
+    return true;
 }
 
 /* A goal of the using file stands instead of one of the same term that it took over. */
 static void take_goal(check *c, const tn_study_item *item)
 {
-    check_goal(c, item);
-    if (!item->text || tn_study_term(item->text) == TN_FITNESS_TERM_COUNT)
+    if (!check_goal(c, item))
         return;
     uint32_t i = 0;
     while (i < c->study->goal_count && strcmp(c->study->goals[i]->text, item->text) != 0)
@@ -230,6 +257,9 @@ static void check_whole(check *c, const tn_imports *imports, bool damaged)
     if (study->force_count > TN_SURROUNDINGS_MAX || study->boundary_count > TN_SURROUNDINGS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
                   "this study has more forces or boundaries than the limit of %u", TN_SURROUNDINGS_MAX);
+    if (study->goal_count > TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX)
+        tn_report(c->diagnostics, E_TOO_MANY, study->span,
+                  "this study has more fitness expressions than the limit of %u", TN_EXPRESSIONS_MAX);
 }
 
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study)

@@ -108,6 +108,20 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
     tn_builder_add_BOUNDARY(builder, &record);
 }
 
+static void emit_goal(tn_builder *builder, const tn_study_item *goal)
+{
+    const tn_study_measure *measure = goal->measure;
+    tn_goal_record record = {.term = measure ? TN_FITNESS_TERM_COUNT : tn_study_term(goal->text),
+                             .name = tn_builder_string(builder, measure ? goal->text : NULL),
+                             .function = measure ? tn_emit_measure(builder, goal->text, measure) : 0,
+                             .target = part_or(goal, TN_PART_TARGET, 0),
+                             .weight = part_or(goal, TN_PART_WEIGHT, 1),
+                             .file = goal->span.file,
+                             .begin = goal->span.begin,
+                             .end = goal->span.end};
+    tn_builder_add_GOAL(builder, &record);
+}
+
 void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study)
 {
     emit_settings(builder, study);
@@ -115,10 +129,6 @@ void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sourc
         emit_force(builder, study->forces[i]);
     for (uint32_t i = 0; i < study->boundary_count; i++)
         emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
-    for (uint32_t i = 0; i < study->goal_count; i++) {
-        const tn_study_item *goal = study->goals[i];
-        tn_builder_add_GOAL(builder, &(tn_goal_record){tn_study_term(goal->text), part_or(goal, TN_PART_TARGET, 0),
-                                                       part_or(goal, TN_PART_WEIGHT, 1), goal->span.file,
-                                                       goal->span.begin, goal->span.end});
-    }
+    for (uint32_t i = 0; i < study->goal_count; i++)
+        emit_goal(builder, study->goals[i]);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "driver/open.h"
 #include "runtime/map/draw.h"
@@ -13,8 +14,8 @@ struct tn_grower {
     tn_opened opened; /* of the study */
     tn_study study;
     bool separately;
-    tn_fitness_term terms[TN_FITNESS_TERM_COUNT]; /* that are wanted */
-    size_t term_count;
+    uint32_t goals[TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX]; /* that are wanted: terms, then named expressions */
+    size_t goal_count;
     tn_growth **growths; /* by thread: each grows one surface after another in the same memory; NULL before the first */
     unsigned threads;
 };
@@ -47,10 +48,15 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
                        first_error(&g->opened));
     }
     tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
-    for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
-        if (g->study.goal.wanted[term])
-            g->terms[g->term_count++] = term;
-    if (status == TN_OK && g->term_count == 0) {
+    for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
+        if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
+            g->goals[g->goal_count++] = goal;
+    if (status == TN_OK && g->separately && g->goal_count > TN_OBJECTIVES_MAX) {
+        status = tn_fail(error, TN_LIMIT, 1245, "the growth study %.200s wants %zu things; `selection nsga2` weighs %u",
+                         path, g->goal_count, TN_OBJECTIVES_MAX);
+        tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
+    }
+    if (status == TN_OK && g->goal_count == 0) {
         status = tn_fail(error, TN_INVALID, 1245, "the growth study %.200s wants nothing of a surface", path);
         tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
     }
@@ -109,19 +115,29 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
     return status;
 }
 
-static void score_terms(const tn_grower *g, const tn_fitness *fitness, tn_score *score)
+static const char *name_of(const tn_grower *g, uint32_t goal)
 {
-    double side = g->study.options.start_length;
-    if (!g->separately) {
-        score->objectives[0] = tn_fitness_total(fitness, &g->study.goal, side);
-        return;
+    return goal < TN_FITNESS_TERM_COUNT ? tn_measured_names[goal]
+                                        : g->study.goal.named[goal - TN_FITNESS_TERM_COUNT].name;
+}
+
+/* An expression may have no value for a surface: a division by its undulation, where it is flat. */
+static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
+{
+    double side = g->study.options.start_length, total = 0;
+    for (size_t i = 0; i < g->goal_count; i++) {
+        double part = tn_fitness_part(fitness, &g->study.goal, g->goals[i], side);
+        if (!isfinite(part)) {
+            score->state = TN_SCORE_FAILED;
+            snprintf(message, 200, "the fitness term `%.100s` has no value for this surface", name_of(g, g->goals[i]));
+            return;
+        }
+        total += part;
+        if (g->separately)
+            score->objectives[i] = part;
     }
-    for (size_t i = 0; i < g->term_count; i++) {
-        tn_fitness_goal one = g->study.goal;
-        for (tn_fitness_term term = 0; term < TN_FITNESS_TERM_COUNT; term++)
-            one.wanted[term] = term == g->terms[i];
-        score->objectives[i] = tn_fitness_total(fitness, &one, side);
-    }
+    if (!g->separately)
+        score->objectives[0] = total;
 }
 
 static tn_status score_growth(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
@@ -133,7 +149,7 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
     tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
     if (status == TN_OK) {
         tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
-        score_terms(g, &fitness, score);
+        score_goals(g, &fitness, score, message);
     }
     rules_clear(&compiled);
     if (status == TN_MEMORY || status == TN_INTERNAL) {
@@ -147,44 +163,67 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
     return TN_OK;
 }
 
+static bool find_goal(const tn_grower *g, const char *name, uint32_t *goal)
+{
+    for (size_t i = 0; i < g->goal_count; i++) {
+        *goal = g->goals[i];
+        if (strcasecmp(name_of(g, *goal), name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Reads "target 3 weight 2", in any order. */
+static bool read_wish(const char *text, double *target, double *weight)
+{
+    while (text[strspn(text, " ")]) {
+        char what[16];
+        double value;
+        int read;
+        if (sscanf(text, "%15s %lf%n", what, &value, &read) != 2 || !(fabs(value) <= TN_COORDINATE_MAX))
+            return false;
+        if (strcasecmp(what, "target") == 0)
+            *target = value;
+        else if (strcasecmp(what, "weight") == 0 && value >= 0)
+            *weight = value;
+        else
+            return false;
+        text += read;
+    }
+    return true;
+}
+
 /* "undulation target 3", "size weight 2", "size target 3 weight 2" */
 static tn_status adjust(void *context, const char *change, tn_error *error)
 {
     tn_grower *g = context;
-    char name[40];
-    int read = 0;
-    const char *at = change;
-    tn_fitness_goal goal = g->study.goal;
-    tn_fitness_term term = 0;
-    bool well = sscanf(at, "%39s%n", name, &read) == 1;
-    while (well && term < TN_FITNESS_TERM_COUNT && strcmp(tn_fitness_term_name(term), name) != 0)
-        term++;
-    well = well && term < TN_FITNESS_TERM_COUNT && goal.wanted[term];
-    for (unsigned parts = 0; well && *(at += read); parts++) {
-        char what[16];
-        double value;
-        if (at[strspn(at, " ")] == '\0')
-            break;
-        well = sscanf(at, "%15s %lf%n", what, &value, &read) == 2 && isfinite(value);
-        if (well && strcmp(what, "target") == 0)
-            goal.target[term] = value;
-        else if (well && strcmp(what, "weight") == 0 && value >= 0)
-            goal.weight[term] = value;
-        else
-            well = false;
-    }
-    if (!well) {
+    char name[TN_NAME_MAX + 1];
+    size_t length = strcspn(change, " ");
+    uint32_t goal = 0;
+    tn_fitness_goal *wants = &g->study.goal;
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), change);
+    bool found = find_goal(g, name, &goal), is_term = goal < TN_FITNESS_TERM_COUNT;
+    tn_named_goal *named = found && !is_term ? &wants->named[goal - TN_FITNESS_TERM_COUNT] : NULL;
+    double target = !found    ? 0
+                    : is_term ? wants->target[goal]
+                              : named->target,
+           weight = !found    ? 0
+                    : is_term ? wants->weight[goal]
+                              : named->weight;
+    if (!found || !change[length] || !read_wish(change + length, &target, &weight)) {
         tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
-        tn_error_help(error, "name a term that the growth study wants, as \"undulation target 3 weight 2\"");
+        tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
+                      name_of(g, g->goals[0]));
         return TN_INVALID;
     }
-    g->study.goal = goal;
+    *(is_term ? &wants->target[goal] : &named->target) = target;
+    *(is_term ? &wants->weight[goal] : &named->weight) = weight;
     return TN_OK;
 }
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower)
 {
-    return (tn_evaluator){grower, grower->separately ? grower->term_count : 1, score_growth, adjust};
+    return (tn_evaluator){grower, grower->separately ? grower->goal_count : 1, score_growth, adjust};
 }
 
 /* ---- pictures */

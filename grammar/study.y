@@ -31,6 +31,7 @@ static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn
 static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b);
 static tn_study_item *with_which(tn_study_item *item, uint32_t which);
 static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_span span);
+static tn_study_item *with_measure(tn_study_item *item, tn_study_measure *measure);
 static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z);
 static tn_study_vector same(tn_decimal n);
 }
@@ -41,6 +42,7 @@ static tn_study_vector same(tn_decimal n);
     tn_study_vector vector;
     tn_study_item *item;
     tn_study_part *part;
+    tn_study_measure *measure;
     uint32_t which;
 }
 
@@ -54,11 +56,15 @@ static tn_study_vector same(tn_decimal n);
 %token PLANE "`plane`" BOX "`box`" SPHERE "`sphere`" MESH "`mesh`"
 %token AT "`at`" NORMAL "`normal`" FROM "`from`" TO "`to`" RADIUS "`radius`" STRENGTH "`strength`" EXPONENT "`exponent`"
 %token INSIDE "`inside`" OUTSIDE "`outside`" SLIDE "`slide`" STOP "`stop`" SOFT "`soft`" TARGET "`target`" WEIGHT "`weight`"
-%token COMMA "`,`" OPEN "`(`" CLOSE "`)`"
+%token COMMA "`,`" OPEN "`(`" CLOSE "`)`" EQUALS "`=`" PLUS "`+`" MINUS "`-`" STAR "`*`" SLASH "`/`"
+%left PLUS MINUS
+%left STAR SLASH
+%precedence SIGN
 
 %type <item> statement shape
 %type <part> force_parts force_part boundary_parts boundary_part goal_parts goal_part
 %type <vector> vector three
+%type <measure> expression arguments
 %type <which> force
 
 %%
@@ -90,6 +96,8 @@ statement
     | force AT vector force_parts           { $$ = with_parts(with_which(with_vectors(parse, TN_STUDY_FORCE, @$, $3, $3), $1), $4, @$); }
     | boundary shape boundary_parts         { $$ = with_parts($2, $3, @$); }
     | fitness NAME goal_parts               { $$ = with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $3, @$); }
+    | fitness NAME EQUALS expression goal_parts
+                                            { $$ = with_measure(with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $5, @$), $4); }
     | fitness RAW                           { $$ = tn_study_item_new(parse, TN_STUDY_SETS_RAW, @$); }
     ;
 
@@ -156,6 +164,23 @@ goal_part
     | WEIGHT NUMBER                         { $$ = tn_study_part_new(parse, TN_PART_WEIGHT, @$, $2.value, NULL); if (!$$) YYNOMEM; }
     ;
 
+expression
+    : NUMBER                                { $$ = tn_study_number_new(parse, $1); }
+    | NAME                                  { $$ = tn_study_name_new(parse, TN_OP_TERM, @$, $1, NULL); }
+    | NAME OPEN arguments CLOSE             { $$ = tn_study_name_new(parse, TN_OPCODE_COUNT, @$, $1, $3); }
+    | OPEN expression CLOSE                 { $$ = $2; }
+    | expression PLUS expression            { $$ = tn_study_measure_new(parse, TN_OP_ADD, @$, $1, $3); }
+    | expression MINUS expression           { $$ = tn_study_measure_new(parse, TN_OP_SUBTRACT, @$, $1, $3); }
+    | expression STAR expression            { $$ = tn_study_measure_new(parse, TN_OP_MULTIPLY, @$, $1, $3); }
+    | expression SLASH expression           { $$ = tn_study_measure_new(parse, TN_OP_DIVIDE, @$, $1, $3); }
+    | MINUS expression %prec SIGN           { $$ = tn_study_measure_new(parse, TN_OP_NEGATE, @$, $2, NULL); }
+    ;
+
+arguments
+    : expression
+    | arguments COMMA expression            { $$ = tn_study_argument_add($1, $3); }
+    ;
+
 vector
     : three
     | OPEN three CLOSE                      { $$ = $2; $$.span = @$; }
@@ -212,6 +237,13 @@ static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_s
     return item;
 }
 
+static tn_study_item *with_measure(tn_study_item *item, tn_study_measure *measure)
+{
+    if (item)
+        item->measure = measure;
+    return item;
+}
+
 static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z)
 {
     return (tn_study_vector){x.value, y.value, z.value, span};
@@ -235,8 +267,11 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     case YYSYMBOL_BOUNDARY:
         return "a boundary is `plane at 0 0 0 normal 0 0 1`, `box from 0 0 0 to 1 1 1`, `sphere at 0 0 0 radius 2` or `mesh \"hull.stl\"`";
     case YYSYMBOL_FITNESS: return "write `fitness size target 10 weight 2`";
+    case YYSYMBOL_EQUALS: return "write an expression of terms, as `fitness slope = undulation / size target 0.5`";
     default: break;
     }
+    if (found == YYSYMBOL_EQUALS)
+        return "an expression is of `fitness`: `fitness slope = undulation / size target 0.5`";
     if (found == YYSYMBOL_NAME)
         return "this is no word of studies; see the list in docs/growth.md";
     if (found == YYSYMBOL_NUMBER)
@@ -284,5 +319,5 @@ tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint
     int outcome = tn_study_parse(&parse, scanner);
     tn_study_lexer_free(scanner);
     result->damaged |= outcome != 0;
-    return outcome == 2 || tn_arena_failed(arena) ? NULL : result;
+    return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
 }

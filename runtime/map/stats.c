@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/map/measure.h"
+
 void tn_stats_clear(tn_stats *stats)
 {
     free(stats->labels);
@@ -194,7 +196,10 @@ static tn_fitness measure_fitness(const tn_growth *growth, const extent *e)
                         .subdivisions = (double)map->vertex_count / map->edge_count,
                         .symmetry = 0.5 * (balance(map, 1, e->sum[1] / map->vertex_count, slack) +
                                            balance(map, 0, e->sum[0] / map->vertex_count, slack)),
-                        .undulation = e->high[2] - e->low[2]};
+                        .undulation = e->high[2] - e->low[2],
+                        .vertices = map->vertex_count,
+                        .edges = map->edge_count,
+                        .faces = map->face_count - 1};
 }
 
 tn_fitness tn_fitness_measure(const tn_growth *growth)
@@ -247,15 +252,28 @@ const char *tn_fitness_term_name(tn_fitness_term term)
     return names[term];
 }
 
-double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goal, double start_length)
+double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
+{
+    return tn_measure_run(goal->code, goal->offset, fitness);
+}
+
+double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length)
+{
+    bool is_term = goal < TN_FITNESS_TERM_COUNT;
+    const tn_named_goal *named = is_term ? NULL : &goals->named[goal - TN_FITNESS_TERM_COUNT];
+    if (is_term && !goals->wanted[goal])
+        return 0;
+    double value = is_term ? tn_fitness_value(fitness, (tn_fitness_term)goal) : tn_named_value(named, fitness);
+    double target = is_term ? goals->target[goal] : named->target,
+           weight = is_term ? goals->weight[goal] : named->weight;
+    double unit = fmax(fabs(target), goal == TN_TERM_SIZE ? start_length : 1);
+    return weight * (goals->raw ? value : fabs(value - target) / unit);
+}
+
+double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length)
 {
     double total = 0;
-    for (int t = 0; t < TN_FITNESS_TERM_COUNT; t++) {
-        if (!goal->wanted[t])
-            continue;
-        double value = tn_fitness_value(fitness, (tn_fitness_term)t), target = goal->target[t];
-        double unit = fmax(fabs(target), t == TN_TERM_SIZE ? start_length : 1);
-        total += goal->weight[t] * (goal->raw ? value : fabs(value - target) / unit);
-    }
+    for (uint32_t goal = 0; goal < TN_FITNESS_TERM_COUNT + goals->named_count; goal++)
+        total += tn_fitness_part(fitness, goals, goal, start_length);
     return total;
 }

@@ -23,6 +23,7 @@ typedef struct tn_fitness {
     double subdivisions;        /* vertices / edges */
     double symmetry;            /* mean over x and y of the ratio of vertices on either side of their mean */
     double undulation;          /* extent in z */
+    double vertices, edges, faces;
 } tn_fitness;
 
 typedef struct tn_stats {
@@ -50,13 +51,28 @@ typedef struct tn_fitness_goal {
     double target[TN_FITNESS_TERM_COUNT];
     double weight[TN_FITNESS_TERM_COUNT];
     bool raw; /* the sum of weight times value, as the paper prints it, rather than of the distances to the targets */
+    struct tn_named_goal *named; /* expressions; owned by the study */
+    uint32_t named_count;
 } tn_fitness_goal;
+
+typedef struct tn_named_goal {
+    const char *name;    /* borrowed from the module, as is the code */
+    const uint8_t *code; /* of the module */
+    uint32_t offset;
+    double target, weight;
+} tn_named_goal;
 
 double tn_fitness_value(const tn_fitness *fitness, tn_fitness_term term);
 const char *tn_fitness_term_name(tn_fitness_term term);
 
-/* The sum over wanted terms of weight * |value - target| / max(|target|, unit), to be made small; the unit is 1, or the
- * seed's side for the size. With `raw`: the sum of weight * value. */
-double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goal, double start_length);
+/* The value of a named expression; not finite where it has none. */
+double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness);
+
+/* What one goal adds to the sum: `goal` counts the terms, then the named ones. 0 where the term is not wanted. */
+double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length);
+
+/* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the
+ * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. */
+double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length);
 
 #endif

@@ -13,6 +13,7 @@ void tn_study_clear(tn_study *study)
     free(study->meshes);
     free(study->forces);
     free(study->boundaries);
+    free(study->goal.named);
     *study = (tn_study){0};
 }
 
@@ -105,15 +106,26 @@ static tn_status read_boundary(const tn_module *module, const tn_boundary_record
     return status;
 }
 
-static void read_goals(const tn_module *module, tn_study *study)
+static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *error)
 {
+    tn_fitness_goal *goal = &study->goal;
+    goal->named = calloc(module->GOAL_count + 1, sizeof *goal->named);
+    if (!goal->named)
+        return tn_fail_memory(error);
+    study->has_goal = module->GOAL_count > 0;
     for (size_t i = 0; i < module->GOAL_count; i++) {
         const tn_goal_record *record = &module->GOAL_records[i];
+        if (record->term == TN_FITNESS_TERM_COUNT) {
+            goal->named[goal->named_count++] =
+                (tn_named_goal){tn_text(module, record->name), module->code,
+                                module->FUNCTION_records[record->function].code_begin, record->target, record->weight};
+            continue;
+        }
         study->goal.wanted[record->term] = true;
         study->goal.target[record->term] = record->target;
         study->goal.weight[record->term] = record->weight;
-        study->has_goal = true;
     }
+    return TN_OK;
 }
 
 tn_status tn_study_read(const tn_module *module, const char *path, tn_study *study, tn_error *error)
@@ -135,8 +147,7 @@ tn_status tn_study_read(const tn_module *module, const char *path, tn_study *stu
     }
     study->environment = (tn_environment){study->forces, (uint32_t)module->FORCE_count, study->boundaries,
                                           (uint32_t)module->BOUNDARY_count};
-    read_goals(module, study);
-    tn_status status = TN_OK;
+    tn_status status = read_goals(module, study, error);
     for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
         status = read_boundary(module, &module->BOUNDARY_records[i], path, study, i, error);
     return status;

@@ -192,6 +192,7 @@ uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, i
     case TN_OPERANDS_SYMBOL:
     case TN_OPERANDS_LETTER:
     case TN_OPERANDS_BODY:
+    case TN_OPERANDS_TERM:
         tn_put_u32(place, (uint32_t)first);
         break;
     case TN_OPERANDS_FIELD_COND:
@@ -203,6 +204,7 @@ uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, i
         tn_put_u64(place, (uint64_t)first);
         break;
     case TN_OPERANDS_INT:
+    case TN_OPERANDS_REAL: /* its bits */
         tn_put_u64(place, (uint64_t)first);
         break;
     }

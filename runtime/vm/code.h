@@ -56,6 +56,7 @@ static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
     case TN_OPERANDS_SYMBOL:
     case TN_OPERANDS_LETTER:
     case TN_OPERANDS_BODY:
+    case TN_OPERANDS_TERM:
         instruction.first = tn_get_u32(bytes + 1);
         instruction.length = 5;
         break;
@@ -65,6 +66,7 @@ static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
         instruction.length = 9;
         break;
     case TN_OPERANDS_INT:
+    case TN_OPERANDS_REAL: /* its bits */
         instruction.first = tn_get_i64(bytes + 1);
         instruction.length = 9;
         break;

@@ -7,6 +7,7 @@
 #include "runtime/vm/disasm_growth.h"
 #include "runtime/vm/disasm_settings.h"
 #include "runtime/vm/condition_text.h"
+#include "runtime/vm/growth.h"
 #include "runtime/vm/utf8.h"
 
 /* What is listed of one text: a module from anywhere must not make the listing endless. */
@@ -306,7 +307,7 @@ static void show_source(tn_lister *lister, const tn_map_record *place)
 
 static void write_function(tn_lister *lister, uint32_t index)
 {
-    static const char *const kinds[] = {"whole", "holds", "condition"};
+    static const char *const kinds[] = {"whole", "holds", "condition", "measure"};
     const tn_function_record *function = &lister->module->FUNCTION_records[index];
     fprintf(lister->out, "function %u (%s", index, kinds[function->kind]);
     if (function->kind == TN_FUNCTION_CONDITION) {
@@ -319,6 +320,13 @@ static void write_function(tn_lister *lister, uint32_t index)
         write_name(lister, function->name);
     }
     fputc(')', lister->out);
+}
+
+static double real_of(int64_t bits)
+{
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
 }
 
 static void write_operands(tn_lister *lister, const tn_instruction *instruction)
@@ -349,6 +357,12 @@ static void write_operands(tn_lister *lister, const tn_instruction *instruction)
     case TN_OPERANDS_INT2:
         fprintf(out, " %lld, %lld", (long long)instruction->first, (long long)instruction->second);
         break;
+    case TN_OPERANDS_REAL:
+        fprintf(out, " %.17g", real_of(instruction->first));
+        break;
+    case TN_OPERANDS_TERM:
+        fprintf(out, " %s", tn_measured_names[index]);
+        break;
     case TN_OPERANDS_TEXT:
         fputs(" \"", out);
         write_name(lister, index);
@@ -373,7 +387,7 @@ static void list_function(tn_lister *lister, uint32_t index)
     const tn_function_record *function = &module->FUNCTION_records[index];
     fputc('\n', lister->out);
     write_function(lister, index);
-    if (function->kind != TN_FUNCTION_CONDITION) {
+    if (function->kind == TN_FUNCTION_WHOLE || function->kind == TN_FUNCTION_HOLDS) {
         fputs(" of ", lister->out);
         write_name(lister, module->SCHEMA_records[function->schema].name);
     }

@@ -83,8 +83,6 @@ static void list_surroundings(FILE *out, const tn_module *module)
 {
     static const char *const forces[] = {"attractor", "repeller", "gravity"};
     static const char *const shapes[] = {"plane", "box", "sphere", "mesh"}, *const modes[] = {"slide", "stop", "soft"};
-    static const char *const terms[] = {"size",         "smoothness", "soft-boundary",
-                                        "subdivisions", "symmetry",   "undulation"};
     for (size_t i = 0; i < module->FORCE_count; i++) {
         const tn_force_record *f = &module->FORCE_records[i];
         fprintf(out, "  %s (%.15g, %.15g, %.15g) strength %.15g exponent %.15g\n", forces[f->kind], f->x, f->y, f->z,
@@ -100,7 +98,14 @@ static void list_surroundings(FILE *out, const tn_module *module)
     }
     for (size_t i = 0; i < module->GOAL_count; i++) {
         const tn_goal_record *g = &module->GOAL_records[i];
-        fprintf(out, "  fitness %s target %.15g weight %.15g\n", terms[g->term], g->target, g->weight);
+        fputs("  fitness ", out);
+        if (g->term < TN_FITNESS_TERM_COUNT) {
+            fputs(tn_measured_names[g->term], out);
+        } else {
+            write_text(out, module, g->name);
+            fprintf(out, " = function %u", g->function);
+        }
+        fprintf(out, " target %.15g weight %.15g\n", g->target, g->weight);
     }
 }
 

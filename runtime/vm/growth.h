@@ -58,4 +58,18 @@ typedef enum tn_fitness_term {
     TN_FITNESS_TERM_COUNT
 } tn_fitness_term;
 
+/* What fitness expressions can ask for: the terms, and counts. */
+typedef enum tn_measured {
+    TN_MEASURED_VERTICES = TN_FITNESS_TERM_COUNT,
+    TN_MEASURED_EDGES,
+    TN_MEASURED_FACES,
+    TN_MEASURED_COUNT
+} tn_measured;
+
+/* As studies write them. */
+extern const char *const tn_measured_names[TN_MEASURED_COUNT];
+
+#define TN_EXPRESSIONS_MAX 64u    /* named fitness expressions of one study */
+#define TN_MEASURE_STACK_MAX 256u /* numbers that evaluating one holds at once */
+
 #endif

@@ -49,6 +49,7 @@ typedef enum tn_function_kind {
     TN_FUNCTION_WHOLE,     /* judgement M: the stretch taken whole */
     TN_FUNCTION_HOLDS,     /* judgement H: somewhere in the region */
     TN_FUNCTION_CONDITION, /* a condition on a number */
+    TN_FUNCTION_MEASURE,   /* a fitness expression */
     TN_FUNCTION_KIND_COUNT
 } tn_function_kind;
 

@@ -13,11 +13,14 @@ enum {
     LENGTH_SYMBOL = 4,
     LENGTH_LETTER = 4,
     LENGTH_BODY = 4,
+    LENGTH_REAL = 8,
+    LENGTH_TERM = 4,
 };
 
 #define ENGINE_RULE TN_CODE_RULE
 #define ENGINE_CONDITION TN_CODE_CONDITION
 #define ENGINE_MAP TN_CODE_MAP
+#define ENGINE_MEASURE TN_CODE_MEASURE
 
 static const tn_opcode_info infos[TN_OPCODE_COUNT] = {
 #define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC)                                                                   \

@@ -17,9 +17,11 @@ typedef enum tn_operands {
     TN_OPERANDS_SYMBOL,
     TN_OPERANDS_LETTER,
     TN_OPERANDS_BODY,
+    TN_OPERANDS_REAL,
+    TN_OPERANDS_TERM,
 } tn_operands;
 
-typedef enum tn_code_engine { TN_CODE_RULE, TN_CODE_CONDITION, TN_CODE_MAP } tn_code_engine;
+typedef enum tn_code_engine { TN_CODE_RULE, TN_CODE_CONDITION, TN_CODE_MAP, TN_CODE_MEASURE } tn_code_engine;
 
 typedef enum tn_opcode {
 #define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) TN_OP_##NAME,

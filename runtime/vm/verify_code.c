@@ -1,7 +1,10 @@
 /* The code: every instruction of every function, in one pass. */
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "runtime/vm/bytes.h"
+#include "runtime/vm/growth.h"
 #include "runtime/vm/opcodes.h"
 #include "runtime/vm/verify.h"
 
@@ -50,8 +53,8 @@ static tn_status check_call(const tn_checker *checker, uint32_t callee)
     if (callee >= checker->function)
         return refuse(checker, "calls function %u, which is not a lower one", callee);
     const tn_function_record *function = &checker->module->FUNCTION_records[callee];
-    if (function->kind == TN_FUNCTION_CONDITION)
-        return refuse(checker, "calls function %u, which is a condition", callee);
+    if (function->kind == TN_FUNCTION_CONDITION || function->kind == TN_FUNCTION_MEASURE)
+        return refuse(checker, "calls function %u, which is no part of a rule", callee);
     if (function->schema != function_of(checker)->schema)
         return refuse(checker, "calls function %u, which is of another schema", callee);
     return TN_OK;
@@ -83,6 +86,13 @@ static tn_status check_numbers(const tn_checker *checker, tn_opcode opcode, int6
     return TN_OK;
 }
 
+static tn_status check_real(const tn_checker *checker, int64_t bits)
+{
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return isfinite(number) ? TN_OK : refuse(checker, "a number that is not finite");
+}
+
 static tn_status check_operands(const tn_checker *checker, tn_opcode opcode, const tn_opcode_info *info,
                                 const uint8_t *operands)
 {
@@ -102,6 +112,10 @@ static tn_status check_operands(const tn_checker *checker, tn_opcode opcode, con
         return status == TN_OK ? check_condition(checker, tn_get_u32(operands + 4)) : status;
     case TN_OPERANDS_INT2:
         return check_numbers(checker, opcode, tn_get_i64(operands), tn_get_i64(operands + 8));
+    case TN_OPERANDS_REAL:
+        return check_real(checker, tn_get_i64(operands));
+    case TN_OPERANDS_TERM:
+        return tn_get_u32(operands) < TN_MEASURED_COUNT ? TN_OK : refuse(checker, "nothing of this number is measured");
     case TN_OPERANDS_TEXT:
     case TN_OPERANDS_SYMBOL:
     case TN_OPERANDS_LETTER:
@@ -115,7 +129,7 @@ static tn_status check_operands(const tn_checker *checker, tn_opcode opcode, con
 
 static bool ends_function(tn_opcode opcode)
 {
-    return opcode == TN_OP_RETURN || opcode == TN_OP_ANSWER;
+    return opcode == TN_OP_RETURN || opcode == TN_OP_ANSWER || opcode == TN_OP_VALUE;
 }
 
 static tn_status check_stack(tn_checker *checker, tn_opcode opcode, const tn_opcode_info *info)
@@ -144,6 +158,13 @@ static tn_status check_map(tn_checker *checker, uint32_t next)
     return TN_OK;
 }
 
+static tn_code_engine engine_of(tn_function_kind kind)
+{
+    return kind == TN_FUNCTION_CONDITION ? TN_CODE_CONDITION
+           : kind == TN_FUNCTION_MEASURE ? TN_CODE_MEASURE
+                                         : TN_CODE_RULE;
+}
+
 static tn_status check_instruction(tn_checker *checker, bool *ended)
 {
     const tn_function_record *function = function_of(checker);
@@ -152,8 +173,7 @@ static tn_status check_instruction(tn_checker *checker, bool *ended)
     if (!info)
         return refuse(checker, "%u is no opcode", code[0]);
     tn_opcode opcode = (tn_opcode)code[0];
-    tn_code_engine engine = function->kind == TN_FUNCTION_CONDITION ? TN_CODE_CONDITION : TN_CODE_RULE;
-    if (info->engine != engine)
+    if (info->engine != engine_of((tn_function_kind)function->kind))
         return refuse(checker, "%s does not belong into this kind of function", info->name);
     if (info->length > function->code_end - checker->offset)
         return refuse(checker, "%s runs past the function's end", info->name);
@@ -172,8 +192,11 @@ static tn_status check_function(tn_checker *checker, const tn_module_limits *lim
     const tn_function_record *function = function_of(checker);
     if (function->kind >= TN_FUNCTION_KIND_COUNT)
         return refuse(checker, "%u is no kind of function", function->kind);
-    if (function->kind != TN_FUNCTION_CONDITION && function->schema >= checker->module->SCHEMA_count)
+    bool of_schema = function->kind == TN_FUNCTION_WHOLE || function->kind == TN_FUNCTION_HOLDS;
+    if (of_schema && function->schema >= checker->module->SCHEMA_count)
         return refuse(checker, "there is no schema %u", function->schema);
+    if (function->kind == TN_FUNCTION_MEASURE && function->stack_max > TN_MEASURE_STACK_MAX)
+        return refuse(checker, "an expression's stack passes %u", TN_MEASURE_STACK_MAX);
     if (function->stack_max > limits->stack) {
         tn_fail(checker->error, TN_LIMIT, 810, "function %u declares a stack of %u; the limit is %zu",
                 checker->function, function->stack_max, limits->stack);
@@ -191,7 +214,7 @@ static tn_status check_function(tn_checker *checker, const tn_module_limits *lim
             return status;
     }
     if (!ended)
-        return refuse(checker, "the function does not end with RETURN or ANSWER");
+        return refuse(checker, "the function does not end with RETURN, ANSWER or VALUE");
     if (checker->offset != function->code_end)
         return refuse(checker, "code follows the function's end");
     return TN_OK;

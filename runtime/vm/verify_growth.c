@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "runtime/vm/growth.h"
 #include "runtime/vm/verify.h"
@@ -192,13 +193,29 @@ static tn_status check_surroundings(const tn_module *module, tn_error *error)
         if (status != TN_OK)
             return status;
     }
+    return TN_OK;
+}
+
+static bool is_expression(const tn_module *module, const tn_goal_record *goal)
+{
+    return goal->name != 0 && strnlen(tn_text(module, goal->name), TN_NAME_MAX + 1) <= TN_NAME_MAX &&
+           goal->function < module->FUNCTION_count &&
+           module->FUNCTION_records[goal->function].kind == TN_FUNCTION_MEASURE;
+}
+
+static tn_status check_goals(const tn_module *module, tn_error *error)
+{
     unsigned seen = 0;
+    size_t expressions = 0;
     for (size_t i = 0; i < module->GOAL_count; i++) {
         const tn_goal_record *goal = &module->GOAL_records[i];
-        if (goal->term >= TN_FITNESS_TERM_COUNT || !is_coordinate(goal->target) || !is_coordinate(goal->weight) ||
-            goal->weight < 0 || seen >> goal->term & 1)
+        if (goal->term > TN_FITNESS_TERM_COUNT || !is_coordinate(goal->target) || !is_coordinate(goal->weight) ||
+            goal->weight < 0 || (goal->term < TN_FITNESS_TERM_COUNT && seen >> goal->term & 1))
             return refuse(error, "fitness goal %zu is out of range or there twice", i);
-        seen |= 1u << goal->term;
+        if (goal->term < TN_FITNESS_TERM_COUNT)
+            seen |= 1u << goal->term;
+        else if (!is_expression(module, goal) || ++expressions > TN_EXPRESSIONS_MAX)
+            return refuse(error, "fitness goal %zu is no expression, or one too many", i);
     }
     return TN_OK;
 }
@@ -220,5 +237,7 @@ tn_status tn_verify_growth(const tn_module *module, tn_error *error)
         status = check_study(module, error);
     if (status == TN_OK)
         status = check_surroundings(module, error);
+    if (status == TN_OK)
+        status = check_goals(module, error);
     return status;
 }

@@ -155,6 +155,7 @@ fitness undulation target 2 weight 1
 fitness subdivisions target 0.6 weight 5
 edge-limit 2000
 X
+sed 's/^fitness undulation.*/fitness slope = undulation \/ size target 0.3/' garden.study > slope.study
 cat > bred.study <<'X'
 evolution {
   grammar "genr8-angles"
@@ -177,6 +178,16 @@ grep -q '<path' bred/best/1.svg || fail "no picture of the best surface"
 "$TARTAN" evolve bred.study -o bred --resume --set "undulation height 1" > /dev/null 2>&1; [ $? -eq 1 ] || fail "takes a wrong target"
 sed 's/tail 1/tail 1\n selection nsga2 2/' bred.study > fronts.study
 "$TARTAN" evolve fronts.study > /dev/null || fail "does not breed surfaces with two objectives"
+
+# ---- goals that are expressions: three objectives; what has no value is a failure; a target of one is changed
+sed 's/garden/slope/' fronts.study > slopes.study
+printf 'fitness soft-boundary\n' >> slope.study
+"$TARTAN" evolve slopes.study > /dev/null || fail "does not breed for an expression"
+"$TARTAN" evolve slopes.study --resume --generations 7 --set "slope target 1 weight 3" --set "soft-boundary weight 2" > /dev/null || fail "cannot change an expression's target"
+"$TARTAN" runs replay slopes.run 290 > /dev/null || fail "cannot replay three objectives"
+sed -i 's/^fitness slope.*/fitness slope = 1 \/ (undulation - undulation)/' slope.study
+"$TARTAN" evolve slopes.study -o nowhere --generations 1 > nowhere.txt || fail "an expression without value ends the run"
+grep -q 'no individual has a score (the fitness term `slope` has no value for this surface)' nowhere.txt || fail "does not say which term has no value"
 sed 's/population 40/population 6/' bred.study > hand.study
 printf '1 2*3\n\n' | "$TARTAN" breed hand.study -o surfaces > /dev/null || fail "cannot choose surfaces"
 grep -q '<path' surfaces/sheet-0001.svg || fail "no surfaces on the sheet"

@@ -206,7 +206,7 @@ static void test_functions(void **state)
 {
     (void)state;
     REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "rule 0 names a function");
-    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_KIND_COUNT, "function 0, code offset 0: 3 is no kind");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_KIND_COUNT, "function 0, code offset 0: 4 is no kind");
     REFUSED(FUNCTION, tn_function_record, 1, stack_max = 1, "the stack passes the 1 that the function declares");
     REFUSED(FUNCTION, tn_function_record, 1, code_begin = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 3, code_end = UINT32_MAX, "not the stretch after the one before");
@@ -246,7 +246,7 @@ static void test_operands(void **state)
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no specifier 2");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "function 5, which is not a lower one");
-    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is a condition");
+    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is no part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_OCCURRENCES, 9, 0, RETURN)), TN_INVALID,
@@ -271,7 +271,7 @@ static void test_stack(void **state)
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, TN_OP_AND, 0, 0, RETURN)), TN_INVALID,
            "AND takes 2 from a stack of 1");
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, TN_OP_TRAY, 1, 0, RETURN)), TN_INVALID, "RETURN leaves 1");
-    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0)), TN_INVALID, "does not end with RETURN or ANSWER");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0)), TN_INVALID, "does not end with RETURN, ANSWER or VALUE");
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, RETURN, TN_OP_TRAY, 1, 0, RETURN)), TN_INVALID,
            "code follows the function's end");
     expect(with_code(rule, 1, CODE(TN_OP_TRAY, 1, 0, TN_OP_TRAY, 1, 0, TN_OP_OR, 0, 0, RETURN)), TN_INVALID,
