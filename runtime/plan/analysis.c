@@ -72,8 +72,8 @@ tn_status tn_plan_analysis_give_up(tn_plan_analysis *analysis, uint32_t rule, ui
 /* ---- plans that show something */
 
 tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
-                                  uint32_t min, uint32_t max, const char *what, tn_key *word, bool *found,
-                                  tn_error *error)
+                                  uint32_t min, uint32_t max, const char *what, uint64_t max_work, tn_key *word,
+                                  bool *found, tn_error *error)
 {
     uint32_t most = count > 2 ? analysis->max_joint : analysis->max_states;
     tn_search search = {.parts = parts,
@@ -82,6 +82,7 @@ tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_sea
                         .max = max,
                         .what = what,
                         .max_states = most,
+                        .max_work = max_work,
                         .stop = analysis->schema->module->stop};
     return tn_search_shortest(&search, word, found, error);
 }

@@ -39,10 +39,19 @@ struct tn_plan_analysis {
 /* Adds a finding, with room for `plans` plans; NULL where out of memory. Valid until the next is added. */
 tn_plan_analysis_finding *tn_plan_analysis_add(tn_plan_analysis *analysis, tn_found found, size_t plans);
 
-/* The shortest plan of min..max trays that each of the parts answers as wanted. */
+/* The shortest plan of min..max trays that each of the parts answers as wanted; max_work as in tn_search. */
 tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
-                                  uint32_t min, uint32_t max, const char *what, tn_key *word, bool *found,
-                                  tn_error *error);
+                                  uint32_t min, uint32_t max, const char *what, uint64_t max_work, tn_key *word,
+                                  bool *found, tn_error *error);
+
+/* Of parts (those that are `in`) that together leave no plan of min..max trays: takes out of `in` what that does not
+ * take. What is left is irreducible, and earlier parts are left rather than later ones. max UINT32_MAX: any number. */
+tn_status tn_plan_analysis_reduce(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
+                                  uint32_t min, uint32_t max, bool *in, tn_error *error);
+
+/* alone[i], of the parts asked about: is there a plan of min..max trays that part i alone does not answer as wanted? */
+tn_status tn_plan_analysis_needed(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
+                                  uint32_t min, uint32_t max, const bool *asked, bool *alone, tn_error *error);
 
 /* Makes a word of letters a plan to be shown. */
 tn_status tn_plan_analysis_show(const tn_plan_analysis *analysis, const tn_key *word, tn_shown_plan *plan,

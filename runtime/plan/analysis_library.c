@@ -4,6 +4,10 @@
 
 #include "runtime/plan/analysis_data.h"
 
+/* Of finding out whether one clause is needed, before all that are left are asked about together. */
+#define QUICK_WORK UINT64_C(2000000) /* a few milliseconds */
+#define QUICK_CLAUSES 12u
+
 typedef struct work {
     const tn_plan_analysis *analysis;
     tn_plan_analysis *findings; /* the same, to add to; NULL: nothing is added */
@@ -13,6 +17,8 @@ typedef struct work {
     size_t count;
     tn_search_part *parts; /* [count]: what each clause has to answer of a kept plan */
     tn_dfa **dfas;         /* [count] */
+    uint64_t max_work;     /* of a search; 0: TN_SEARCH_WORK */
+    size_t max_asked;      /* clauses that `exists` may look at together */
 } work;
 
 static bool prunes(const work *w, size_t i)
@@ -50,12 +56,21 @@ static tn_status lower_clauses(work *w, tn_error *error)
 
 /* ---- plans by what some clauses say of them */
 
+static uint32_t shortest(const work *w, bool lengths)
+{
+    return lengths || w->record->trays_min == 0 ? w->record->trays_min : 1;
+}
+
+static uint32_t longest(const work *w, bool lengths)
+{
+    return lengths ? w->record->trays_max : UINT32_MAX;
+}
+
 static tn_status search(const work *w, const tn_search_part *parts, size_t count, bool lengths, tn_key *word,
                         bool *found, tn_error *error)
 {
-    uint32_t low = lengths || w->record->trays_min == 0 ? w->record->trays_min : 1;
-    uint32_t high = lengths ? w->record->trays_max : UINT32_MAX;
-    return tn_plan_analysis_search(w->analysis, parts, count, low, high, "library", word, found, error);
+    return tn_plan_analysis_search(w->analysis, parts, count, shortest(w, lengths), longest(w, lengths), "library",
+                                   w->max_work, word, found, error);
 }
 
 /* With the clauses that are `in`, and without clause `left_out` (TN_NO_RECORD: with all of them). */
@@ -123,35 +138,29 @@ static tn_status exists(const work *w, tn_search_part *parts, size_t first, size
         tn_status status = search(w, parts, *asked, true, word, found, error);
         if (status != TN_OK || !*found || !ask_one_more(parts, w->count, asked, word))
             return status;
+        if (*asked > w->max_asked)
+            return tn_fail(error, TN_LIMIT, 802, "too many clauses to look at one by one");
     }
 }
 
 /* ---- empty libraries */
 
-/* Leaves out clause by clause what is not needed for there to be no plan. What is left is irreducible, unless a search
- * passes a limit: then the clause stays, and *why says so. */
+/* Takes out what is not needed for there to be no plan; where that passes a limit all stays, and *why says so. */
 static tn_status reduce(const work *w, bool *in, bool lengths, tn_error **why, tn_error *error)
 {
-    for (size_t i = w->count; i-- > 0;) {
-        tn_key word = {0};
-        bool found = false;
-        tn_error failure;
-        tn_status status = search_some(w, in, i, lengths, &word, &found, &failure);
-        free(word.data);
-        if (status == TN_LIMIT && !*why) {
-            *why = malloc(sizeof **why);
-            if (!*why)
-                return tn_fail_memory(error);
-            **why = failure;
-        }
-        if (status != TN_OK && status != TN_LIMIT) {
-            if (error)
-                *error = failure;
-            return status;
-        }
-        in[i] = found || status == TN_LIMIT;
+    tn_error failure;
+    tn_status status = tn_plan_analysis_reduce(w->analysis, w->parts, w->count, shortest(w, lengths),
+                                               longest(w, lengths), in, &failure);
+    if (status == TN_LIMIT) {
+        *why = malloc(sizeof **why);
+        if (!*why)
+            return tn_fail_memory(error);
+        **why = failure;
+        return TN_OK;
     }
-    return TN_OK;
+    if (status != TN_OK && error)
+        *error = failure;
+    return status;
 }
 
 static tn_status show_without(const work *w, const bool *in, size_t i, bool lengths, tn_shown_plan *plan,
@@ -277,21 +286,49 @@ typedef struct verdict {
     tn_error error;
 } verdict;
 
-static tn_status find_idle(const work *w, tn_error *error)
+/* Most clauses are needed, and a plan that shows it is found after looking at few others: clause by clause, as far as
+ * that is quick. */
+static void try_each(const work *w, verdict *verdicts)
 {
-    verdict *verdicts = calloc(w->count, sizeof *verdicts);
-    if (!verdicts)
-        return tn_fail_memory(error);
+    work quick = *w;
+    quick.max_work = QUICK_WORK;
+    quick.max_asked = QUICK_CLAUSES;
 #pragma omp parallel for schedule(dynamic)
     for (size_t i = 0; i < w->count; i++) {
         verdicts[i].needed = true;
         if (!is_own(w, i))
             continue;
         tn_key word = {0};
-        verdicts[i].status = drops_alone(w, i, &word, &verdicts[i].needed, &verdicts[i].error);
+        verdicts[i].status = drops_alone(&quick, i, &word, &verdicts[i].needed, &verdicts[i].error);
         free(word.data);
     }
-    tn_status status = TN_OK;
+}
+
+/* The clauses for which that was not quick, all together. */
+static tn_status try_rest(const work *w, verdict *verdicts, tn_error *error)
+{
+    bool *asked = calloc(w->count + 1, sizeof *asked), *needed = calloc(w->count + 1, sizeof *needed), any = false;
+    tn_status status = asked && needed ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < w->count; i++)
+        any |= asked[i] = verdicts[i].status == TN_LIMIT;
+    if (status == TN_OK && any)
+        status = tn_plan_analysis_needed(w->analysis, w->parts, w->count, shortest(w, true), longest(w, true), asked,
+                                         needed, error);
+    for (size_t i = 0; status == TN_OK && i < w->count; i++)
+        if (asked[i])
+            verdicts[i] = (verdict){.status = TN_OK, .needed = needed[i]};
+    free(asked);
+    free(needed);
+    return status;
+}
+
+static tn_status find_idle(const work *w, tn_error *error)
+{
+    verdict *verdicts = calloc(w->count, sizeof *verdicts);
+    if (!verdicts)
+        return tn_fail_memory(error);
+    try_each(w, verdicts);
+    tn_status status = try_rest(w, verdicts, error);
     for (size_t i = 0; status == TN_OK && i < w->count; i++) {
         status = verdicts[i].status;
         if (status == TN_OK && !verdicts[i].needed)
@@ -369,7 +406,8 @@ tn_status tn_plan_analysis_alone(const tn_plan_analysis *analysis, uint32_t libr
               .index = library,
               .record = record,
               .clauses = module->CLAUSE_records + record->clause_first,
-              .count = record->clause_count};
+              .count = record->clause_count,
+              .max_asked = record->clause_count};
     tn_key word = {0};
     bool found = false;
     *plan = (tn_shown_plan){0};
@@ -396,7 +434,8 @@ tn_status tn_plan_analysis_libraries(tn_plan_analysis *analysis, tn_error *error
                   .index = l,
                   .record = record,
                   .clauses = module->CLAUSE_records + record->clause_first,
-                  .count = record->clause_count};
+                  .count = record->clause_count,
+                  .max_asked = record->clause_count};
         if (record->schema == analysis->schema_index && !(record->flags & TN_IMPORTED) && w.count > 0)
             status = look_at(&w, error);
     }

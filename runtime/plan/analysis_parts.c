@@ -105,9 +105,9 @@ static tn_status judge_distance(tn_plan_analysis *analysis, const item *it, cons
     tn_search_part parts[2] = {{holding, true}, {reached, true}};
     bool with, without = false;
     tn_key word = {0}, alone = {0};
-    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "distance", &word, &with, error);
+    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "distance", 0, &word, &with, error);
     if (status == TN_OK && !with)
-        status = tn_plan_analysis_search(analysis, parts, 1, 1, UINT32_MAX, "distance", &alone, &without, error);
+        status = tn_plan_analysis_search(analysis, parts, 1, 1, UINT32_MAX, "distance", 0, &alone, &without, error);
     if (status == TN_OK && without)
         status = report_distance(analysis, it, &alone, function, offset, error);
     free(word.data);

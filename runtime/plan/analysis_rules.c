@@ -60,7 +60,7 @@ static tn_status exists(const tn_plan_analysis *analysis, const probes *p, const
     }
     tn_search_part parts[2] = {{analysis->rules[pair[0]].dfa, wanted[0]}, {analysis->rules[pair[1]].dfa, wanted[1]}};
     tn_key word;
-    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", &word, found, error);
+    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", 0, &word, found, error);
     free(word.data);
     return status;
 }
@@ -142,7 +142,7 @@ static tn_status find_extremes(tn_plan_analysis *analysis, tn_error *error)
         for (int matching = 0; matching < 2; matching++) {
             tn_search_part part = {rule->dfa, matching};
             bool found;
-            tn_status status = tn_plan_analysis_search(analysis, &part, 1, 1, UINT32_MAX, "rule",
+            tn_status status = tn_plan_analysis_search(analysis, &part, 1, 1, UINT32_MAX, "rule", 0,
                                                        matching ? &rule->match : &rule->reject, &found, error);
             if (status != TN_OK)
                 return status;
@@ -183,7 +183,8 @@ static tn_status report_pair(tn_plan_analysis *analysis, size_t rule, size_t oth
     tn_search_part parts[2] = {{a->dfa, equal}, {b->dfa, true}};
     tn_key word;
     bool found;
-    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", &word, &found, error);
+    tn_status status =
+        tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", 0, &word, &found, error);
     if (status == TN_OK && found)
         status = tn_plan_analysis_show(analysis, &word, finding->plans, error);
     free(word.data);
@@ -287,7 +288,7 @@ tn_status tn_plan_analysis_examples(const tn_plan_analysis *analysis, size_t i, 
         tn_search_part parts[2] = {{a->dfa, e != 2}, {b->dfa, e != 1}};
         tn_key word;
         bool found;
-        status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", &word, &found, error);
+        status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", 0, &word, &found, error);
         if (status == TN_OK && found)
             status = tn_plan_analysis_show(analysis, &word, &examples[e], error);
         free(word.data);

@@ -31,7 +31,7 @@ bool tn_dfa_accepts(const tn_dfa *dfa, const uint32_t *word, size_t length)
 static tn_status explorer_make(explorer *e, const tn_search *search, tn_error *error)
 {
     *e = (explorer){.search = search, .bounds = tn_bounds_make(search->max_states)};
-    e->bounds.max_work = TN_SEARCH_WORK;
+    e->bounds.max_work = search->max_work ? search->max_work : TN_SEARCH_WORK;
     e->bounds.stop = search->stop;
     tn_status status = tn_bounds_check(&e->bounds, search->what, 1, 1, 0, error);
     if (status != TN_OK)

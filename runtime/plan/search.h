@@ -16,18 +16,20 @@ typedef struct tn_search_part {
     bool accepts;      /* what it is to say of the plan */
 } tn_search_part;
 
+#define TN_SEARCH_WORK UINT64_C(400000000) /* under a second */
+
 typedef struct tn_search {
     const tn_search_part *parts;
     size_t count;      /* at least 1 */
     uint32_t min, max; /* trays of the plan; max UINT32_MAX: any number */
     const char *what;  /* for errors: "the automaton of this ... passes" */
     uint32_t max_states;
+    uint64_t max_work; /* steps; 0: TN_SEARCH_WORK */
     const _Atomic bool *stop; /* as in tn_bounds */
 } tn_search;
 
 /* The shortest such plan (of those, the first by letters), as letters in `word`, or *found = false. The caller frees
- * word->data. TN_LIMIT (E0802) past max_states tuples or TN_SEARCH_WORK steps. */
-#define TN_SEARCH_WORK UINT64_C(400000000) /* under a second */
+ * word->data. TN_LIMIT (E0802) past max_states tuples or max_work steps. */
 tn_status tn_search_shortest(const tn_search *search, tn_key *word, bool *found, tn_error *error);
 
 /* Does the automaton accept the word? */

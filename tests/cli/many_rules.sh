@@ -33,6 +33,21 @@ EOF
     paste -d ' ' "$scratch/bits" "$scratch/plans" | sed -n 's/^0* \(.*\)/\1/p' >"$scratch/expected"
     cmp -s "$scratch/kept" "$scratch/expected" || fail "$1 rules, seed $2: other plans are enumerated"
 }
+
+# idle RULES SEED TRAYS: check says that a rule changes nothing (W005) just where it alone prunes no plan.
+idle() {
+    python3 "$here/many_rules.py" "$1" "$2" "$3" >"$scratch/rules.plan"
+    "$TARTAN" count "$scratch/rules.plan" -l pruned --json 2>/dev/null >"$scratch/counts"
+    "$TARTAN" check "$scratch/rules.plan" --diagnostics=json 2>"$scratch/said"
+    python3 - "$scratch/counts" "$scratch/said" <<'EOF' || fail "$1 rules, seed $2: check and count differ on which rules are idle"
+import json, sys
+idle = {rule["name"] for rule in json.load(open(sys.argv[1]))["rules"] if rule["only"] == "0"}
+found = {said["message"].split("`")[1] for said in json.load(open(sys.argv[2])) if said["code"] == "W005"}
+assert idle and found == idle, (found, idle)
+EOF
+}
+idle 120 1 0..3
+idle 60 1 1..5
 check 50 1 0..3
 check 50 2 0..3
 check 500 1 0..3

@@ -287,7 +287,7 @@ static void test_lengths(void **state)
                  {1, 11, true, false, 0},   {12, 12, true, true, 12}, {1, 100, false, true, 4},
                  {9, 100, false, true, 16}, {13, 15, false, false, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        tn_search search = {parts, 2, cases[i].min, cases[i].max, "test", 1000, NULL};
+        tn_search search = {parts, 2, cases[i].min, cases[i].max, "test", 1000, 0, NULL};
         tn_key word;
         tn_error error;
         bool found;
@@ -298,7 +298,7 @@ static void test_lengths(void **state)
             assert_int_equal(word.size, cases[i].length);
         free(word.data);
     }
-    tn_search search = {parts, 2, 1, UINT32_MAX, "test", 5, NULL};
+    tn_search search = {parts, 2, 1, UINT32_MAX, "test", 5, 0, NULL};
     tn_key word;
     tn_error error;
     bool found;
