@@ -77,13 +77,19 @@ again = lines_of(progress(["--limit", str(limit), "-o", database, "--resume"]), 
 check(f"{kept} plans were there, and then {again}", again[0][0] > kept)
 check(f"a rate that counts what was there: {again}", again[0][0] - kept < first[-1][0] * 3 + 1_000_000)
 
-# A file keeps what was written before the interruption.
+# A file keeps what was written before the interruption. (Until then the file has no name to look at: the interruption comes after a
+# while, and again after twice as long where that was before tartan had begun to write.)
 os.mkdir(scratch + "/file")
-run = subprocess.Popen(command + ["-o", scratch + "/file/plans"], stderr=subprocess.PIPE)
-while not any(entry.stat().st_size for entry in os.scandir(scratch + "/file")):
-    time.sleep(0.002)
-run.send_signal(signal.SIGINT)
-said = run.communicate()[1]
+delay = 0.02
+while True:
+    run = subprocess.Popen(command + ["-o", scratch + "/file/plans"], stderr=subprocess.PIPE)
+    time.sleep(delay)
+    run.send_signal(signal.SIGINT)
+    said = run.communicate()[1]
+    if run.returncode == 130 or delay > 10:
+        break
+    delay *= 2
+check(f"exit code {run.returncode}, {said}", run.returncode == 130)
 written = int(re.search(rb"interrupted; (\d+) plans", said)[1])
 check("not the plans before the interruption", open(scratch + "/file/plans", "rb").read() == stretch(0, written))
 check("more than one file", os.listdir(scratch + "/file") == ["plans"])
