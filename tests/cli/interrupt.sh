@@ -13,9 +13,13 @@ def check(what, right):
     if not right:
         wrong.append(what)
 
+def listen():
+    """Interrupts are heard, also where the tests run in the background of a script, which does not hear them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 def interrupted(more, after):
     """Reads so many bytes of the plans, interrupts, reads the rest: the plans, and the rank to go on from."""
-    run = subprocess.Popen(command + more, bufsize=0, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    run = subprocess.Popen(command + more, bufsize=0, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=listen)
     begun = b""
     while len(begun) < after:
         begun += run.stdout.read(after - len(begun))
@@ -43,6 +47,7 @@ def progress(more, enough=3):
     """Runs on a terminal until progress was shown so often, interrupts: what stood there."""
     pid, terminal = pty.fork()
     if pid == 0:
+        listen()
         os.execv(tartan, command + more)
     text, shown = b"", 0
     while True:
@@ -82,7 +87,7 @@ check(f"a rate that counts what was there: {again}", again[0][0] - kept < first[
 os.mkdir(scratch + "/file")
 delay = 0.02
 while True:
-    run = subprocess.Popen(command + ["-o", scratch + "/file/plans"], stderr=subprocess.PIPE)
+    run = subprocess.Popen(command + ["-o", scratch + "/file/plans"], stderr=subprocess.PIPE, preexec_fn=listen)
     time.sleep(delay)
     run.send_signal(signal.SIGINT)
     said = run.communicate()[1]
