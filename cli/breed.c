@@ -97,28 +97,11 @@ static void breed(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_job job;
-    tn_evolution_session evolution;
-    tn_job_begin(&job, settings);
-    if (tn_evolution_session_open(&job, &evolution)) {
-        tn_job_show(&job);
-        tn_interrupt_watch();
-        breed(&evolution);
-    }
-    tn_evolution_session_close(&evolution);
-    return tn_job_end(&job);
+    return tn_evolution_session_run(settings, breed);
 }
 
 static const tn_option options[] = {
-    OPTION_RUN_DIR,
-    OPTION_RUN_RESUME,
-    NUMBER("generations", 'g', "N", generations, 0, 1000000,
-           "how many generations to breed at most, instead of the study's number"),
-    OPTION_RUN_SET,
-    OPTION_RUN_SEED,
-    OPTION_THREADS,
-    OPTION_RUN_DURABLE,
-};
+    OPTIONS_RUN("how many generations to breed at most, instead of the study's number")};
 
 const tn_command tn_command_breed = {
     .name = "breed",

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/interrupt.h"
+
 /* study.study -> study.run, in the folder that the command is given in. */
 static char *default_dir(const char *study)
 {
@@ -58,7 +60,7 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     return begun;
 }
 
-bool tn_evolution_session_open(tn_job *command, tn_evolution_session *e)
+static bool open_session(tn_job *command, tn_evolution_session *e)
 {
     const char *path = command->settings->operands.items[0];
     tn_error error = {0};
@@ -87,8 +89,17 @@ bool tn_evolution_session_open(tn_job *command, tn_evolution_session *e)
     return begun;
 }
 
-void tn_evolution_session_close(tn_evolution_session *e)
+int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution))
 {
-    tn_run_clear(&e->run);
-    tn_evolution_job_clear(&e->job);
+    tn_job command;
+    tn_evolution_session evolution;
+    tn_job_begin(&command, settings);
+    if (open_session(&command, &evolution)) {
+        tn_job_show(&command);
+        tn_interrupt_watch();
+        work(&evolution);
+    }
+    tn_run_clear(&evolution.run); /* before the job ends, which owns the study's texts */
+    tn_evolution_job_clear(&evolution.job);
+    return tn_job_end(&command);
 }

@@ -6,14 +6,15 @@
 #include "cli/option_rows.h"
 #include "driver/evolve.h"
 
-#define OPTION_RUN_DIR                                                                                                 \
-    TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)")
-#define OPTION_RUN_RESUME FLAG("resume", 0, resume, "go on with the run in the folder, if there is one")
-#define OPTION_RUN_SET                                                                                                 \
-    LIST("set", 0, "\"NAME VALUE\"", changes,                                                                          \
-         "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated")
-#define OPTION_RUN_SEED NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's")
-#define OPTION_RUN_DURABLE FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
+/* The options of all of them; what the number of generations means is told by each. */
+#define OPTIONS_RUN(generations_help)                                                                                  \
+    TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
+        FLAG("resume", 0, resume, "go on with the run in the folder, if there is one"),                                \
+        NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
+        LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
+             "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated"),      \
+        NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS,                         \
+        FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 
 typedef struct tn_evolution_session {
     tn_job *command;
@@ -22,9 +23,8 @@ typedef struct tn_evolution_session {
     uint32_t generations; /* to be bred, after the first */
 } tn_evolution_session;
 
-/* Opens the study that the first operand names, and begins or resumes its run. False where that failed. Close it in any
- * case, before the job ends. */
-bool tn_evolution_session_open(tn_job *command, tn_evolution_session *evolution);
-void tn_evolution_session_close(tn_evolution_session *evolution);
+/* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
+ * command's exit code. */
+int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution));
 
 #endif

@@ -71,36 +71,23 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     fprintf(out, "results are in %s\n", e->run.dir);
 }
 
+static void evolve_and_tell(tn_evolution_session *e)
+{
+    tn_output output;
+    evolve(e);
+    if (tn_job_output(e->command, NULL, &output)) {
+        summarise(e, output.stream);
+        tn_job_commit(e->command, &output);
+    }
+}
+
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_job job;
-    tn_evolution_session evolution;
-    tn_output output;
-    tn_job_begin(&job, settings);
-    if (tn_evolution_session_open(&job, &evolution)) {
-        tn_job_show(&job);
-        tn_interrupt_watch();
-        evolve(&evolution);
-        if (tn_job_output(&job, NULL, &output)) {
-            summarise(&evolution, output.stream);
-            tn_job_commit(&job, &output);
-        }
-    }
-    tn_evolution_session_close(&evolution);
-    return tn_job_end(&job);
+    return tn_evolution_session_run(settings, evolve_and_tell);
 }
 
-static const tn_option options[] = {
-    OPTION_RUN_DIR,
-    OPTION_RUN_RESUME,
-    NUMBER("generations", 'g', "N", generations, 0, 1000000,
-           "how many generations to breed, instead of the study's number"),
-    OPTION_RUN_SET,
-    OPTION_RUN_SEED,
-    OPTION_THREADS,
-    OPTION_RUN_DURABLE,
-};
+static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number")};
 
 const tn_command tn_command_evolve = {
     .name = "evolve",

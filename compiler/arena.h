@@ -21,4 +21,16 @@ int tn_arena_failed(const tn_arena *arena);
 #define TN_NEW(arena, type) ((type *)tn_arena_alloc((arena), sizeof(type)))
 #define TN_NEW_ARRAY(arena, type, count) ((type *)tn_arena_alloc_array((arena), sizeof(type), (count)))
 
+/* Puts a node (NULL: nothing) behind the last of a list: something with `first` and `last`, whose nodes have `next`. */
+#define TN_CHAIN(list, node)                                                                                           \
+    do {                                                                                                               \
+        if (!(node))                                                                                                   \
+            break;                                                                                                     \
+        if ((list)->last)                                                                                              \
+            (list)->last->next = (node);                                                                               \
+        else                                                                                                           \
+            (list)->first = (node);                                                                                    \
+        (list)->last = (node);                                                                                         \
+    } while (0)
+
 #endif

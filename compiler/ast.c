@@ -12,11 +12,7 @@ tn_ast_list tn_ast_append(tn_ast_list list, void *added)
     tn_ast_node *node = added;
     if (!node)
         return list;
-    if (list.last)
-        list.last->next = node;
-    else
-        list.first = node;
-    list.last = node;
+    TN_CHAIN(&list, node);
     list.count++;
     return list;
 }

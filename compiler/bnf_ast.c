@@ -46,16 +46,9 @@ tn_bnf_item *tn_bnf_group_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span s
     return item;
 }
 
-tn_bnf_items tn_bnf_append(tn_bnf_reader *reader, tn_bnf_items items, tn_bnf_item *item)
+tn_bnf_items tn_bnf_append(tn_bnf_items items, tn_bnf_item *item)
 {
-    (void)reader;
-    if (!item)
-        return items;
-    if (items.last)
-        items.last->next = item;
-    else
-        items.first = item;
-    items.last = item;
+    TN_CHAIN(&items, item);
     return items;
 }
 
@@ -69,23 +62,20 @@ tn_bnf_alternative *tn_bnf_alternative_new(tn_bnf_reader *reader, tn_span span, 
     return alternative;
 }
 
-tn_bnf_alternatives tn_bnf_first(tn_bnf_reader *reader, tn_bnf_alternative *alternative)
+tn_bnf_alternatives tn_bnf_first(tn_bnf_alternative *alternative)
 {
-    (void)reader;
     return (tn_bnf_alternatives){alternative, alternative, alternative ? 1 : 0};
 }
 
-tn_bnf_alternatives tn_bnf_next(tn_bnf_reader *reader, tn_bnf_alternatives list, tn_bnf_alternative *alternative,
-                                bool after_comment)
+tn_bnf_alternatives tn_bnf_next(tn_bnf_alternatives list, tn_bnf_alternative *alternative, bool after_comment)
 {
     if (!list.last)
-        return tn_bnf_first(reader, alternative);
+        return tn_bnf_first(alternative);
     if (!alternative)
         return list;
     list.last->beside_comment |= after_comment;
     alternative->beside_comment = after_comment;
-    list.last->next = alternative;
-    list.last = alternative;
+    TN_CHAIN(&list, alternative);
     list.count++;
     return list;
 }
@@ -135,11 +125,7 @@ static tn_bnf_rule *rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_te
     rule->name_span = (tn_span){head_span.file, head_span.begin, head_span.begin + (uint32_t)length};
     rule->span = head_span;
     tn_bnf_file *file = &reader->ast;
-    if (file->last)
-        file->last->next = rule;
-    else
-        file->first = rule;
-    file->last = rule;
+    TN_CHAIN(file, rule);
     file->rule_count++;
     return rule;
 }

@@ -105,11 +105,10 @@ void tn_bnf_stray(tn_bnf_reader *reader, tn_span span);
 tn_bnf_item *tn_bnf_item_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_text text);
 tn_bnf_item *tn_bnf_lone_quote(tn_bnf_reader *reader, tn_span span, tn_bnf_text text);
 tn_bnf_item *tn_bnf_group_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_items body);
-tn_bnf_items tn_bnf_append(tn_bnf_reader *reader, tn_bnf_items items, tn_bnf_item *item);
+tn_bnf_items tn_bnf_append(tn_bnf_items items, tn_bnf_item *item);
 tn_bnf_alternative *tn_bnf_alternative_new(tn_bnf_reader *reader, tn_span span, tn_bnf_items items);
-tn_bnf_alternatives tn_bnf_first(tn_bnf_reader *reader, tn_bnf_alternative *alternative);
-tn_bnf_alternatives tn_bnf_next(tn_bnf_reader *reader, tn_bnf_alternatives list, tn_bnf_alternative *alternative,
-                                bool after_comment);
+tn_bnf_alternatives tn_bnf_first(tn_bnf_alternative *alternative);
+tn_bnf_alternatives tn_bnf_next(tn_bnf_alternatives list, tn_bnf_alternative *alternative, bool after_comment);
 void tn_bnf_rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head, tn_span span,
                      tn_bnf_alternatives list);
 void tn_bnf_rule_broken(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head);

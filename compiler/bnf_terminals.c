@@ -253,8 +253,8 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
         tn_report(reader->diagnostics, W_GRAMMAR_RANGE_REST, from->span,
                   "what follows GE_RANGE:%u in its alternative is dropped", top);
     for (uint32_t value = 0; value < top; value++) {
-        tn_bnf_items items = tn_bnf_append(reader, (tn_bnf_items){0}, range_item(reader, span, value));
-        *kept = tn_bnf_next(reader, *kept, tn_bnf_alternative_new(reader, from->span, items), false);
+        tn_bnf_items items = tn_bnf_append((tn_bnf_items){0}, range_item(reader, span, value));
+        *kept = tn_bnf_next(*kept, tn_bnf_alternative_new(reader, from->span, items), false);
     }
     return true;
 }
@@ -339,7 +339,7 @@ static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
             make_genr8(reader, a->items);
         else
             make_ge(reader, a, reported);
-        kept = tn_bnf_next(reader, kept, a, false);
+        kept = tn_bnf_next(kept, a, false);
     }
     rule->alternatives = kept;
     if (!kept.first && !rule->broken) {

@@ -31,11 +31,7 @@ void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evol
     setting->name = copy;
     setting->span = span;
     setting->values = values;
-    if (reader->last)
-        reader->last->next = setting;
-    else
-        reader->first = setting;
-    reader->last = setting;
+    TN_CHAIN(reader, setting);
 }
 
 tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolution_value_kind kind, tn_span span,

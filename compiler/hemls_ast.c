@@ -18,13 +18,7 @@ tn_hemls_symbol *tn_hemls_symbol_new(tn_growth_parse *parse, tn_hemls_kind kind,
 
 tn_hemls_symbols tn_hemls_symbols_add(tn_hemls_symbols list, tn_hemls_symbol *symbol)
 {
-    if (!symbol)
-        return list;
-    if (list.last)
-        list.last->next = symbol;
-    else
-        list.first = symbol;
-    list.last = symbol;
+    TN_CHAIN(&list, symbol);
     return list;
 }
 
@@ -42,13 +36,7 @@ tn_hemls_alternative *tn_hemls_alternative_new(tn_growth_parse *parse, tn_span s
 
 tn_hemls_alternatives tn_hemls_alternatives_add(tn_hemls_alternatives list, tn_hemls_alternative *one)
 {
-    if (!one)
-        return list;
-    if (list.last)
-        list.last->next = one;
-    else
-        list.first = one;
-    list.last = one;
+    TN_CHAIN(&list, one);
     return list;
 }
 
@@ -65,11 +53,7 @@ tn_hemls_line *tn_hemls_line_new(tn_growth_parse *parse, tn_hemls_line_kind kind
 void tn_hemls_add_line(tn_growth_parse *parse, tn_hemls_line *line)
 {
     tn_hemls_file *file = parse->result;
-    if (file->last)
-        file->last->next = line;
-    else
-        file->first = line;
-    file->last = line;
+    TN_CHAIN(file, line);
 }
 
 void tn_hemls_lost_line(tn_growth_parse *parse)

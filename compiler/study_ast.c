@@ -73,13 +73,7 @@ tn_study_measure *tn_study_argument_add(tn_study_measure *list, tn_study_measure
 void tn_study_add(tn_growth_parse *parse, tn_study_item *item)
 {
     tn_study_file *file = parse->result;
-    if (!item)
-        return;
-    if (file->last)
-        file->last->next = item;
-    else
-        file->first = item;
-    file->last = item;
+    TN_CHAIN(file, item);
 }
 
 void tn_study_lost(tn_growth_parse *parse)

@@ -72,16 +72,16 @@ broken: error
 skipped: NAME | TEXT | QUOTED | NEWLINE | QUOTE | EDGE | EDGE_SAME | BAR | COMMENT | REPEAT | REPEAT_END | MAYBE | MAYBE_END
     ;
 
-alternatives: alternative           { $$ = tn_bnf_first(reader, $1); }
-    | alternatives BAR alternative  { $$ = tn_bnf_next(reader, $1, $3, false); }
-    | alternatives COMMENT alternative { $$ = tn_bnf_next(reader, $1, $3, true); }
+alternatives: alternative           { $$ = tn_bnf_first($1); }
+    | alternatives BAR alternative  { $$ = tn_bnf_next($1, $3, false); }
+    | alternatives COMMENT alternative { $$ = tn_bnf_next($1, $3, true); }
     ;
 
 alternative: items                  { $$ = tn_bnf_alternative_new(reader, @1, $1); }
     ;
 
 items: %empty                       { $$ = (tn_bnf_items){0}; }
-    | items item                    { $$ = tn_bnf_append(reader, $1, $2); }
+    | items item                    { $$ = tn_bnf_append($1, $2); }
     ;
 
 item: NAME                          { $$ = tn_bnf_item_new(reader, TN_BNF_NAME, @1, $1); }
