@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/vm/array.h"
 #include "runtime/vm/random.h"
 
 void tn_chart_clear(tn_chart *c)
@@ -21,19 +22,9 @@ void tn_chart_clear(tn_chart *c)
 
 static bool grow(tn_chart *c, void *items, size_t *capacity, size_t count, size_t size)
 {
-    if (count < *capacity)
-        return true;
-    size_t wanted = *capacity ? *capacity * 2 : 256;
-    void *memory; /* `items` points to a pointer of any type */
-    memcpy(&memory, items, sizeof memory);
-    memory = realloc(memory, wanted * size);
-    if (!memory) {
-        c->out_of_memory = true;
-        return false;
-    }
-    memcpy(items, &memory, sizeof memory);
-    *capacity = wanted;
-    return true;
+    bool fine = tn_array_reserve(items, capacity, count, 1, size);
+    c->out_of_memory |= !fine;
+    return fine;
 }
 
 /* ---- hash tables of indices: the caller compares and hashes */
@@ -105,6 +96,10 @@ static void add_item(tn_chart *c, tn_chart_item item)
 {
     if (c->out_of_memory || c->too_many || !table_grow(c, &c->item_table, item_hash))
         return;
+    if (++c->steps / TN_CHART_STEPS > c->max_items) {
+        c->too_many = true;
+        return;
+    }
     tn_chart_table *table = &c->item_table;
     size_t place = (size_t)key_hash(item.at, item.begin, item.end, item.letters) & (table->size - 1);
     for (; table->slots[place] != TN_CHART_NONE; place = (place + 1) & (table->size - 1)) {
@@ -416,8 +411,13 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
     if (c->out_of_memory)
         return tn_fail_memory(error);
     if (c->too_many) {
-        tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit",
-                c->max_items);
+        if (c->item_count == c->max_items)
+            tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit",
+                    c->max_items);
+        else
+            tn_fail(error, TN_LIMIT, 1223,
+                    "the grammar derives the sentence in very many ways: it takes more than %llu steps, the limit",
+                    (unsigned long long)c->max_items * TN_CHART_STEPS);
         tn_error_help(error, "raise it with --max-items, or take a shorter sentence");
         return TN_LIMIT;
     }

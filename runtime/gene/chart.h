@@ -54,6 +54,7 @@ typedef struct tn_chart {
     uint32_t *loop_of;      /* by word: of an AGAIN, its REPEAT */
     tn_chart_item *items;
     size_t item_count, item_capacity, max_items;
+    uint64_t steps; /* items added, or met again */
     tn_chart_finished *finished;
     size_t finished_count, finished_capacity;
     tn_chart_goal *goals;
@@ -67,6 +68,10 @@ typedef struct tn_chart {
     size_t expected_count;
     bool out_of_memory, too_many;
 } tn_chart;
+
+/* An ambiguous grammar meets its items again and again, in the worst case with the cube of the sentence's length: that
+ * is bounded by this many steps an item that is allowed, ten times what sentences without much ambiguity take. */
+#define TN_CHART_STEPS 32u
 
 /* Parses; the finished record of the start symbol over the whole sentence in *result, TN_CHART_NONE where there is
  * none. */

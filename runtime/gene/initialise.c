@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "runtime/gene/span.h"
+#include "runtime/vm/array.h"
 
 #define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
 
@@ -36,19 +37,9 @@ typedef struct planter {
 
 static bool room(planter *p, void *items, size_t *capacity, size_t count, size_t size)
 {
-    if (count < *capacity)
-        return true;
-    size_t wanted = *capacity ? *capacity * 2 : 64;
-    void *memory; /* `items` points to a pointer of any type */
-    memcpy(&memory, items, sizeof memory);
-    memory = realloc(memory, wanted * size);
-    if (!memory) {
-        p->failed = true;
-        return false;
-    }
-    memcpy(items, &memory, sizeof memory);
-    *capacity = wanted;
-    return true;
+    bool fine = tn_array_reserve(items, capacity, count, 1, size);
+    p->failed |= !fine;
+    return fine;
 }
 
 void tn_random_codons(tn_chance *chance, uint64_t codon_limit, uint64_t *codons, size_t count)
@@ -87,9 +78,8 @@ static void add_child(planter *p, uint32_t rule, uint32_t depth)
 static bool fits(const planter *p, uint32_t production, uint32_t depth)
 {
     uint32_t needed = p->analysis->production_depth[production];
-    uint64_t unused = 0;
     return needed != TN_DEPTH_ENDLESS && needed - 1 <= p->options->depth && depth <= p->options->depth - (needed - 1) &&
-           tn_choice_codon(p->grammar, production, depth, p->options->max_depth, &unused);
+           tn_can_choose(p->grammar, production, depth, p->options->max_depth);
 }
 
 /* The shallowest production that can be chosen there: for where none fits. */
@@ -97,10 +87,9 @@ static uint32_t shallowest(const planter *p, uint32_t rule, uint32_t depth)
 {
     const tn_rule *r = &p->grammar->rules[rule];
     uint32_t best = TN_NO_RECORD;
-    uint64_t unused = 0;
     for (uint32_t i = r->first; i < r->first + r->count; i++)
         if ((best == TN_NO_RECORD || p->analysis->production_depth[i] < p->analysis->production_depth[best]) &&
-            tn_choice_codon(p->grammar, i, depth, p->options->max_depth, &unused))
+            tn_can_choose(p->grammar, i, depth, p->options->max_depth))
             best = i;
     return best;
 }

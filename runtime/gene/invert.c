@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/gene/chart.h"
+#include "runtime/vm/array.h"
 
 #define FIRST_IDS 2u
 
@@ -144,19 +145,9 @@ typedef struct writer {
 
 static bool room(writer *w, void *items, size_t *capacity, size_t count, size_t size)
 {
-    if (count < *capacity)
-        return true;
-    size_t wanted = *capacity ? *capacity * 2 : 64;
-    void *memory;
-    memcpy(&memory, items, sizeof memory);
-    memory = realloc(memory, wanted * size);
-    if (!memory) {
-        w->failed = true;
-        return false;
-    }
-    memcpy(items, &memory, sizeof memory);
-    *capacity = wanted;
-    return true;
+    bool fine = tn_array_reserve(items, capacity, count, 1, size);
+    w->failed |= !fine;
+    return fine;
 }
 
 static void put_codon(writer *w, uint64_t codon)

@@ -21,7 +21,7 @@ typedef struct tn_map_options {
 } tn_map_options;
 
 #define TN_MAP_STEPS 1000000u
-#define TN_MAP_STEP_BYTES 64u /* as many bytes of a terminal count as a step more */
+#define TN_MAP_STEP_BYTES 16u /* as many bytes of a terminal count as a step more */
 
 /* What the grammar's own directives ask for. */
 tn_map_options tn_map_options_of(const tn_grammar *grammar);

@@ -9,10 +9,10 @@
 #ifndef TARTAN_GENE_MAPPER_STATE_H
 #define TARTAN_GENE_MAPPER_STATE_H
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/gene/mapper.h"
+#include "runtime/vm/array.h"
 
 #define TN_NO_EDGE_ID UINT32_MAX
 #define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
@@ -68,24 +68,6 @@ typedef enum tn_expansion {
     TN_EXPAND_TOO_LONG,
     TN_EXPAND_NO_MEMORY
 } tn_expansion;
-
-/* Room for `more` items of `size` bytes after the first `used`, doubling. */
-static inline bool tn_array_reserve(void *items, size_t *capacity, size_t used, size_t more, size_t size)
-{
-    if (used + more <= *capacity)
-        return true;
-    size_t wanted = *capacity ? *capacity * 2 : 64;
-    while (wanted < used + more)
-        wanted *= 2;
-    void *memory; /* `items` points to a pointer of any type */
-    memcpy(&memory, items, sizeof memory);
-    memory = realloc(memory, wanted * size);
-    if (!memory)
-        return false;
-    memcpy(items, &memory, sizeof memory);
-    *capacity = wanted;
-    return true;
-}
 
 static inline bool tn_text_append(tn_map_text *text, const char *data, size_t size)
 {

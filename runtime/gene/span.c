@@ -68,20 +68,42 @@ bool tn_genome_straighten(const uint64_t *codons, size_t count, const tn_mapping
     return true;
 }
 
-bool tn_choice_codon(const tn_grammar *g, uint32_t production, uint32_t depth, uint32_t max_depth, uint64_t *codon)
+/* Which of the choices of its rule the production is, and of how many; false where it is none at that depth. */
+static bool find_choice(const tn_grammar *g, uint32_t production, uint32_t depth, uint32_t max_depth, uint32_t *choice,
+                        uint32_t *choices)
 {
     const tn_rule *rule = &g->rules[g->productions[production].rule];
-    uint64_t choice = production - rule->first, modulus = rule->count;
-    if (g->dialect == TN_DIALECT_GENR8 && max_depth && depth >= max_depth && rule->closed_count) {
-        modulus = rule->closed_count;
-        for (choice = 0; choice < modulus && g->closed[rule->closed_first + choice] != production;)
-            choice++;
-        if (choice == modulus)
-            return false;
-    }
-    if (*codon % modulus == choice)
+    *choice = production - rule->first;
+    *choices = rule->count;
+    if (g->dialect != TN_DIALECT_GENR8 || !max_depth || depth < max_depth || !rule->closed_count)
         return true;
-    uint64_t base = *codon - *codon % modulus;
+    const uint32_t *closed = g->closed + rule->closed_first; /* ascending */
+    uint32_t low = 0, high = *choices = rule->closed_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (closed[middle] < production)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *choice = low;
+    return low < *choices && closed[low] == production;
+}
+
+bool tn_can_choose(const tn_grammar *g, uint32_t production, uint32_t depth, uint32_t max_depth)
+{
+    uint32_t choice, choices;
+    return find_choice(g, production, depth, max_depth, &choice, &choices);
+}
+
+bool tn_choice_codon(const tn_grammar *g, uint32_t production, uint32_t depth, uint32_t max_depth, uint64_t *codon)
+{
+    uint32_t choice, choices;
+    if (!find_choice(g, production, depth, max_depth, &choice, &choices))
+        return false;
+    if (*codon % choices == choice)
+        return true;
+    uint64_t base = *codon - *codon % choices;
     *codon = base > UINT64_MAX - choice ? choice : base + choice;
     return true;
 }

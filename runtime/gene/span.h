@@ -27,6 +27,9 @@ void tn_spans_clear(tn_spans *spans);
 /* Puts the codons that a mapping read, wraps written out, and the unread rest into `straight`. */
 bool tn_genome_straighten(const uint64_t *codons, size_t count, const tn_mapping *mapping, tn_genome *straight);
 
+/* Can a codon make its rule choose the production, at that depth? */
+bool tn_can_choose(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth);
+
 /* A codon, near to `codon`, that makes `rule` at `depth` choose `production`; false where it cannot there, since from
  * max_depth on only productions without non-terminals are chosen (genr8). */
 bool tn_choice_codon(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth,

@@ -130,6 +130,24 @@ static void test_hostile(void **state)
     }
 }
 
+/* Few states, met very often. */
+static void test_ambiguity_is_bounded(void **state)
+{
+    (void)state;
+    tn_grammar *g = test_grammar("<s> ::= <s><s> | <s><s><s> | \"\" | x\n");
+    char sentence[121];
+    tn_genome genome = {0};
+    tn_error error;
+    memset(sentence, 'x', 120);
+    tn_invert_options options = {.max_items = 38000};
+    assert_int_equal(tn_invert(g, sentence, 120, &options, &genome, &error), TN_LIMIT);
+    assert_non_null(strstr(error.message, "1216000 steps"));
+    options.max_items = 76000;
+    assert_int_equal(tn_invert(g, sentence, 120, &options, &genome, &error), TN_OK);
+    tn_genome_clear(&genome);
+    tn_grammar_free(g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -137,6 +155,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_binding),
         cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_ambiguity_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
