@@ -1,6 +1,7 @@
 /* tartan grow: grows a surface from a rewrite system, and writes it. */
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/grow.h"
 #include "cli/interrupt.h"
@@ -9,6 +10,7 @@
 #include "runtime/map/faults.h"
 
 #define FORECAST_FACES 10000000.0 /* growths that will pass this many faces are announced */
+#define IDLE_STEPS 100u           /* on end without a new face: then no number of faces is waited for any more */
 
 /* A growth under way. */
 typedef struct run_state {
@@ -27,6 +29,7 @@ typedef struct run_state {
     uint32_t crossed[2], inverted[2]; /* the first and the last step with such faces; 0: none */
     double faces_before;
     bool forecast; /* was made */
+    uint32_t idle; /* steps on end that made no face */
 } run_state;
 
 static void clear(run_state *run)
@@ -175,11 +178,22 @@ static void forecast(run_state *run)
     tn_job_show(run->job);
 }
 
-static bool is_enough(const run_state *run)
+/* With --until, steps are counted only where -n says so. */
+static bool is_enough(run_state *run)
 {
-    if (run->until_faces)
-        return tn_growth_map(run->growth)->face_count - 1 >= run->until_faces;
-    return tn_growth_steps(run->growth) >= run->study.steps;
+    uint32_t faces = tn_growth_map(run->growth)->face_count - 1, steps = tn_growth_steps(run->growth);
+    bool all_steps = steps >= run->study.steps;
+    if (!run->until_faces)
+        return all_steps;
+    if (faces >= run->until_faces)
+        return true;
+    if (all_steps && run->settings->steps)
+        tn_job_note(run->job, "after %u steps there are %u faces, fewer than %llu", steps, faces,
+                    (unsigned long long)run->until_faces);
+    else if (run->idle >= IDLE_STEPS)
+        tn_job_note(run->job, "%u steps have made no face: there are %u, fewer than %llu", run->idle, faces,
+                    (unsigned long long)run->until_faces);
+    return (all_steps && run->settings->steps) || run->idle >= IDLE_STEPS;
 }
 
 /* Grows step by step. A limit, an interruption or rest ends it at the last complete step. */
@@ -189,7 +203,7 @@ static tn_status grow(run_state *run, tn_error *error)
     tn_status status = note_step(run, error);
     tn_progress_begin(&progress, "steps", 0, run->until_faces ? 0 : run->study.steps);
     while (status == TN_OK && !is_enough(run) && !tn_interrupted()) {
-        uint32_t complete = tn_growth_steps(run->growth);
+        uint32_t complete = tn_growth_steps(run->growth), faces = tn_growth_map(run->growth)->face_count;
         tn_progress_update(&progress, complete);
         status = tn_growth_step(run->growth, error);
         if (status == TN_LIMIT) {
@@ -200,6 +214,7 @@ static tn_status grow(run_state *run, tn_error *error)
         }
         if (status != TN_OK)
             break;
+        run->idle = tn_growth_map(run->growth)->face_count == faces ? run->idle + 1 : 0;
         forecast(run);
         if (tn_growth_at_rest(run->growth)) {
             tn_job_note(run->job, "step %u changes nothing any more: further steps are left out",
@@ -241,6 +256,16 @@ static bool read_until(run_state *run)
     return false;
 }
 
+/* Bytes that growing may take: by default three quarters of the machine's memory, rather than that the system ends the
+ * program. */
+static uint64_t memory_limit(const tn_settings *settings)
+{
+    long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
+    if (settings->memory_limit.given || pages <= 0 || size <= 0)
+        return settings->memory_limit.value << 20;
+    return (uint64_t)pages / 4 * 3 * (uint64_t)size;
+}
+
 static tn_status prepare(run_state *run, tn_error *error)
 {
     tn_status status = tn_growth_system_read(run->job->opened.module, &run->system, error);
@@ -250,7 +275,7 @@ static tn_status prepare(run_state *run, tn_error *error)
         return status;
     run->study.options.explain = run->settings->explain;
     run->study.options.threads = (int)run->settings->threads.value;
-    run->study.options.memory_limit = run->settings->memory_limit.value << 20;
+    run->study.options.memory_limit = memory_limit(run->settings);
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
 }
 
@@ -277,20 +302,22 @@ static int run(const tn_command *command, const tn_settings *settings)
 
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output,
-         "the surface: .obj, .ply, .stl, .off, .om, .glb, or a picture: .svg, .png, .pdf; - is standard output"),
+         "the surface: .obj, .ply, .stl, .off, .om, .glb, its edges: .dxf, or a picture: .svg, .png, .pdf; - is "
+         "standard output"),
     CHOICE("format", 'f', "FORMAT", mesh_format, TN_GROW_FORMATS,
            "what is written, where the name of FILE does not say it"),
     TEXT("steps", 'n', "N", steps, "how many derivation steps (default: the study's, or 4)"),
     TEXT("until", 0, "faces=N", until,
-         "stop at the first step with at least N faces, instead of after a number of steps"),
+         "stop at the first step with at least N faces, or after the steps of -n where that is given"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json",
           "write counts, labels, ages and fitness of every step to standard output"),
     FLAG("explain", 0, explain, "say for every step why branches did not join"),
     FLAG("each-step", 0, each_step, "write every step, to NAME-000.obj, NAME-001.obj and so on"),
     FLAG("sheet", 0, sheet, "draw all steps side by side on one picture"),
     FLAG("triangulate", 't', triangulate, "cut faces into triangles"),
-    FLAG("groups", 'g', groups, "group or colour faces and lines by their edges' label and age"),
-    FLAG("lines", 0, lines, "write the edges too (OBJ, PLY)"),
+    FLAG("groups", 'g', groups,
+         "group or colour faces and lines by their edges' label and age (DXF: layers by both, not by label alone)"),
+    FLAG("lines", 0, lines, "write the edges too (OBJ, PLY; a DXF has nothing else)"),
     FLAG("normals", 0, normals, "write normals of the vertices (OBJ, PLY, GLB)"),
     CHOICE("up", 0, "AXIS", up, "z|y", "which axis points up in the mesh (default z; GLB is always y)"),
     NUMBER("subdivide", 0, "N", subdivide, 1, 8,
@@ -305,7 +332,8 @@ static const tn_option options[] = {
          "how far from opposite joined branches may point, instead of what the file says"),
     TEXT("branch-length", 0, "L", branch_length, "longest join, in sides of the seed as scaled so far"),
     TEXT("edge-limit", 0, "N", edge_limit, "the most edges a surface may have"),
-    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24, "the most memory that growing may take, in megabytes"),
+    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24,
+           "the most memory that growing may take, in megabytes (default: three quarters of what there is)"),
     FLAG("fixed-centre", 0, fixed_centre, "scale about the start instead of the mean of the vertices"),
     FLAG("fixed-perimeter", 0, fixed_perimeter, "vertices of the outline stay"),
     FLAG("facing", 0, facing, "join branches only where each points towards the other"),

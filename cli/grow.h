@@ -16,13 +16,14 @@ typedef enum tn_grow_format {
     TN_GROW_OFF,
     TN_GROW_OM,
     TN_GROW_GLB,
+    TN_GROW_DXF,
     TN_GROW_SVG,
     TN_GROW_PNG,
     TN_GROW_PDF,
     TN_GROW_FORMAT_COUNT
 } tn_grow_format;
 
-#define TN_GROW_FORMATS "auto|obj|ply|stl|off|om|glb|svg|png|pdf"
+#define TN_GROW_FORMATS "auto|obj|ply|stl|off|om|glb|dxf|svg|png|pdf"
 
 /* Opens the file that grows: with options that a study could say, a study made of them, which uses the file. False
  * where that failed. */
@@ -36,8 +37,8 @@ void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, 
                    const char *path);
 
 /* Draws all views on one sheet. */
-void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views,
-                   size_t count, tn_grow_format format);
+void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
+                   tn_grow_format format);
 tn_camera tn_grow_camera(const tn_settings *settings);
 
 /* Writes the statistics of all steps to standard output. */

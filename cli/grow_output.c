@@ -13,30 +13,90 @@ static bool is_picture(tn_grow_format format)
     return format >= TN_GROW_SVG;
 }
 
+/* Options that say something about some formats only: used with another one they would do nothing. */
+static bool check_use(tn_job *job, tn_grow_format format)
+{
+    enum { MESH = 1, SURFACE = 2, LINES = 4, NORMALS = 8, GROUPS = 16, AXIS = 32, PICTURE = 64 };
+    static const unsigned can[TN_GROW_FORMAT_COUNT] = {
+        [TN_GROW_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_GROW_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_GROW_STL] = MESH | SURFACE | AXIS,
+        [TN_GROW_OFF] = MESH | SURFACE | AXIS,
+        [TN_GROW_OM] = MESH | SURFACE | AXIS,
+        [TN_GROW_GLB] = MESH | SURFACE | NORMALS | GROUPS,
+        [TN_GROW_DXF] = MESH | LINES | GROUPS | AXIS,
+        [TN_GROW_SVG] = PICTURE,
+        [TN_GROW_PNG] = PICTURE,
+        [TN_GROW_PDF] = PICTURE,
+    };
+    const tn_settings *s = job->settings;
+    const struct {
+        bool given;
+        unsigned needs;
+        const char *name, *help;
+    } uses[] = {
+        {s->subdivide.given, SURFACE, "subdivide", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->decimate.given, SURFACE, "decimate", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->smooth.given, MESH, "smooth", "write a mesh: .obj, .ply, .stl, .off, .om, .glb or .dxf"},
+        {s->triangulate, SURFACE, "triangulate", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->lines, LINES, "lines", "only .obj, .ply and .dxf hold lines"},
+        {s->normals, NORMALS, "normals", "only .obj, .ply and .glb hold normals of vertices"},
+        {s->groups, GROUPS, "groups", "only .obj, .ply, .glb and .dxf hold groups"},
+        {s->up != 0, AXIS, "up", "a .glb has y up always; a picture is turned with --azimuth and --elevation"},
+        {s->azimuth.given, PICTURE, "azimuth", "write a picture: .svg, .png or .pdf"},
+        {s->elevation.given, PICTURE, "elevation", "write a picture: .svg, .png or .pdf"},
+        {s->width.given, PICTURE, "width", "write a picture: .svg, .png or .pdf"},
+        {s->columns.given, PICTURE, "columns", "write a --sheet: .svg, .png or .pdf"},
+        {s->dpi.given, PICTURE, "dpi", "write a picture: .png"},
+        {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
+        {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
+        {s->each_step, PICTURE | MESH, "each-step", "name one with -o"},
+        {s->mesh_format != 0, PICTURE | MESH, "format", "name one with -o"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || (can[format] & uses[i].needs))
+            continue;
+        tn_diagnostic *d = tn_job_usage(
+            job, s->output ? "--%s does nothing for this kind of file" : "--%s does nothing without a file",
+            uses[i].name);
+        tn_help(tn_job_diagnostics(job), d, "%s", s->output ? uses[i].help : "name one with -o");
+        return false;
+    }
+    if ((s->subdivide.given || s->decimate.given) && (s->lines || s->groups)) {
+        tn_diagnostic *d = tn_job_usage(job, "--subdivide and --decimate make new faces, which have no edges of the "
+                                             "rules: --lines and --groups have nothing to show");
+        tn_help(tn_job_diagnostics(job), d, "leave one or the other out");
+        return false;
+    }
+    return true;
+}
+
 bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
 {
-    static const char *const words[TN_GROW_FORMAT_COUNT] = {"",   "obj", "ply", "stl", "off",
-                                                            "om", "glb", "svg", "png", "pdf"};
+    static const char *const words[TN_GROW_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
+                                                            "glb", "dxf", "svg", "png", "pdf"};
     const tn_settings *settings = job->settings;
     const char *path = settings->output, *dot = path ? strrchr(path, '.') : NULL;
     *format = (tn_grow_format)settings->mesh_format;
     if (!path)
-        return true;
+        return check_use(job, TN_GROW_NONE);
     for (int f = TN_GROW_OBJ; *format == TN_GROW_NONE && dot && f < TN_GROW_FORMAT_COUNT; f++)
         if (strcasecmp(dot + 1, words[f]) == 0)
             *format = (tn_grow_format)f;
     if (*format == TN_GROW_NONE) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
-                "end its name in .obj, .ply, .stl, .off, .om, .glb, .svg, .png or .pdf, or say --format");
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
         return false;
     }
+    if (!check_use(job, *format))
+        return false;
     if (strcmp(path, "-") == 0 && (settings->each_step || settings->stats)) {
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
         return false;
     }
-    if (settings->sheet && !is_picture(*format)) {
-        tn_job_usage(job, "a --sheet is a picture: .svg, .png or .pdf");
+    if (settings->sheet && settings->each_step) {
+        tn_job_usage(job, "a --sheet has every step already: leave --each-step out");
         return false;
     }
     return true;
@@ -105,6 +165,8 @@ static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn
         return tn_mesh_write_ply(mesh, &style, out, error);
     case TN_GROW_GLB:
         return tn_mesh_write_glb(mesh, &style, out, error);
+    case TN_GROW_DXF:
+        return tn_mesh_write_dxf(mesh, &style, out, error);
     default:
         return write_by_openmesh(mesh, format, style.y_up, out, error);
     }
@@ -113,7 +175,9 @@ static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn
 static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format format, const char *path)
 {
     const tn_settings *settings = job->settings;
-    tn_surface_options options = {.groups = settings->groups, .lines = settings->lines};
+    bool dxf = format == TN_GROW_DXF;
+    tn_surface_options options = {
+        .groups = settings->groups, .lines = settings->lines || dxf, .layers = dxf && !settings->groups};
     tn_mesh mesh;
     tn_output output;
     tn_error error;

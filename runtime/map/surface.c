@@ -36,6 +36,18 @@ static tn_status name_groups(const tn_growth *growth, const tn_stats *stats, tn_
     return TN_OK;
 }
 
+static tn_status name_layers(const tn_growth *growth, tn_mesh *mesh, tn_error *error)
+{
+    const tn_growth_system *system = tn_growth_rules(growth);
+    mesh->group_count = system->label_count;
+    mesh->group_names = calloc(system->label_count + 1, sizeof *mesh->group_names);
+    if (!mesh->group_names)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < system->label_count; i++)
+        snprintf(mesh->group_names[i], sizeof *mesh->group_names, "%s", system->labels[i].name);
+    return TN_OK;
+}
+
 static void write_face(const tn_map *map, uint32_t face, uint32_t start, tn_mesh *mesh, uint32_t *corner)
 {
     uint32_t first = map->face_first[face], size = tn_face_size(map, face);
@@ -64,9 +76,10 @@ static void write_faces(const tn_map *map, const tn_stats *stats, const uint32_t
     mesh->face_first[written] = corner;
 }
 
-static tn_status write_lines(const tn_map *map, const tn_stats *stats, const uint32_t *dart, bool groups, tn_mesh *mesh,
-                             tn_error *error)
+static tn_status write_lines(const tn_map *map, const tn_stats *stats, const uint32_t *dart,
+                             const tn_surface_options *options, tn_mesh *mesh, tn_error *error)
 {
+    bool groups = options->groups || options->layers;
     mesh->lines = malloc(2 * (size_t)map->edge_count * sizeof *mesh->lines);
     mesh->line_group = groups ? malloc((size_t)map->edge_count * sizeof *mesh->line_group) : NULL;
     if (!mesh->lines || (groups && !mesh->line_group))
@@ -76,7 +89,7 @@ static tn_status write_lines(const tn_map *map, const tn_stats *stats, const uin
         mesh->lines[2 * (size_t)e] = map->origin[dart[2 * (size_t)e]];
         mesh->lines[2 * (size_t)e + 1] = map->origin[dart[2 * (size_t)e + 1]];
         if (groups)
-            mesh->line_group[e] = group_of(stats, map->states[e]);
+            mesh->line_group[e] = options->layers ? tn_state_label(map->states[e]) : group_of(stats, map->states[e]);
     }
     return TN_OK;
 }
@@ -90,11 +103,13 @@ static tn_status fill(const tn_growth *growth, const tn_surface_options *options
     tn_status status = done ? tn_map_twins(map, &dart, &face, error) : tn_fail_memory(error);
     if (status == TN_OK && options->groups)
         status = name_groups(growth, stats, mesh, error);
+    else if (status == TN_OK && options->layers)
+        status = name_layers(growth, mesh, error);
     if (status == TN_OK) {
         memcpy(mesh->positions, map->positions, 3 * (size_t)map->vertex_count * sizeof *mesh->positions);
         write_faces(map, stats, dart, face, done, mesh);
         if (options->lines)
-            status = write_lines(map, stats, dart, options->groups, mesh, error);
+            status = write_lines(map, stats, dart, options, mesh, error);
     }
     free(done);
     free(dart);

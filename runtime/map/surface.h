@@ -8,6 +8,7 @@
 typedef struct tn_surface_options {
     bool groups; /* a face belongs to the label and age of its lowest edge, a line to its own */
     bool lines;  /* edges too */
+    bool layers; /* lines are grouped by their label alone; faces are not */
 } tn_surface_options;
 
 /* Makes the mesh, which the caller clears. */

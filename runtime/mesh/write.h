@@ -1,4 +1,4 @@
-/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), and GLB. */
+/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, and lines as DXF. */
 #ifndef TARTAN_MESH_WRITE_H
 #define TARTAN_MESH_WRITE_H
 
@@ -22,5 +22,9 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
 /* glTF 2.0 in one file: metres and y up by its specification, floats; faces are triangles; a primitive and a material
  * for each group. */
 tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+/* DXF, release 12: the mesh's lines as polylines, a layer for each group; where exactly two lines of a layer meet they
+ * are one polyline, so that an outline is one closed line. Level ones are plane, others are in space. */
+tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 #endif

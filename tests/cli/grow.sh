@@ -39,6 +39,60 @@ assert last["F"] == 64 and last["fitness"]["undulation"] < 1.3, last
 CHECK
 done
 
+# DXF: every edge once, in polylines as long as they go; an outline is one closed line; what is not level is in space.
+run grow koch -n 3 --scale 1 --lines -o koch.obj
+run grow koch -n 3 --scale 1 -o koch.dxf
+run grow square.hemls -n 3 --lines -o grid.obj
+run grow square.hemls -n 3 -o grid.dxf
+run grow draped.study -n 3 --lines -o hung.obj
+run grow draped.study -n 3 -o hung.dxf
+run grow timed -n 3 --groups -o timed.dxf
+python3 - <<'CHECK' || fail 'a DXF does not hold what the mesh holds'
+def read_obj(name):
+    vertices, lines = [], []
+    for row in open(name):
+        word, *rest = row.split()
+        if word == "v":
+            vertices.append(tuple(map(float, rest)))
+        elif word == "l":
+            lines.append(frozenset(vertices[int(i) - 1] for i in rest))
+    return lines
+def read_dxf(name):
+    rows = open(name).read().splitlines()
+    pairs = list(zip((int(c) for c in rows[::2]), rows[1::2]))
+    assert len(rows) % 2 == 0 and pairs[-1] == (0, "EOF") and (1, "AC1009") in pairs
+    layers, polylines, kind = set(), [], None
+    for i, (code, value) in enumerate(pairs):
+        if code == 0:
+            kind = value
+            if kind == "POLYLINE":
+                polylines.append({"points": []})
+            elif kind == "VERTEX":
+                polylines[-1]["points"].append([None] * 3)
+        elif kind == "LAYER" and code == 2:
+            layers.add(value)
+        elif kind == "POLYLINE" and code in (8, 70):
+            polylines[-1][code] = value if code == 8 else int(value)
+        elif kind == "VERTEX" and code in (10, 20, 30):
+            polylines[-1]["points"][-1][code // 10 - 1] = float(value)
+    assert {p[8] for p in polylines} <= layers
+    return polylines
+def edges(polylines):
+    out = []
+    for p in polylines:
+        points = [tuple(q) for q in p["points"]]
+        out += [frozenset(e) for e in zip(points, points[1:] + points[:1] if p[70] & 1 else points[1:])]
+    return out
+for name in "koch", "grid", "hung":
+    lines, found = read_obj(name + ".obj"), edges(read_dxf(name + ".dxf"))
+    assert len(found) == len(set(found)) == len(lines) and set(found) == set(lines), name
+koch, grid, hung, timed = (read_dxf(n + ".dxf") for n in ("koch", "grid", "hung", "timed"))
+assert len(koch) == 1 and koch[0][70] == 1 and len(koch[0]["points"]) == 192
+assert len(grid) == 18 and {p[8] for p in grid} == {"A", "B"} and {p[70] for p in grid} == {0}
+assert {p[70] & 8 for p in hung} == {0, 8} or {p[70] & 8 for p in hung} == {8}
+assert {p[8] for p in timed} == {"Edge0_2", "Edge0_3", "Edge1_2", "Edge1_3"}, {p[8] for p in timed}
+CHECK
+
 # A mesh as it is read: closed face loops, one orientation, Euler's number 1.
 run grow draped.study --lines --normals --groups -o cloth.obj
 python3 - <<'CHECK'
@@ -146,6 +200,11 @@ code=0
 
 # Until so many faces; rest.
 [ "$(run grow square.hemls --until faces=1000 | tail -1 | awk '{print $4}')" = 1024 ] || fail '--until stops elsewhere'
+[ "$(run grow square.hemls -n 3 --until faces=1000 | tail -1 | awk '{print $4}')" = 64 ] || fail '--until goes past -n'
+grep -q 'after 3 steps there are 64 faces, fewer than 1000' stderr || fail 'what --until does not reach is not told'
+printf 'A + A + A; A -> A_i+1; Angle 60\n' >older.hemls
+run grow older.hemls --until faces=5 --scale 1 -o older.obj
+grep -q '100 steps have made no face' stderr || fail '--until goes on for ever'
 printf 'A + A + A; A -> B; Angle 60\n' >rest.hemls
 run grow rest.hemls -n 50 --scale 1 >/dev/null
 grep -q 'changes nothing any more' stderr || fail 'rest is not noticed'
@@ -161,7 +220,8 @@ run grow square.hemls -n 1 --explain -o x.obj
 grep -q '4 branches point out of the surface' stderr || fail '--explain does not say why'
 
 # Wrong usage.
-for words in '-o x' '-o x.txt' '--until sides=3' '-o - --stats' '--sheet -o x.obj' '--azimuth north -o x.svg' 'said.tnb --scale 2'; do
+for words in '--smooth 3' '--sheet' '--smooth 3 -o x.png' '--subdivide 1 --lines -o x.ply' '--title T -o x.ply' '--normals -o x.stl' '--up y -o x.glb' \
+    '--triangulate -o x.dxf' '--each-step --sheet -o x.svg' '-f obj' '-o x' '-o x.txt' '--until sides=3' '-o - --stats' '--sheet -o x.obj' '--azimuth north -o x.svg' 'said.tnb --scale 2'; do
     code=0
     case $words in said*) file=() ;; *) file=(square.hemls) ;; esac
     eval "\"\$TARTAN\" grow \"\${file[@]}\" $words" >/dev/null 2>stderr || code=$?
