@@ -65,7 +65,7 @@ static bool open_study(tn_job *job, const char *path, bool has_source, char *tex
 {
     if (has_source) {
         tn_job_status(job,
-                      tn_open_bytes("options.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
+                      tn_open_bytes("<options>.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
         return job->opened.module != NULL;
     }
     if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)

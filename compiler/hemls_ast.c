@@ -83,7 +83,7 @@ tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span)
     if (!(value <= TN_COORDINATE_MAX && value >= -TN_COORDINATE_MAX)) {
         tn_diagnostic *d = tn_report(parse->diagnostics, E_NUMBER_TOO_LARGE, span, "this number is too large");
         tn_help(parse->diagnostics, d, "the largest is %.0f", TN_COORDINATE_MAX);
-        value = 0;
+        value = 3; /* what every setting takes: one mistake is told once */
     }
     return (tn_decimal){value, span};
 }

@@ -293,6 +293,7 @@ static void read_alternatives(check *c, const tn_hemls_line *line, tn_checked_re
 {
     tn_checked_alternative **at = &rule->alternatives;
     bool conditional = false;
+    double weight = 0;
     const tn_hemls_choice *choice = NULL;
     for (const tn_hemls_alternative *a = line->alternatives.first; a; a = a->next) {
         tn_checked_alternative *one = TN_NEW(c->arena, tn_checked_alternative);
@@ -311,10 +312,14 @@ static void read_alternatives(check *c, const tn_hemls_line *line, tn_checked_re
         rule->alternative_count++;
         c->template_count++;
         conditional |= a->choice.comparison != TN_ALWAYS;
+        weight += a->choice.value;
         if (a->choice.weighted)
             choice = &a->choice;
     }
-    if (choice && (conditional || rule->alternative_count == 1)) {
+    if (choice && !conditional && weight <= 0) {
+        tn_diagnostic *d = tn_report(c->diagnostics, W_NEVER_FIRES, choice->span, "this rule is never applied");
+        tn_help(c->diagnostics, d, "all its weights are 0: give one of them a larger one");
+    } else if (choice && (conditional || rule->alternative_count == 1)) {
         tn_diagnostic *d = tn_report(c->diagnostics, W_IGNORED_CHOICE, choice->span, "this weight has no effect");
         tn_help(c->diagnostics, d,
                 conditional ? "where a rule has conditions, the first that holds decides"

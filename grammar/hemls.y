@@ -156,8 +156,12 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
         return "a weight is a number: `-> A A Weight 3`";
     if (before == YYSYMBOL_IF || before == YYSYMBOL_AGE)
         return "a condition compares the age: `If i < 3`";
+    if (found == YYSYMBOL_EQUAL)
+        return "a condition compares the age with `<`, `>` or `=`: `If i < 3`";
     if (before == YYSYMBOL_ANGLE || before == YYSYMBOL_BRANCH_ANGLE)
         return "an angle is a number of degrees: `Angle 90`";
+    if (found == YYSYMBOL_NUMBER && (before == YYSYMBOL_PLUS || before == YYSYMBOL_MINUS))
+        return "an age changes by one at most: `_i`, `_i+1` and `_i-1`";
     if (found == YYSYMBOL_NUMBER)
         return "numbers stand after Angle, BranchAngle, Weight and `If i <`";
     if (found == YYSYMBOL_ANGLE || found == YYSYMBOL_BRANCH_ANGLE || found == YYSYMBOL_SYNC)

@@ -6,6 +6,8 @@
 #define TOUCH 1e-9
 /* A vertex that a membrane stops stays this far off it, on the side that it came from. */
 #define MEMBRANE 1e-8
+/* Of a membrane along an edge: more are not counted. */
+#define CROSSINGS_MAX 64
 
 typedef struct contact {
     double t;         /* along the displacement, in [0, 1) */
@@ -210,6 +212,11 @@ static tn_vector box_project(const tn_boundary *box, tn_vector x)
 
 /* ---- meshes */
 
+static bool is_membrane(const tn_boundary *boundary)
+{
+    return boundary->kind == TN_BOUNDARY_MESH && !tn_boundary_mesh_is_solid(boundary->mesh);
+}
+
 /* A membrane has no inside: nothing trespasses, only crossing is refused. */
 static double mesh_distance(const tn_boundary *boundary, tn_vector x, tn_vector *nearest)
 {
@@ -234,7 +241,7 @@ static bool mesh_hit(const tn_boundary *boundary, tn_vector x, tn_vector d, uint
 static tn_vector mesh_project(const tn_boundary *boundary, tn_vector x)
 {
     int sign = 0;
-    if (!tn_boundary_mesh_is_solid(boundary->mesh))
+    if (is_membrane(boundary))
         return x;
     if (tn_boundary_mesh_clear(boundary->mesh, x, 0, &sign) && (sign < 0) == boundary->inside)
         return x;
@@ -323,6 +330,48 @@ tn_vector tn_environment_project(const tn_environment *environment, tn_vector x)
     return x;
 }
 
+/* Does the way from x to p end on the other side of a membrane? One that is wrinkled it may cross there and back. */
+static bool ends_across(const tn_boundary *membrane, tn_vector x, tn_vector p, contact *last)
+{
+    bool across = false;
+    uint32_t except = TN_NO_TRIANGLE;
+    for (int crossings = 0; crossings < CROSSINGS_MAX; crossings++) {
+        contact hit;
+        tn_vector d = tn_sub(p, x);
+        if (!mesh_hit(membrane, x, d, except, &hit))
+            return across;
+        across = !across;
+        except = hit.triangle;
+        x = tn_along(tn_along(x, d, hit.t), hit.normal, -MEMBRANE);
+        *last = hit;
+    }
+    return across;
+}
+
+/* On which side of a membrane a new vertex belongs the edge tells that it divides: where the ways to it from both ends
+ * lead across, it is put back to the nearest place on their side. */
+static tn_vector pull_through(const tn_boundary *membrane, tn_vector p, tn_vector from, tn_vector to)
+{
+    contact hit;
+    tn_vector nearest;
+    if (!ends_across(membrane, from, p, &hit) || !ends_across(membrane, to, p, &hit))
+        return p;
+    tn_boundary_mesh_distance(membrane->mesh, p, &nearest);
+    tn_vector out = tn_normalised(tn_sub(nearest, p));
+    return tn_along(nearest, tn_dot(out, out) > 0 ? out : hit.normal, MEMBRANE);
+}
+
+tn_vector tn_environment_place(const tn_environment *environment, tn_vector p, tn_vector from, tn_vector to)
+{
+    p = tn_environment_project(environment, p);
+    for (uint32_t i = 0; i < environment->boundary_count; i++) {
+        const tn_boundary *boundary = &environment->boundaries[i];
+        if (boundary->mode != TN_SOFT && is_membrane(boundary))
+            p = pull_through(boundary, p, from, to);
+    }
+    return p;
+}
+
 tn_vector tn_environment_move(const tn_environment *environment, tn_vector x, tn_vector d)
 {
     contact hit, second;
@@ -330,7 +379,7 @@ tn_vector tn_environment_move(const tn_environment *environment, tn_vector x, tn
         return tn_environment_project(environment, tn_add(x, d));
     const tn_boundary *boundary = &environment->boundaries[hit.boundary];
     tn_vector met = tn_along(x, d, hit.t);
-    if (boundary->kind == TN_BOUNDARY_MESH && !tn_boundary_mesh_is_solid(boundary->mesh))
+    if (is_membrane(boundary))
         met = tn_along(met, hit.normal, MEMBRANE); /* else nothing would tell later which side it is on */
     if (boundary->mode == TN_STOP)
         return project(boundary, met);
@@ -338,8 +387,11 @@ tn_vector tn_environment_move(const tn_environment *environment, tn_vector x, tn
     rest = tn_along(rest, hit.normal, -tn_dot(rest, hit.normal));
     tn_vector y = project(boundary, tn_add(met, rest));
     tn_vector slide = tn_sub(y, met);
-    if (first_contact(environment, met, slide, &hit, &second))
+    if (first_contact(environment, met, slide, &hit, &second)) {
         y = tn_along(met, slide, second.t);
+        if (is_membrane(&environment->boundaries[second.boundary]))
+            y = tn_along(y, second.normal, MEMBRANE);
+    }
     return tn_environment_project(environment, y);
 }
 

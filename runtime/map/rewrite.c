@@ -54,7 +54,7 @@ static bool place_vertices(const tn_pass *pass, const tn_template *template, uin
         tn_vector p = tn_along(tn_along(tn_scale(h, c[0]), l, c[1]), u, c[2]);
         p = tn_along(from, p, length);
         if (growth->hard)
-            p = tn_environment_project(growth->environment, p);
+            p = tn_environment_place(growth->environment, p, from, tn_along(from, h, length));
         tn_vector_put(pass->new->positions + 3 * (size_t)(first + j), p);
         finite = finite && isfinite(p.x + p.y + p.z);
     }

@@ -390,6 +390,36 @@ static void test_a_mesh_with_a_hole_is_a_membrane(void **state)
     tn_boundary_mesh_free(mesh);
 }
 
+/* New vertices stay on their edge's side of a membrane, also where it has wrinkles that the edge passes through. */
+static void test_new_vertices_stay_before_a_membrane(void **state)
+{
+    (void)state;
+    static const double points[10][3] = {{-2, -1, 1}, {-2, 1, 1},    {0, -1, 0},   {0, 1, 0},  {1, -1, 0.5},
+                                         {1, 1, 0.5}, {1.5, -1, -1}, {1.5, 1, -1}, {3, -1, 1}, {3, 1, 1}};
+    static const uint32_t faces[8][3] = {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5},
+                                         {4, 6, 5}, {5, 6, 7}, {6, 8, 7}, {7, 8, 9}};
+    tn_boundary_mesh *mesh;
+    tn_error error;
+    assert_int_equal(tn_boundary_mesh_new(&points[0][0], 10, &faces[0][0], 8, &mesh, &error), TN_OK);
+    tn_boundary wall = {.kind = TN_BOUNDARY_MESH, .mesh = mesh, .mode = TN_STOP};
+    tn_environment environment = {NULL, 0, &wall, 1};
+    /* From below on both sides of the valley at x = 0: the middle of the edge is above it, and comes down. */
+    tn_vector p =
+        tn_environment_place(&environment, (tn_vector){0, 0, 0.3}, (tn_vector){-1.8, 0, 0.3}, (tn_vector){0.9, 0, 0.3});
+    assert_true(tn_boundary_mesh_distance(mesh, p, NULL) < 1.1e-8);
+    assert_true(p.z < (p.x < 0 ? -0.5 * p.x : 0.5 * p.x));
+    /* Under the ridge at x = 1, the way from the left through the valley, the way from the right through the next. */
+    p = tn_environment_place(&environment, (tn_vector){1, 0, 0.2}, (tn_vector){-1.8, 0, 0.2}, (tn_vector){2.8, 0, 0.2});
+    assert_true(p.x == 1 && p.y == 0 && p.z == 0.2);
+    /* Nothing in the way; and what is soft lets everything pass. */
+    p = tn_environment_place(&environment, (tn_vector){0, 0, -3}, (tn_vector){-1, 0, -3}, (tn_vector){1, 0, -3});
+    assert_true(p.z == -3);
+    wall.mode = TN_SOFT;
+    p = tn_environment_place(&environment, (tn_vector){0, 0, 0.3}, (tn_vector){-1.8, 0, 0.3}, (tn_vector){0.9, 0, 0.3});
+    assert_true(p.z == 0.3);
+    tn_boundary_mesh_free(mesh);
+}
+
 static void test_bad_boundary_meshes_are_refused(void **state)
 {
     (void)state;
@@ -533,6 +563,7 @@ int main(void)
         cmocka_unit_test(test_walls_that_meet_stop_what_slides),
         cmocka_unit_test(test_a_closed_mesh_is_a_solid),
         cmocka_unit_test(test_a_mesh_with_a_hole_is_a_membrane),
+        cmocka_unit_test(test_new_vertices_stay_before_a_membrane),
         cmocka_unit_test(test_bad_boundary_meshes_are_refused),
         cmocka_unit_test(test_edges_without_length_are_divided),
         cmocka_unit_test(test_options_are_checked),
