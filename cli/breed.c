@@ -62,8 +62,13 @@ static bool ask(size_t members, choice *c)
     while (!answered) {
         printf("parents? (numbers; an empty line ends) ");
         fflush(stdout);
-        if (getline(&line, &capacity, stdin) < 0 || tn_interrupted())
+        tn_interrupt_asking(true);
+        bool read = !tn_interrupted() && getline(&line, &capacity, stdin) >= 0;
+        tn_interrupt_asking(false);
+        if (!read || tn_interrupted()) {
+            putchar('\n');
             break;
+        }
         answered = read_choice(line, members, c);
     }
     free(line);
@@ -90,8 +95,13 @@ static void breed(tn_evolution_session *e)
     free(c.places);
     if (status == TN_OK)
         status = tn_run_results(&e->run, &error);
-    if (status != TN_OK)
+    if (status != TN_OK) {
         tn_job_fail(e->command, &error);
+        return;
+    }
+    printf("results are in %s; --resume goes on from here\n", e->run.dir);
+    if (tn_interrupted())
+        e->command->exit_code = TN_EXIT_INTERRUPTED;
 }
 
 static int run(const tn_command *command, const tn_settings *settings)

@@ -43,8 +43,12 @@ static void evolve(tn_evolution_session *e)
     tn_progress_end(&progress);
     if (status == TN_OK && e->run.generations)
         status = tn_run_results(&e->run, &error);
-    if (status != TN_OK)
+    if (status != TN_OK) {
         tn_job_fail(e->command, &error);
+    } else if (tn_interrupted()) {
+        tn_job_note(e->command, "interrupted after %u generations; --resume goes on from there", e->run.generations);
+        e->command->exit_code = TN_EXIT_INTERRUPTED;
+    }
 }
 
 static const char *why_no_score(const tn_individual *individual)
@@ -99,7 +103,7 @@ const tn_command tn_command_evolve = {
                    "machine and with any number of "
                    "threads.\n\n"
                    "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with "
-                   "their derivations drawn), "
+                   "pictures of their surfaces, rules or derivations), "
                    "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run "
                    "goes on with --resume and "
                    "ends with the same bytes as one that was not. With --resume and a larger --generations a finished "

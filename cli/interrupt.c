@@ -11,9 +11,10 @@ static void note(int signal_number)
     interrupted = 1;
 }
 
+static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+
 void tn_interrupt_watch(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction action = {.sa_handler = note,
                                .sa_flags = (int)(SA_RESETHAND | SA_RESTART)}; /* no write cut short */
     struct sigaction before;
@@ -21,6 +22,17 @@ void tn_interrupt_watch(void)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(numbers[i], &action, NULL);
+}
+
+void tn_interrupt_asking(bool asking)
+{
+    struct sigaction action;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        if (sigaction(numbers[i], NULL, &action) != 0 || action.sa_handler != note)
+            continue;
+        action.sa_flags = (int)(asking ? SA_RESETHAND : SA_RESETHAND | SA_RESTART);
+        sigaction(numbers[i], &action, NULL);
+    }
 }
 
 bool tn_interrupted(void)

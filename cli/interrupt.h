@@ -11,4 +11,7 @@ void tn_interrupt_watch(void);
 
 bool tn_interrupted(void);
 
+/* While a person is asked for a line, an interrupt ends the reading too: true before, false after. */
+void tn_interrupt_asking(bool asking);
+
 #endif

@@ -166,8 +166,10 @@ static bool read_first(const tn_setting_row *row, const tn_evolution_value *valu
     switch (row->kind) {
     case TN_SETTING_WHOLE:
     case TN_SETTING_REAL:
+        if (value->kind != TN_EVOLUTION_NUMBER)
+            return false;
         out->first = tn_decimal_value(value->text, strlen(value->text));
-        return value->kind == TN_EVOLUTION_NUMBER;
+        return true;
     case TN_SETTING_PAIR:
         return read_pair(value, out);
     case TN_SETTING_TEXT:
@@ -266,8 +268,8 @@ static void check_outside(const tn_evolution_reader *reader)
 {
     if (reader->outside.end == 0)
         return;
-    tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, reader->outside,
-                                          "this stands outside the evolution block");
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, reader->outside, "this stands outside the evolution block");
     tn_help(reader->diagnostics, diagnostic,
             "settings go between the braces; what says how a surface grows goes to a .study file of its own, which "
             "`grow \"FILE.study\"` names");

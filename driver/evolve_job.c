@@ -95,7 +95,9 @@ static char *identity_of(const tn_evolution_job *job)
         return NULL;
     for (tn_setting i = 0; i < TN_SETTING_COUNT; i++) {
         tn_setting_value value = job->study.of[i];
-        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (tn_setting_rows[i].kind == TN_SETTING_TEXT && !value.text))
+        bool follows = i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
+                       tn_setting_rows[i].kind == TN_SETTING_TEXT; /* from the grammar, or nothing, where not written */
+        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (follows && value.written == 0))
             continue;
         if (i == TN_SET_CROSSOVER)
             value.written = 2; /* its default number is said too */

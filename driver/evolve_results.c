@@ -3,7 +3,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +10,6 @@
 #include <unistd.h>
 
 #include "driver/evolve.h"
-#include "runtime/draw/canvas.h"
-#include "runtime/draw/type.h"
 #include "runtime/gene/tree.h"
 #include "runtime/vm/file.h"
 
@@ -82,8 +79,12 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
     const char *const text[] = {individual->sentence};
     if (status == TN_OK && run->job->grower)
         status = tn_grower_draw(run->job->grower, text, 1, sentence, picture, error);
+    else if (status == TN_OK && run->job->learner)
+        status = tn_learner_draw(individual->sentence, picture, error);
     else if (status == TN_OK)
         status = draw_derivation(run, picture, individual, error);
+    if (status == TN_LIMIT)
+        status = TN_OK; /* too large to be drawn: the sentence is there */
     free(sentence);
     free(picture);
     return status;
@@ -141,127 +142,6 @@ static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size
     return status;
 }
 
-/* ---- fitness.svg */
-
-#define WIDTH 640.0
-#define HEIGHT 360.0
-#define LEFT 64.0
-#define RIGHT 150.0
-#define TOP 40.0
-#define BOTTOM 44.0
-
-typedef struct chart {
-    cairo_t *context;
-    const tn_generation_stats *stats;
-    size_t count;
-    double low, high;
-} chart;
-
-static double x_of(const chart *c, size_t i)
-{
-    double steps = c->count > 1 ? (double)(c->count - 1) : 1;
-    return LEFT + (WIDTH - LEFT - RIGHT) * (double)i / steps;
-}
-
-static double y_of(const chart *c, double value)
-{
-    return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (value - c->low) / (c->high - c->low);
-}
-
-static double value_of(const chart *c, size_t i, bool mean)
-{
-    return mean ? c->stats[i].mean : c->stats[i].best[0];
-}
-
-static void find_range(chart *c)
-{
-    bool any = false;
-    for (size_t i = 0; i < c->count; i++)
-        for (int mean = 0; mean < 2; mean++) {
-            double value = value_of(c, i, mean);
-            if (!isfinite(value) || c->stats[i].scored == 0)
-                continue;
-            c->low = !any || value < c->low ? value : c->low;
-            c->high = !any || value > c->high ? value : c->high;
-            any = true;
-        }
-    if (!(c->high > c->low))
-        c->high = c->low + 1;
-}
-
-static void draw_axes(const chart *c, const char *title)
-{
-    cairo_t *t = c->context;
-    char text[64];
-    tn_type_face(t, 12, true);
-    tn_type_fit(t, LEFT, TOP - 18, TN_ALIGN_LEFT, WIDTH - LEFT - 20, title);
-    tn_type_face(t, 9, false);
-    for (int i = 0; i <= 4; i++) {
-        double value = c->low + (c->high - c->low) * i / 4, y = y_of(c, value);
-        cairo_set_source_rgb(t, 0.85, 0.85, 0.85);
-        cairo_set_line_width(t, 0.5);
-        cairo_move_to(t, LEFT, y);
-        cairo_line_to(t, WIDTH - RIGHT, y);
-        cairo_stroke(t);
-        cairo_set_source_rgb(t, 0.2, 0.2, 0.2);
-        snprintf(text, sizeof text, "%.4g", value);
-        tn_type_line(t, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
-    }
-    tn_type_line(t, LEFT, HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, "0");
-    snprintf(text, sizeof text, "%zu", c->count ? c->count - 1 : 0);
-    tn_type_line(t, WIDTH - RIGHT, HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, text);
-    tn_type_line(t, (LEFT + WIDTH - RIGHT) / 2, HEIGHT - BOTTOM + 28, TN_ALIGN_CENTRE, "generation");
-}
-
-static void draw_curve(const chart *c, bool mean, const char *name)
-{
-    cairo_t *t = c->context;
-    bool open = false;
-    double last = 0;
-    cairo_set_source_rgb(t, mean ? 0.45 : 0.75, mean ? 0.45 : 0.1, mean ? 0.45 : 0.1);
-    cairo_set_line_width(t, mean ? 1 : 1.6);
-    for (size_t i = 0; i < c->count; i++) {
-        double value = value_of(c, i, mean);
-        if (!isfinite(value) || c->stats[i].scored == 0) {
-            open = false;
-            continue;
-        }
-        last = y_of(c, value);
-        if (open)
-            cairo_line_to(t, x_of(c, i), last);
-        else
-            cairo_move_to(t, x_of(c, i), last);
-        open = true;
-    }
-    cairo_stroke(t);
-    char text[64];
-    if (c->count == 0)
-        return;
-    snprintf(text, sizeof text, "%s %.6g", name, value_of(c, c->count - 1, mean));
-    tn_type_line(t, WIDTH - RIGHT + 6, last + (mean ? -4 : 8), TN_ALIGN_LEFT, text);
-}
-
-tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
-                      tn_error *error)
-{
-    tn_canvas_format format;
-    tn_canvas *canvas = NULL;
-    tn_canvas_options options = {.width = WIDTH, .height = HEIGHT, .title = title};
-    tn_status status = tn_canvas_format_of(path, &format, error);
-    if (status == TN_OK)
-        status = tn_canvas_new(path, format, &options, &canvas, error);
-    if (status == TN_OK) {
-        chart c = {.context = tn_canvas_context(canvas), .stats = stats, .count = count};
-        find_range(&c);
-        draw_axes(&c, title);
-        draw_curve(&c, true, "mean");
-        draw_curve(&c, false, "best");
-        status = tn_canvas_commit(canvas, error);
-    }
-    tn_canvas_free(canvas);
-    return status;
-}
-
 tn_status tn_run_results(tn_run *run, tn_error *error)
 {
     tn_generation_stats *stats = NULL;
@@ -275,7 +155,7 @@ tn_status tn_run_results(tn_run *run, tn_error *error)
     if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_run_plot(stats, count, run->job->grammar->name, plot, error);
+        status = tn_run_plot(stats, count, run->dir, plot, error);
     free(plot);
     free(stats);
     return status;

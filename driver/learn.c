@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "driver/open.h"
+#include "runtime/plan/draw_rule.h"
 #include "runtime/plan/rules.h"
 #include "runtime/plan/stream.h"
 
@@ -224,4 +225,27 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
 tn_evaluator tn_learner_evaluator(tn_learner *learner)
 {
     return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule, adjust};
+}
+
+/* ---- pictures */
+
+tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *error)
+{
+    tn_opened opened;
+    tn_schema *schema = NULL;
+    tn_picture picture = {.path = path};
+    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, strlen(sentence), false, &opened);
+    const tn_module *module = opened.module;
+    if (status != TN_OK || module->RULE_count == 0) {
+        status = tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+    } else {
+        uint32_t rule = (uint32_t)module->RULE_count - 1;
+        tn_drawn_rule drawn = tn_drawn_rule_of(module, rule);
+        status = tn_schema_new(module, module->RULE_records[rule].schema, 0, &schema, error);
+        if (status == TN_OK)
+            status = tn_rules_draw(schema, &drawn, 1, &picture, error);
+    }
+    tn_schema_free(schema);
+    tn_close(&opened);
+    return status;
 }

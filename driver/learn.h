@@ -21,4 +21,7 @@ void tn_learner_free(tn_learner *learner);
 /* Objective 0: plans judged wrongly (and the length's price); objective 1: bytes of the sentence. */
 tn_evaluator tn_learner_evaluator(tn_learner *learner);
 
+/* Draws the rule of a sentence that could be scored (runtime/plan/draw_rule.h). */
+tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *error);
+
 #endif

@@ -27,7 +27,21 @@ typedef struct drawing {
     uint32_t *depth;         /* by node; UINT32_MAX where it is not drawn */
     double width;
     uint32_t deepest;
+    uint32_t row; /* levels above the tree that is being placed */
 } drawing;
+
+/* A terminal of nothing but blanks is written as a grammar writes it. */
+static void show_blanks(char *text, size_t size)
+{
+    char shown[96];
+    size_t used = (size_t)snprintf(shown, sizeof shown, "\"");
+    for (const char *c = text; *c && used + 4 < sizeof shown; c++)
+        used += (size_t)snprintf(shown + used, sizeof shown - used, "%s",
+                                 *c == '\n'   ? "\\n"
+                                 : *c == '\t' ? "\\t"
+                                              : " ");
+    snprintf(text, size, "%s\"", shown);
+}
 
 /* What a node is called in the picture; empty for those that only say how a loop went on. */
 static void label(const drawing *d, uint32_t node, char *text, size_t size)
@@ -42,6 +56,8 @@ static void label(const drawing *d, uint32_t node, char *text, size_t size)
         snprintf(text, size, "Edge%" PRIu64, event->value);
     else if (event->kind == TN_EVENT_REPAIR)
         snprintf(text, size, "repair of Edge%" PRIu64, event->value);
+    if (text[0] && text[strspn(text, " \t\n")] == '\0')
+        show_blanks(text, size);
     for (char *c = text; *c; c++)
         if (*c == '\n' || *c == '\t')
             *c = ' ';
@@ -67,11 +83,22 @@ static void codon_text(const tn_event *event, char *text, size_t size)
         snprintf(text, size, "%" PRIu64 " mod %" PRIu64 " = %" PRIu64, event->codon, event->modulus, event->value);
 }
 
+/* Trees of rules that repair added stand one below the other. */
+static void begin_row(drawing *d)
+{
+    d->width = d->right > d->width ? d->right : d->width;
+    d->right = MARGIN;
+    d->row = d->deepest + 1;
+}
+
 /* Leaves lie side by side; a parent is centred over its children, which are moved to the right where its own label
  * wants more room than they take. */
 static void enter(void *context, uint32_t node, uint32_t depth)
 {
     drawing *d = context;
+    if (d->events[d->tree->nodes[node].event].kind == TN_EVENT_REPAIR)
+        begin_row(d);
+    depth += d->row;
     d->last = node;
     d->depth[node] = depth;
     d->left[node] = d->right;
@@ -115,7 +142,7 @@ static void place(drawing *d)
 {
     d->right = MARGIN;
     tn_tree_walk(d->tree, enter, leave, d);
-    d->width = d->right - GAP + MARGIN;
+    d->width = (d->right > d->width ? d->right : d->width) - GAP + MARGIN;
 }
 
 static double baseline(const drawing *d, uint32_t node)

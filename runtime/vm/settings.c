@@ -1,6 +1,7 @@
 #include "runtime/vm/settings.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -76,6 +77,14 @@ static void write_quoted(FILE *out, const char *text)
     fputc('"', out);
 }
 
+/* The shorter of two spellings that give the same number. */
+static void write_number(FILE *out, double number)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.15g", number);
+    fprintf(out, strtod(text, NULL) == number ? "%.15g" : "%.17g", number);
+}
+
 void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *value)
 {
     const tn_setting_row *row = &tn_setting_rows[setting];
@@ -84,10 +93,12 @@ void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *val
     switch (row->kind) {
     case TN_SETTING_WHOLE:
     case TN_SETTING_REAL:
-        fprintf(out, "%.17g", value->first);
+        write_number(out, value->first);
         return;
     case TN_SETTING_PAIR:
-        fprintf(out, "%.17g..%.17g", value->first, value->second);
+        write_number(out, value->first);
+        fputs("..", out);
+        write_number(out, value->second);
         return;
     case TN_SETTING_TEXT:
         write_quoted(out, value->text ? value->text : "");
@@ -96,8 +107,10 @@ void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *val
     case TN_SETTING_CHOICE_REAL:
         tn_setting_choice_name(row, value->choice, word);
         fputs(word, out);
-        if (value->written == 2)
-            fprintf(out, " %.17g", value->second);
+        if (value->written == 2) {
+            fputc(' ', out);
+            write_number(out, value->second);
+        }
         return;
     }
 }

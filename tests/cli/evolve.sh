@@ -106,6 +106,19 @@ printf '4 4 6\n\n' | "$TARTAN" breed hand.study -o hand2 --resume > /dev/null ||
 cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"
 "$TARTAN" runs replay hand 30 > /dev/null || fail "cannot replay a choice"
 
+# ---- interrupted where it asks: what was chosen stays, and the answer is not waited for
+mkfifo answers
+"$TARTAN" breed hand.study -o asked < answers > asked.txt &
+pid=$!
+exec 3> answers
+echo '1 2' >&3
+for i in $(seq 200); do [ -f asked/sheet-0001.svg ] && break; sleep 0.1; done
+sleep 0.5
+kill -TERM "$pid"
+wait "$pid"; [ $? -eq 130 ] || fail "an interrupted prompt does not end as interrupted"
+exec 3>&-
+"$TARTAN" runs show asked | grep -q '^ *1 ' || fail "an interrupted breeding forgets what was chosen"
+
 # ---- fitting data; evaluations that fail are counted, not fatal
 printf 'x0,x1,y\n' > data.csv
 awk 'BEGIN { for (i = 0; i < 40; i++) printf "%d,%d,%d\n", i, i % 7, i * 2 + i % 7 }' >> data.csv
@@ -143,6 +156,8 @@ cmp -s steps/run.sqlite leap/run.sqlite || fail "a changed weight is not made ag
 "$TARTAN" runs replay leap 500 > /dev/null || fail "cannot replay past a change"
 "$TARTAN" evolve learn.study -o leap --resume --set "colour 3" > /dev/null 2>&1; [ $? -eq 1 ] || fail "changes what is not there"
 "$TARTAN" check leap/best/1.plan || fail "the best rule is no rule file"
+"$TARTAN" draw leap/best/1.plan --rule learned -o leap.svg
+cmp -s leap.svg leap/best/1.svg || fail "the best rule's picture is not that of its rule"
 
 # ---- rule files bred for what they grow
 cat > garden.study <<'X'
