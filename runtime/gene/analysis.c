@@ -203,21 +203,35 @@ static void spread(const tn_grammar *g, uint32_t p, const uint32_t *component, d
     }
 }
 
+/* The productions that lead back to their own rule: few of a grammar's alternatives do. */
+static uint32_t *list_endless(const tn_grammar *g, const tn_analysis *a, size_t *count)
+{
+    uint32_t *list = malloc((g->production_count + 1) * sizeof *list);
+    *count = 0;
+    for (uint32_t p = 0; list && p < g->production_count; p++)
+        if (a->endless[p])
+            list[(*count)++] = p;
+    return list;
+}
+
 /* Power iteration on the matrix and the identity, whose largest eigenvalue is one more and which cannot swing. */
 static tn_status find_growth(const tn_grammar *g, const uint32_t *component, tn_analysis *a, tn_error *error)
 {
-    size_t n = g->rule_count;
+    size_t n = g->rule_count, endless_count;
+    uint32_t *endless = list_endless(g, a, &endless_count);
     double *now = calloc(n * 2, sizeof *now), *next = now + n, sum = 1;
-    if (!now)
+    if (!now || !endless) {
+        free(now);
+        free(endless);
         return tn_fail_memory(error);
+    }
     for (size_t r = 0; r < n; r++)
         now[r] = a->recursive[r] ? 1.0 : 0.0;
     for (int round = 0; round < GROWTH_ROUNDS; round++) {
         memcpy(next, now, n * sizeof *now);
-        for (uint32_t p = 0; p < g->production_count; p++) {
-            const tn_rule *rule = &g->rules[g->productions[p].rule];
-            if (a->endless[p])
-                spread(g, p, component, now[g->productions[p].rule] / rule->count, next);
+        for (size_t i = 0; i < endless_count; i++) {
+            uint32_t rule = g->productions[endless[i]].rule;
+            spread(g, endless[i], component, now[rule] / g->rules[rule].count, next);
         }
         double before = 0;
         sum = 0;
@@ -234,6 +248,7 @@ static tn_status find_growth(const tn_grammar *g, const uint32_t *component, tn_
         if (a->recursive[r] && (a->growing_rule == TN_NO_RECORD || now[r] > now[a->growing_rule]))
             a->growing_rule = r;
     free(now);
+    free(endless);
     return TN_OK;
 }
 
