@@ -119,19 +119,30 @@ static size_t alternative_end(const tn_format *format, size_t first, size_t last
     return i;
 }
 
-/* Comments after a bar go before it, since bars start lines. */
-static void settle_comments(tn_format *format, size_t bar, size_t last)
+/* Comments after a bar go before it, since bars start lines. False where there is none to move. */
+static bool settle_comments(tn_format *format, size_t bar, size_t last)
 {
     tn_format_token *token = &format->tokens[bar];
-    if (token->remark.text && !token->comment_count && !token[-1].remark.text) {
+    bool remark = token->remark.text && !token->comment_count && !token[-1].remark.text;
+    if (remark) {
         token[-1].remark = token->remark;
         token->remark.text = NULL;
     }
-    if (bar + 1 < last && token[1].comment_count && !token->comment_count && !token->remark.text) {
+    bool comments = bar + 1 < last && token[1].comment_count && !token->comment_count && !token->remark.text;
+    if (comments) {
         token->comments = token[1].comments;
         token->comment_count = token[1].comment_count;
         token[1].comment_count = 0;
     }
+    return remark || comments;
+}
+
+/* Bars may follow each other: a comment goes before as many as it can. */
+static void settle_all_comments(tn_format *format, size_t first, size_t last)
+{
+    for (size_t i = first; i < last; i++)
+        for (size_t bar = i; bar >= first && is_bar(format, bar) && settle_comments(format, bar, last);)
+            bar--;
 }
 
 /* Where the tokens before and after have to stay on lines of their own: line ends of the sentence; and `<a>` before
@@ -232,9 +243,7 @@ static void put_alternatives(tn_format *format, size_t first, size_t last, size_
 static void put_rule(tn_format *format, size_t first, size_t last)
 {
     size_t column = format->tokens[first].width + sizeof "::= ", body = first + 2;
-    for (size_t i = last; i-- > body;)
-        if (is_bar(format, i))
-            settle_comments(format, i, last);
+    settle_all_comments(format, body, last);
     find_breaks(format, body, last);
     if (tn_format_width(format, first, last) <= TN_FORMAT_WIDTH) {
         tn_format_flat(format, first, last);

@@ -4,13 +4,14 @@
 const vscode = require('vscode');
 const {LanguageClient} = require('vscode-languageclient/node');
 
+const languages = ['plan', 'hemls', 'study', 'bnf'];
 let client;
 
 function newClient() {
     const command = vscode.workspace.getConfiguration('tartan').get('path') || 'tartan';
     const server = {command, args: ['lsp']};
     const options = {
-        documentSelector: [{language: 'plan', scheme: 'file'}, {language: 'plan', scheme: 'untitled'}],
+        documentSelector: languages.flatMap((language) => ['file', 'untitled'].map((scheme) => ({language, scheme}))),
     };
     return new LanguageClient('tartan', 'Tartan', server, options);
 }

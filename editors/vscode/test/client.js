@@ -29,8 +29,8 @@ class Client {
         return result;
     }
 
-    open(uri, text) {
-        const document = {uri, languageId: 'plan', version: 1, text};
+    open(uri, text, languageId = 'plan') {
+        const document = {uri, languageId, version: 1, text};
         return this.connection.sendNotification(rpc.DidOpenTextDocumentNotification.type, {textDocument: document});
     }
 
@@ -51,6 +51,22 @@ class Client {
                 resolve(params.diagnostics);
             }
             return awaited;
+        }));
+    }
+
+    // The diagnostics of a version, as soon as one has this code: what rules mean is said later than what is wrong.
+    async diagnostic(uri, version, code) {
+        const found = (list) => list.find((item) => item.code === code);
+        const have = this.published.get(uri);
+        if (have && have.version === version && found(have.diagnostics)) {
+            return found(have.diagnostics);
+        }
+        return new Promise((resolve) => this.waiting.push((params) => {
+            const awaited = params.uri === uri && params.version === version && found(params.diagnostics);
+            if (awaited) {
+                resolve(awaited);
+            }
+            return Boolean(awaited);
         }));
     }
 

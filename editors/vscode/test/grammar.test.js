@@ -10,18 +10,20 @@ const textmate = require('vscode-textmate');
 
 const root = path.join(__dirname, '..');
 
-async function loadGrammar() {
-    const wasm = fs.readFileSync(require.resolve('vscode-oniguruma/release/onig.wasm'));
-    await oniguruma.loadWASM(wasm.buffer.slice(wasm.byteOffset, wasm.byteOffset + wasm.byteLength));
+let loaded;
+
+async function loadGrammar(name = 'plan') {
+    loaded = loaded || oniguruma.loadWASM(new Uint8Array(fs.readFileSync(require.resolve('vscode-oniguruma/release/onig.wasm'))).buffer);
+    await loaded;
     const registry = new textmate.Registry({
         onigLib: Promise.resolve({
             createOnigScanner: (patterns) => new oniguruma.OnigScanner(patterns),
             createOnigString: (s) => new oniguruma.OnigString(s),
         }),
         loadGrammar: async () => textmate.parseRawGrammar(
-            fs.readFileSync(path.join(root, 'syntaxes', 'plan.tmLanguage.json'), 'utf8'), 'plan.tmLanguage.json'),
+            fs.readFileSync(path.join(root, 'syntaxes', `${name}.tmLanguage.json`), 'utf8'), `${name}.tmLanguage.json`),
     });
-    return registry.loadGrammar('source.plan');
+    return registry.loadGrammar(`source.${name}`);
 }
 
 // [text, scope] of each token of the lines that has a scope of its own.
@@ -69,5 +71,105 @@ test('every word of the language that the lexer knows has a colour', async () =>
         const [token] = tokens(grammar, ['use', 'schema', 'rule', 'library', 'test'].includes(word) ? `${word} x` : ` x = ${word} `)
             .filter(([text]) => text === word);
         assert.ok(token && !token[1].startsWith('variable'), word);
+    }
+});
+
+// The scopes of a text's tokens, by the token.
+async function scopes(name, text) {
+    return new Map(tokens(await loadGrammar(name), text));
+}
+
+test('.hemls: edges, turns, words and comments', async () => {
+    const found = await scopes('hemls', `// why
+A + ~Edge1_i+1 + A
+A -> A [ + B ] A Weight 3
+Edge2 < B \u2192 \\ B / B If i < 2
+BranchAngle 12.5; Sync
+`);
+    assert.strictEqual(found.get('// why'), 'comment.line.double-slash.hemls');
+    assert.strictEqual(found.get('Edge1_i+1'), 'variable.other.edge.hemls');
+    assert.strictEqual(found.get('\u2192'), 'keyword.operator.arrow.hemls');
+    for (const word of ['Weight', 'If', 'BranchAngle', 'Sync']) {
+        assert.strictEqual(found.get(word), 'keyword.control.hemls', word);
+    }
+    for (const sign of ['+', '~', '\\', '/']) {
+        assert.strictEqual(found.get(sign), 'keyword.operator.turtle.hemls', sign);
+    }
+    assert.strictEqual(found.get('12.5'), 'constant.numeric.hemls');
+    assert.strictEqual(tokens(await loadGrammar('hemls'), 'A -> B')[0][1], 'entity.name.function.hemls');
+});
+
+test('.study: every word that the lexer knows has a colour', async () => {
+    const grammar = await loadGrammar('study');
+    const lexer = fs.readFileSync(path.join(root, '..', '..', 'grammar', 'study.l'), 'utf8');
+    const words = [...lexer.matchAll(/\{"([a-z-]+)", TN_STUDY_/g)].map((match) => match[1]);
+    assert.ok(words.length > 35);
+    for (const word of words) {
+        const [token] = tokens(grammar, ` ${word} `);
+        assert.deepStrictEqual([token[0], /^(keyword|support)/.test(token[1])], [word, true], word);
+    }
+});
+
+test('.study: numbers, texts, and the block of evolution', async () => {
+    const found = await scopes('study', `title "a \\" b" # why
+attractor at -5.6 1e-3 2
+evolution {
+  grammar "words"; depth 2..8
+  selection tournament 3
+}
+steps 3
+`);
+    assert.strictEqual(found.get('# why'), 'comment.line.number-sign.study');
+    for (const number of ['-5.6', '1e-3', '2..8', '3']) {
+        assert.strictEqual(found.get(number), 'constant.numeric.study', number);
+    }
+    for (const setting of ['grammar', 'depth', 'selection']) {
+        assert.match(found.get(setting), /^meta|variable.other.member.study/, setting);
+    }
+    assert.strictEqual(found.get('tournament'), 'constant.other.study');
+    assert.strictEqual(found.get('steps'), 'keyword.control.study');
+});
+
+test('.bnf: sentences in the one dialect, tokens in the other', async () => {
+    const sentences = await scopes('bnf', `%wraps 2
+<a> ::= x{ <b>'|' | "#" | \\x41 # why
+<b> ::= GE_RANGE:3
+`);
+    assert.strictEqual(sentences.get('%wraps'), 'keyword.control.directive.bnf');
+    assert.strictEqual(sentences.get('<a>'), 'entity.name.function.bnf');
+    assert.strictEqual(sentences.get('|'), 'keyword.operator.alternative.bnf');
+    assert.strictEqual(sentences.get("'|'"), 'string.quoted.single.bnf');
+    assert.strictEqual(sentences.get('"#"'), 'string.quoted.double.bnf');
+    assert.strictEqual(sentences.get('\\x41'), 'constant.character.escape.bnf');
+    assert.strictEqual(sentences.get('# why'), 'comment.line.number-sign.bnf');
+    assert.strictEqual(sentences.get('GE_RANGE:3'), 'support.function.range.bnf');
+    const words = await scopes('bnf', `%dialect genr8
+<a> ::= { Edge [ EdgeX ] } '[' x#y <b> -> # why
+<b> ::= <a>
+`);
+    assert.strictEqual(words.get('genr8'), 'constant.language.bnf');
+    assert.strictEqual(words.get('{'), 'keyword.operator.group.bnf');
+    assert.strictEqual(words.get('EdgeX'), 'support.type.edge.bnf');
+    assert.strictEqual(words.get("'['"), 'string.quoted.bnf');
+    assert.strictEqual(words.get('x#y'), 'string.unquoted.bnf');
+    assert.strictEqual(words.get('# why'), 'comment.line.number-sign.bnf');
+    assert.strictEqual(words.get('->'), 'string.unquoted.bnf');
+});
+
+test('the standard library is coloured throughout', async () => {
+    const stdlib = path.join(root, '..', '..', 'stdlib');
+    for (const file of fs.readdirSync(stdlib)) {
+        const name = path.extname(file).slice(1);
+        const grammar = await loadGrammar(name);
+        let stack = textmate.INITIAL;
+        for (const line of fs.readFileSync(path.join(stdlib, file), 'utf8').split('\n')) {
+            const result = grammar.tokenizeLine(line, stack);
+            stack = result.ruleStack;
+            for (const token of result.tokens) {
+                const text = line.slice(token.startIndex, token.endIndex);
+                const plain = name === 'bnf' || !/[\p{L}\p{N}"#~+]/u.test(text) || token.scopes.length > 1;
+                assert.ok(plain, `${file}: \`${text}\` in \`${line}\``);
+            }
+        }
     }
 });

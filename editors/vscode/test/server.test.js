@@ -19,11 +19,11 @@ library cabins "cabins" using lahave {
 test cabins { drop [4' | 8'] by corridor-end }
 `;
 
-async function session(uri, content, run) {
+async function session(uri, content, run, language = 'plan') {
     const client = new Client();
     try {
         await client.start();
-        await client.open(uri, content);
+        await client.open(uri, content, language);
         await run(client);
         assert.strictEqual(await client.stop(), 0);
     } finally {
@@ -146,12 +146,81 @@ test('files that are not saved count where another uses them', async () => {
     fs.rmSync(folder, {recursive: true});
 });
 
+// Of each notation: a text, what is said of it, its outline, its layout.
+const notations = {
+    hemls: {
+        text: 'A+B+A\nA->A[+B A\n// why\nANGLE 90;',
+        code: 'E1007',
+        outline: ['A+B+A', 'A', 'ANGLE'],
+        layout: 'A + B + A\nA -> A [ + B A\n// why\nAngle 90\n',
+    },
+    study: {
+        text: 'rules "sqare" # why\nattractor at 1 2 3 attractor at 10 2.5 3\nfitness size target 8',
+        code: 'E0101',
+        outline: ['rules', 'attractor', 'attractor', 'fitness size'],
+        layout: 'rules "sqare"  # why\nattractor at  1 2   3\nattractor at 10 2.5 3\nfitness size target 8\n',
+    },
+    bnf: {
+        text: '%dialect   ge\n<a> ::= x<c>|\n y',
+        code: 'E1204',
+        outline: ['%dialect   ge', '<a>'],
+        layout: '%dialect ge\n\n<a> ::= x<c> | y\n',
+    },
+};
+
+for (const [name, {text: content, code, outline, layout}] of Object.entries(notations)) {
+    for (const uri of [`file:///nowhere/a.${name}`, 'untitled:a']) {
+        test(`.${name}: diagnostics, outline and formatting (${uri.split(':')[0]})`, async () => {
+            await session(uri, content, async (client) => {
+                assert.ok((await client.diagnostics(uri, 1)).some((item) => item.code === code), code);
+                const symbols = await client.ask(rpc.DocumentSymbolRequest.type, uri);
+                assert.deepStrictEqual(symbols.map((item) => item.name), outline);
+                const edits = await client.ask(rpc.DocumentFormattingRequest.type, uri, {options: {tabSize: 2, insertSpaces: true}});
+                assert.strictEqual(apply(content, edits), layout);
+                assert.strictEqual(await client.ask(rpc.HoverRequest.type, uri, {position: {line: 0, character: 0}}), null);
+            }, name);
+        });
+    }
+}
+
+test('a study with a block of evolution has its settings in the outline', async () => {
+    const uri = 'file:///nowhere/a.study';
+    await session(uri, 'evolution {\n  grammar "words"\n  match "x"\n}\n', async (client) => {
+        assert.deepStrictEqual(await client.diagnostics(uri, 1), []);
+        const [block] = await client.ask(rpc.DocumentSymbolRequest.type, uri);
+        assert.deepStrictEqual([block.name, block.children.map((item) => item.name)], ['evolution', ['grammar', 'match']]);
+        assert.deepStrictEqual(await client.ask(rpc.DocumentFormattingRequest.type, uri, {options: {tabSize: 2, insertSpaces: true}}), []);
+    }, 'study');
+});
+
+test('what rules mean is said when typing pauses, with a fix that allows it', async () => {
+    const uri = 'file:///nowhere/meaning.plan';
+    const content = 'use "lahave"\nrule wide = tray(12\') or tray(8\')\nrule never = tray(8\') and not tray(8\')\nrule one = tray(8\')\n';
+    await session(uri, content, async (client) => {
+        const found = await client.diagnostic(uri, 1, 'W001');
+        assert.strictEqual(found.severity, 2);
+        assert.strictEqual(found.range.start.line, 2);
+        const actions = await client.ask(rpc.CodeActionRequest.type, uri, {range: found.range, context: {diagnostics: [found]}});
+        const allow = actions.find((action) => action.title === 'Allow W001 in never');
+        const allowed = apply(content, allow.edit.changes[uri]);
+        assert.match(allowed, /rule never allow W001 = /);
+        const subsumed = await client.diagnostic(uri, 1, 'W003');
+        assert.match(subsumed.message, /note: only `wide` matches: /);
+        assert.match(subsumed.relatedInformation[0].message, /`wide` is here/);
+        const hover = await client.ask(rpc.HoverRequest.type, uri, {position: at(content, 'wide')});
+        assert.match(hover.contents.value, /subsumes \(matches all that they match\): `one`/);
+        await client.change(uri, 2, [{text: allowed}]);
+        await client.diagnostic(uri, 2, 'W003');
+        assert.ok(!client.published.get(uri).diagnostics.some((item) => item.code === 'W001'));
+    });
+});
+
 test('the standard library has nothing to complain about', async () => {
     const client = new Client();
     await client.start();
-    for (const name of fs.readdirSync(stdlib).filter((file) => file.endsWith('.plan'))) {
+    for (const name of fs.readdirSync(stdlib)) {
         const uri = pathToFileURL(path.join(stdlib, name)).href;
-        await client.open(uri, fs.readFileSync(path.join(stdlib, name), 'utf8'));
+        await client.open(uri, fs.readFileSync(path.join(stdlib, name), 'utf8'), path.extname(name).slice(1));
         assert.deepStrictEqual(await client.diagnostics(uri, 1), [], name);
         assert.deepStrictEqual(await client.ask(rpc.DocumentFormattingRequest.type, uri, {options: {tabSize: 2, insertSpaces: true}}), [], name);
     }
