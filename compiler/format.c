@@ -96,6 +96,36 @@ static const format_notation notations[TN_NOTATION_COUNT] = {
 
 /* ---- one text */
 
+/* What a lexer did not leave a token for would be lost: there may be nothing but white space between tokens, and the
+ * `;` that ends a line of a .hemls file which goes on in the next. */
+static bool is_whole(const tn_source *source, const tn_tokens *tokens)
+{
+    size_t end = tn_text_mark(source->text, source->size);
+    for (size_t i = 0; i <= tokens->count; i++) {
+        size_t next = i < tokens->count ? tokens->items[i].span.begin : source->size;
+        for (; end < next; end++)
+            if (!strchr(" \t\r\n\f\v;", source->text[end]))
+                return false;
+        end = i < tokens->count ? tokens->items[i].span.end : end;
+    }
+    return true;
+}
+
+/* A byte order mark after white space would come first, and then be one. */
+static bool reports_late_mark(tn_diagnostics *diagnostics, uint32_t file)
+{
+    const char *text = diagnostics->sources->files[file].text;
+    size_t mark = tn_text_mark(text, diagnostics->sources->files[file].size);
+    size_t begin = mark + strspn(text + mark, " \t\r\n\f\v");
+    if (!tn_text_mark(text + begin, diagnostics->sources->files[file].size - begin))
+        return false;
+    tn_span span = {file, (uint32_t)begin, (uint32_t)begin + 3};
+    tn_diagnostic *d = tn_report(diagnostics, E_STRAY_CHARACTER, span,
+                                 "a byte order mark stands elsewhere than at the start of the file");
+    tn_help(diagnostics, d, "leave it out");
+    return true;
+}
+
 static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
                            const char *text, size_t size, tn_reading *read, tn_error *error)
 {
@@ -103,7 +133,7 @@ static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     tn_status status = tn_sources_add(diagnostics->sources, path, text, size, &read->file, error);
     if (status != TN_OK)
         return status;
-    if (!tn_text_check(diagnostics, read->file))
+    if (!tn_text_check(diagnostics, read->file) || reports_late_mark(diagnostics, read->file))
         return TN_INVALID;
     bool done = tn_read(arena, diagnostics, notation, read->file, read);
     if (!done || diagnostics->failed || tn_arena_failed(arena))
@@ -173,6 +203,8 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     char *laid_out;
     bool same;
     tn_status status = read_text(arena, diagnostics, notation, path, text, size, &before, error);
+    if (status == TN_OK && !is_whole(&diagnostics->sources->files[before.file], &before.tokens))
+        return tn_fail(error, TN_INTERNAL, 0, "laid out, %s would lose something: it stays as it is", path);
     if (status == TN_OK)
         status = lay_out(arena, diagnostics, notation, &before, &laid_out, formatted_size, error);
     if (status == TN_OK)

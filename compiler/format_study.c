@@ -19,6 +19,12 @@ static bool is_sign(const tn_format *format, size_t i)
            !tn_format_is(format, i - 1, ")");
 }
 
+static bool is_operator(const tn_format *format, size_t i)
+{
+    static const char *const signs[] = {"+", "-", "*", "/", NULL};
+    return tn_format_is_any(format, i, signs);
+}
+
 static size_t gap_before(const tn_format *format, size_t i)
 {
     bool tight = tn_format_is(format, i, ")") || tn_format_is(format, i, ",") || tn_format_is(format, i - 1, "(") ||
@@ -37,9 +43,10 @@ static bool starts_statement(const tn_format *format, size_t i)
     return (token->kind == TN_TOKEN_WORD && tn_study_heads(token->text, token->size)) || starts_block(format, i);
 }
 
-static bool at_word(const tn_format *format, size_t i)
+/* Where a statement that is too long is broken: before words, and before what calculates. */
+static bool at_part(const tn_format *format, size_t i)
 {
-    return format->tokens[i].kind == TN_TOKEN_WORD;
+    return format->tokens[i].kind == TN_TOKEN_WORD || (is_operator(format, i) && !is_sign(format, i));
 }
 
 static size_t statement_end(const tn_format *format, size_t first)
@@ -156,11 +163,11 @@ static void put_statement(tn_format *format, size_t first, size_t last)
     tn_format_put(format, first, 0);
     format->layout.indent = CONTINUED; /* of the lines to come */
     for (size_t begin = first + 1, end; begin < last; begin = end) {
-        for (end = begin + 1; end < last && !at_word(format, end);)
+        for (end = begin + 1; end < last && !at_part(format, end);)
             end++;
-        if (format->layout.column + 1 + tn_format_width(format, begin, end) > TN_FORMAT_WIDTH && at_word(format, begin))
+        if (format->layout.column + 1 + tn_format_width(format, begin, end) > TN_FORMAT_WIDTH && at_part(format, begin))
             tn_layout_line(&format->layout, CONTINUED);
-        tn_layout_spaces(&format->layout, format->layout.fresh ? 0 : 1);
+        tn_layout_spaces(&format->layout, format->layout.fresh ? 0 : gap_before(format, begin));
         tn_format_flat(format, begin, end);
     }
 }

@@ -281,6 +281,22 @@ static void test_study(void **state)
         "    slide\n");
 }
 
+static void test_study_expressions(void **state)
+{
+    (void)state;
+    assert_format_of(
+        "t.study",
+        "fitness slope=undulation/size target 0.2 weight 5 fitness over=max(0,-undulation - -2)*soft-boundary # why",
+        "fitness slope = undulation / size target 0.2 weight 5\n"
+        "fitness over = max(0, -undulation - -2) * soft-boundary  # why\n");
+    assert_format_of(
+        "t.study",
+        "fitness long = undulation * undulation + size * size + soft-boundary * soft-boundary - smoothness * "
+        "smoothness",
+        "fitness long = undulation * undulation + size * size + soft-boundary * soft-boundary - smoothness\n"
+        "    * smoothness\n");
+}
+
 static void test_evolution(void **state)
 {
     (void)state;
@@ -421,6 +437,7 @@ int main(void)
         cmocka_unit_test(test_tables),
         cmocka_unit_test(test_hemls),
         cmocka_unit_test(test_study),
+        cmocka_unit_test(test_study_expressions),
         cmocka_unit_test(test_evolution),
         cmocka_unit_test(test_bnf_sentences),
         cmocka_unit_test(test_bnf_tokens),

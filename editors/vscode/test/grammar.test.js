@@ -118,8 +118,11 @@ evolution {
   selection tournament 3
 }
 steps 3
+fitness slope = undulation / 7
 `);
     assert.strictEqual(found.get('# why'), 'comment.line.number-sign.study');
+    assert.strictEqual(found.get('/'), 'keyword.operator.study');
+    assert.strictEqual(found.get('undulation'), 'variable.other.study');
     for (const number of ['-5.6', '1e-3', '2..8', '3']) {
         assert.strictEqual(found.get(number), 'constant.numeric.study', number);
     }
