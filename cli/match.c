@@ -6,7 +6,6 @@
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
-#include "driver/sift.h"
 
 enum { FORMAT_NAMES, FORMAT_JSON, FORMAT_BITS };
 
@@ -20,7 +19,7 @@ typedef struct matching {
     tn_output output;
     tn_buffer line;
     char *digits; /* [count + 1]: a line of bits */
-    bool stopped; /* before the end of the plans */
+    tn_sifting sifting;
 } matching;
 
 static const char *rule_name(const void *context, size_t i)
@@ -119,39 +118,30 @@ static bool take(void *context, const tn_sifted *plan)
     if (format == FORMAT_NAMES) {
         write_names(m, plan);
     } else if (!write_object(m, plan)) {
-        tn_error error;
-        tn_fail_memory(&error);
-        tn_job_fail(m->job, &error);
-        m->stopped = true;
-        return false;
+        return tn_sifting_out_of_memory(&m->sifting);
     }
     fputc('\n', m->output.stream);
     return !ferror(m->output.stream);
 }
 
-static bool complain(void *context, const tn_error *error, const char *text, size_t size)
+static bool open_output(void *context)
 {
     matching *m = context;
-    m->stopped = !tn_job_bad_plan(m->job, m->path, error, text, size);
-    return !m->stopped;
+    return tn_job_output(m->job, m->job->settings->output, &m->output);
 }
 
 static void match_plans(matching *m)
 {
-    tn_plan_reader *reader;
-    tn_error error;
+    m->sifting = (tn_sifting){.job = m->job,
+                              .path = m->path,
+                              .schema = m->schema,
+                              .rules = m->compiled,
+                              .open = open_output,
+                              .take = take,
+                              .context = m};
     tn_job_fallbacks(m->job, m->compiled, rule_name, m);
-    if (!tn_job_reader(m->job, m->schema, m->path, &reader))
-        return;
-    if (tn_job_output(m->job, m->job->settings->output, &m->output)) {
-        tn_sift_calls calls = {m, take, complain};
-        if (tn_sift(reader, m->compiled, tn_job_threads(m->job->settings), &calls, &error) != TN_OK) {
-            tn_job_fail(m->job, &error);
-            m->stopped = true;
-        }
-        tn_job_close(m->job, &m->output, !m->stopped);
-    }
-    tn_plan_reader_free(reader);
+    if (tn_job_sift(&m->sifting))
+        tn_job_close(m->job, &m->output, !m->sifting.stopped);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)

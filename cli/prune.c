@@ -6,7 +6,6 @@
 #include "cli/option_rows.h"
 #include "cli/plan_input.h"
 #include "driver/clauses.h"
-#include "driver/sift.h"
 
 enum { FORMAT_LINES, FORMAT_JSON };
 
@@ -19,7 +18,7 @@ typedef struct pruning {
     tn_output kept, dropped;
     FILE *dropped_stream; /* NULL where nobody asked */
     tn_buffer line;
-    bool stopped; /* before the end of the plans */
+    tn_sifting sifting;
 } pruning;
 
 static const char *clause_name(const void *context, size_t i)
@@ -101,22 +100,10 @@ static bool take(void *context, const tn_sifted *plan)
     if (!stream)
         return true;
     p->line.size = 0;
-    if (!(kept ? write_kept(p, plan) : write_dropped(p, plan))) {
-        tn_error error;
-        tn_fail_memory(&error);
-        tn_job_fail(p->job, &error);
-        p->stopped = true;
-        return false;
-    }
+    if (!(kept ? write_kept(p, plan) : write_dropped(p, plan)))
+        return tn_sifting_out_of_memory(&p->sifting);
     fwrite(p->line.data, 1, p->line.size, stream);
     return !ferror(stream);
-}
-
-static bool complain(void *context, const tn_error *error, const char *text, size_t size)
-{
-    pruning *p = context;
-    p->stopped = !tn_job_bad_plan(p->job, p->path, error, text, size);
-    return !p->stopped;
 }
 
 static bool compile_clauses(pruning *p)
@@ -137,8 +124,9 @@ static bool compile_clauses(pruning *p)
 }
 
 /* Kept and dropped plans may both go to standard output, in the order they came. */
-static bool open_outputs(pruning *p)
+static bool open_outputs(void *context)
 {
+    pruning *p = context;
     const tn_settings *settings = p->job->settings;
     if (!tn_job_output(p->job, settings->output, &p->kept))
         return false;
@@ -158,21 +146,18 @@ static bool open_outputs(pruning *p)
 
 static void prune_plans(pruning *p)
 {
-    tn_plan_reader *reader;
-    tn_error error;
-    if (!tn_job_reader(p->job, p->ready.schema, p->path, &reader))
+    p->sifting = (tn_sifting){.job = p->job,
+                              .path = p->path,
+                              .schema = p->ready.schema,
+                              .rules = p->rules,
+                              .open = open_outputs,
+                              .take = take,
+                              .context = p};
+    if (!tn_job_sift(&p->sifting))
         return;
-    if (open_outputs(p)) {
-        tn_sift_calls calls = {p, take, complain};
-        if (tn_sift(reader, p->rules, tn_job_threads(p->job->settings), &calls, &error) != TN_OK) {
-            tn_job_fail(p->job, &error);
-            p->stopped = true;
-        }
-        tn_job_close(p->job, &p->kept, !p->stopped);
-        if (p->dropped.stream)
-            tn_job_close(p->job, &p->dropped, !p->stopped);
-    }
-    tn_plan_reader_free(reader);
+    tn_job_close(p->job, &p->kept, !p->sifting.stopped);
+    if (p->dropped.stream)
+        tn_job_close(p->job, &p->dropped, !p->sifting.stopped);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)

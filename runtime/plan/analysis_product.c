@@ -40,25 +40,10 @@ static tn_status copy(const tn_sparse *plans, tn_sparse **out, tn_error *error)
     return tn_sparse_minimise(plans, out, error);
 }
 
-/* *plans := those of them that the part answers as wanted. */
+/* *plans := those of them that the part answers so. */
 static tn_status apply(question *q, const tn_search_part *part, bool accepts, tn_sparse **plans, tn_error *error)
 {
-    tn_dfa_operation operation = accepts ? TN_DFA_AND : TN_DFA_MINUS;
-    tn_sparse *product = NULL, *small = NULL;
-    tn_status status;
-    if ((*plans)->folded) {
-        status = tn_sparse_fold(*plans, part->dfa, operation, "library", &q->bounds, &small, error);
-    } else {
-        status = tn_sparse_product(*plans, part->dfa, operation, "library", &q->bounds, &product, error);
-        if (status == TN_OK)
-            status = tn_sparse_minimise(product, &small, error);
-        tn_sparse_free(product);
-    }
-    if (status != TN_OK)
-        return status;
-    tn_sparse_free(*plans);
-    *plans = small;
-    return TN_OK;
+    return tn_sparse_apply(plans, part->dfa, accepts ? TN_DFA_AND : TN_DFA_MINUS, "library", &q->bounds, error);
 }
 
 /* A copy of the plans that the asked parts of [low, high) leave. */

@@ -106,16 +106,7 @@ static tn_status narrow(const tn_coverage *c, tn_sparse **sparse, const tn_dfa *
                         tn_error *error)
 {
     tn_bounds bounds = joint_bounds(c);
-    tn_sparse *product = NULL, *small = NULL;
-    tn_status status = tn_sparse_product(*sparse, clause, operation, "library", &bounds, &product, error);
-    if (status == TN_OK)
-        status = tn_sparse_minimise(product, &small, error);
-    tn_sparse_free(product);
-    if (status != TN_OK)
-        return status;
-    tn_sparse_free(*sparse);
-    *sparse = small;
-    return TN_OK;
+    return tn_sparse_apply(sparse, clause, operation, "library", &bounds, error);
 }
 
 /* The plans that the unchanged clauses leave; kept for the next part of the same rule. */

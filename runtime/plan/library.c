@@ -95,22 +95,8 @@ tn_bounds tn_library_bounds(const tn_library *library)
 tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
                            tn_bounds *bounds, tn_sparse **sparse, tn_error *error)
 {
-    tn_sparse *product = NULL, *small = NULL;
-    tn_status status;
-    if ((*sparse)->folded) {
-        const char *what = library->within ? "library, of its lengths alone," : "library";
-        status = tn_sparse_fold(*sparse, clause, operation, what, bounds, &small, error);
-    } else {
-        status = tn_sparse_product(*sparse, clause, operation, "library", bounds, &product, error);
-        if (status == TN_OK)
-            status = tn_sparse_minimise(product, &small, error);
-        tn_sparse_free(product);
-    }
-    if (status != TN_OK)
-        return status;
-    tn_sparse_free(*sparse);
-    *sparse = small;
-    return TN_OK;
+    const char *what = library->within ? "library, of its lengths alone," : "library";
+    return tn_sparse_apply(sparse, clause, operation, what, bounds, error);
 }
 
 void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)

@@ -227,21 +227,10 @@ void tn_joints_clear(tn_joints *joints)
 static void walk_joined(const tn_joint *joint, const tn_lanes *lanes, uint64_t *bits, size_t words)
 {
     const uint8_t *table = joint->table;
-    size_t stride = lanes->stride, longest = lanes->longest;
+    size_t stride = lanes->stride;
     unsigned shift = joint->shift;
 #define STEP(k) state##k = table[((size_t)rows##k[i] << shift) + state##k];
-    if (lanes->alone) {
-        START(0)
-        for (size_t i = 0; i < longest; i++)
-            STEP(0)
-        FINISH(0)
-        return;
-    }
-    TN_EACH_LANE(START)
-    for (size_t i = 0; i < longest; i++) {
-        TN_EACH_LANE(STEP)
-    }
-    TN_EACH_LANE(FINISH)
+    TN_WALK_LANES(lanes, START, STEP, FINISH)
 #undef STEP
 }
 
@@ -250,19 +239,8 @@ static void walk_joined(const tn_joint *joint, const tn_lanes *lanes, uint64_t *
     {                                                                                                                  \
         const TYPE *table = joint->table;                                                                              \
         const uint32_t *column = joint->column;                                                                        \
-        size_t stride = lanes->stride, longest = lanes->longest;                                                       \
-        if (lanes->alone) {                                                                                            \
-            START(0)                                                                                                   \
-            for (size_t i = 0; i < longest; i++)                                                                       \
-                STEP(0)                                                                                                \
-            FINISH(0)                                                                                                  \
-            return;                                                                                                    \
-        }                                                                                                              \
-        TN_EACH_LANE(START)                                                                                            \
-        for (size_t i = 0; i < longest; i++) {                                                                         \
-            TN_EACH_LANE(STEP)                                                                                         \
-        }                                                                                                              \
-        TN_EACH_LANE(FINISH)                                                                                           \
+        size_t stride = lanes->stride;                                                                                 \
+        TN_WALK_LANES(lanes, START, STEP, FINISH)                                                                      \
     }
 #define STEP(k) state##k = table[state##k + column[rows##k[i]]];
 DEFINE_WALK_ALONE(walk_alone_16, uint16_t)

@@ -17,6 +17,23 @@
 /* DO(k) for each lane: written out, so that the lanes' states are in registers. */
 #define TN_EACH_LANE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 
+/* Walks `lanes` to the end of the longest plan: START(k) and FINISH(k) for each lane, between them STEP(k) for tray
+ * `i`. */
+#define TN_WALK_LANES(lanes, START, STEP, FINISH)                                                                      \
+    if ((lanes)->alone) {                                                                                              \
+        START(0)                                                                                                       \
+        for (size_t i = 0; i < (lanes)->longest; i++)                                                                  \
+            STEP(0)                                                                                                    \
+        FINISH(0)                                                                                                      \
+    } else {                                                                                                           \
+        size_t longest = (lanes)->longest;                                                                             \
+        TN_EACH_LANE(START)                                                                                            \
+        for (size_t i = 0; i < longest; i++) {                                                                         \
+            TN_EACH_LANE(STEP)                                                                                         \
+        }                                                                                                              \
+        TN_EACH_LANE(FINISH)                                                                                           \
+    }
+
 /* What the tables of the matchers have a row for: each tray, or where those are many, each class of trays. One row more
  * stands for padding. */
 typedef struct tn_row_map {

@@ -133,7 +133,7 @@ walk_avx512(const tn_shuffle *vector, const tn_lanes *lanes, uint64_t *bits, siz
 {
     const tn_shuffle_block block = vector->blocks[0];
     const uint8_t *table = vector->table;
-    size_t stride = lanes->stride, longest = lanes->longest;
+    size_t stride = lanes->stride;
 #define START(k)                                                                                                       \
     __m512i state##k = _mm512_loadu_si512(vector->start);                                                              \
     const uint32_t *rows##k = lanes->rows + (k)*stride;
@@ -142,18 +142,7 @@ walk_avx512(const tn_shuffle *vector, const tn_lanes *lanes, uint64_t *bits, siz
     bits[(k)*words + block.word] |= (_mm512_movepi8_mask(_mm512_permutexvar_epi8(state##k, accept)) & block.used)      \
                                     << block.bit;
     __m512i accept = _mm512_loadu_si512(vector->accept);
-    if (lanes->alone) {
-        START(0)
-        for (size_t i = 0; i < longest; i++)
-            STEP(0)
-        FINISH(0)
-        return;
-    }
-    TN_EACH_LANE(START)
-    for (size_t i = 0; i < longest; i++) {
-        TN_EACH_LANE(STEP)
-    }
-    TN_EACH_LANE(FINISH)
+    TN_WALK_LANES(lanes, START, STEP, FINISH)
 #undef START
 #undef STEP
 #undef FINISH
@@ -165,7 +154,7 @@ __attribute__((target("avx2"))) static void walk_avx2(const tn_shuffle *vector, 
 {
     const tn_shuffle_block low = vector->blocks[0], high = vector->blocks[1];
     const uint8_t *table = vector->table;
-    size_t stride = lanes->stride, longest = lanes->longest;
+    size_t stride = lanes->stride;
 #define START(k)                                                                                                       \
     __m256i state##k = _mm256_loadu_si256((const __m256i *)vector->start);                                             \
     const uint32_t *rows##k = lanes->rows + (k)*stride;
@@ -178,18 +167,7 @@ __attribute__((target("avx2"))) static void walk_avx2(const tn_shuffle *vector, 
         bits[(k)*words + high.word] |= (found & high.used) >> 16 << high.bit;                                          \
     }
     __m256i accept = _mm256_loadu_si256((const __m256i *)vector->accept);
-    if (lanes->alone) {
-        START(0)
-        for (size_t i = 0; i < longest; i++)
-            STEP(0)
-        FINISH(0)
-        return;
-    }
-    TN_EACH_LANE(START)
-    for (size_t i = 0; i < longest; i++) {
-        TN_EACH_LANE(STEP)
-    }
-    TN_EACH_LANE(FINISH)
+    TN_WALK_LANES(lanes, START, STEP, FINISH)
 #undef START
 #undef STEP
 #undef FINISH

@@ -52,6 +52,11 @@ tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation o
 /* The same language with the fewest states, columns merged (sparse_minimise.c). Of what is folded: a copy. */
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error);
 
+/* *sparse := what of it b accepts (TN_DFA_AND) or does not (TN_DFA_MINUS), minimal: by folding where it is folded, else
+ * by product and minimising. */
+tn_status tn_sparse_apply(tn_sparse **sparse, const tn_dfa *b, tn_dfa_operation operation, const char *what,
+                          tn_bounds *bounds, tn_error *error);
+
 /* Pairs of columns of two automata that some letter has, numbered in the order of first letters. Free with
  * tn_splits_clear, also after a failure. */
 typedef struct tn_split {

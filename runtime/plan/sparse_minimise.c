@@ -258,3 +258,23 @@ tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error 
     *out = made;
     return status;
 }
+
+tn_status tn_sparse_apply(tn_sparse **sparse, const tn_dfa *b, tn_dfa_operation operation, const char *what,
+                          tn_bounds *bounds, tn_error *error)
+{
+    tn_sparse *product = NULL, *small = NULL;
+    tn_status status;
+    if ((*sparse)->folded) {
+        status = tn_sparse_fold(*sparse, b, operation, what, bounds, &small, error);
+    } else {
+        status = tn_sparse_product(*sparse, b, operation, what, bounds, &product, error);
+        if (status == TN_OK)
+            status = tn_sparse_minimise(product, &small, error);
+        tn_sparse_free(product);
+    }
+    if (status != TN_OK)
+        return status;
+    tn_sparse_free(*sparse);
+    *sparse = small;
+    return TN_OK;
+}
