@@ -1,5 +1,10 @@
 # cpack: a Debian package. Configure with -DCMAKE_INSTALL_PREFIX=/usr for it, as `make package` does, so that libraries go where Debian has them.
-set(TARTAN_MAINTAINER "The Tartan authors <tartan@localhost>" CACHE STRING "Maintainer that the Debian package names")
+# Who packages it: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or -DTARTAN_MAINTAINER. A name in .invalid is nobody's (RFC 2606).
+set(maintainer "The Tartan authors <authors@tartan.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(TARTAN_MAINTAINER "${maintainer}" CACHE STRING "Maintainer that the Debian package names")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tartan)
 set(CPACK_PACKAGE_CONTACT "${TARTAN_MAINTAINER}")
