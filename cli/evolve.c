@@ -45,6 +45,9 @@ static void evolve(tn_evolution_session *e)
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK) {
         tn_job_fail(e->command, &error);
+    } else if (e->run.new_changes) {
+        tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
+                    e->run.generations);
     } else if (tn_interrupted()) {
         tn_job_note(e->command, "interrupted after %u generations; --resume goes on from there", e->run.generations);
         e->command->exit_code = TN_EXIT_INTERRUPTED;

@@ -8,19 +8,35 @@
 #include "cli/option_rows.h"
 #include "driver/evolve.h"
 
-static bool read_run(tn_job *job, const char *dir, tn_generation_stats **stats, size_t *count, char **identity)
+/* What a run's database says of it. */
+typedef struct record {
+    tn_generation_stats *stats;
+    size_t count;
+    tn_run_event *events;
+    size_t event_count;
+    char *identity; /* NULL: not begun */
+} record;
+
+static void clear_record(record *r)
+{
+    free(r->stats);
+    free(r->identity);
+    tn_run_events_free(r->events, r->event_count);
+}
+
+static bool read_run(tn_job *job, const char *dir, record *r)
 {
     tn_run_store *store = NULL;
     tn_error error;
     char *path = tn_run_database(dir);
+    *r = (record){0};
     tn_status status = path ? tn_run_store_open(path, false, true, &store, &error) : tn_fail_memory(&error);
-    *stats = NULL;
-    *identity = NULL;
-    *count = 0;
     if (status == TN_OK)
-        status = tn_run_store_get_meta(store, "identity", identity, &error);
+        status = tn_run_store_get_meta(store, "identity", &r->identity, &error);
     if (status == TN_OK)
-        status = tn_run_store_stats(store, stats, count, &error);
+        status = tn_run_store_stats(store, &r->stats, &r->count, &error);
+    if (status == TN_OK)
+        status = tn_run_store_events(store, &r->events, &r->event_count, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_run_store_free(store);
@@ -28,22 +44,32 @@ static bool read_run(tn_job *job, const char *dir, tn_generation_stats **stats, 
     return status == TN_OK;
 }
 
+/* What a person decided before a generation was bred. */
+static void show_events(const record *r, uint32_t generation, FILE *out)
+{
+    for (size_t i = 0; i < r->event_count; i++)
+        if (r->events[i].generation == generation)
+            fprintf(out, "           %s %s\n",
+                    strcmp(r->events[i].kind, "set") == 0 ? "changed:" : "chosen:", r->events[i].text);
+}
+
 static void show(tn_job *job, const char *dir, FILE *out)
 {
-    tn_generation_stats *stats;
-    size_t count;
-    char *identity;
-    if (read_run(job, dir, &stats, &count, &identity)) {
-        fprintf(out, "%s: %s\n", dir, identity ? identity : "not begun");
+    record r;
+    if (read_run(job, dir, &r)) {
+        fprintf(out, "%s%s\n", dir, r.identity ? "" : ": not begun");
+        for (const char *line = r.identity; line && *line; line += strcspn(line, "\n") + 1)
+            fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
         fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
                 "evaluations", "births");
-        for (size_t i = 0; i < count; i++)
-            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", stats[i].generation,
-                    stats[i].best[0], stats[i].mean, stats[i].distinct,
-                    stats[i].no_sentence + stats[i].failed + stats[i].limited, stats[i].evaluations, stats[i].births);
+        for (size_t i = 0; i < r.count; i++) {
+            const tn_generation_stats *s = &r.stats[i];
+            show_events(&r, s->generation, out);
+            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", s->generation, s->best[0], s->mean,
+                    s->distinct, s->no_sentence + s->failed + s->limited, s->evaluations, s->births);
+        }
     }
-    free(stats);
-    free(identity);
+    clear_record(&r);
 }
 
 /* One run a line: where each came, and after how many evaluations it first had its best. */
@@ -53,21 +79,19 @@ static void compare(tn_job *job, FILE *out)
     fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations",
             "best first at");
     for (size_t d = 1; d < dirs->count; d++) {
-        tn_generation_stats *stats;
-        size_t count, first = 0;
-        char *identity;
-        bool read = read_run(job, dirs->items[d], &stats, &count, &identity);
-        if (read && count == 0)
+        record r;
+        size_t first = 0;
+        bool read = read_run(job, dirs->items[d], &r);
+        if (read && r.count == 0)
             fprintf(out, "%-30s %10s\n", dirs->items[d], "none");
-        if (read && count) {
-            const tn_generation_stats *last = &stats[count - 1];
-            while (first + 1 < count && stats[first].best[0] > last->best[0])
+        if (read && r.count) {
+            const tn_generation_stats *last = &r.stats[r.count - 1];
+            while (first + 1 < r.count && r.stats[first].best[0] > last->best[0])
                 first++;
             fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation,
-                    last->best[0], last->mean, last->evaluations, stats[first].generation);
+                    last->best[0], last->mean, last->evaluations, r.stats[first].generation);
         }
-        free(stats);
-        free(identity);
+        clear_record(&r);
     }
 }
 

@@ -31,7 +31,7 @@ typedef struct tn_evolution_job {
     tn_genome *seeds;
     size_t seed_count;
     char *seeds_text;      /* the file that they are from, or NULL */
-    char *identity;        /* all that decides what the run does, in words */
+    char *identity;        /* all that decides what the run does, a setting a line */
     const char *extension; /* of the files of best/ */
 } tn_evolution_job;
 

@@ -85,7 +85,8 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     out->threads = options->threads ? options->threads : tn_crew_default();
 }
 
-/* Everything that decides what the run does, but for how long: two runs of one identity are the same run. */
+/* Everything that decides what the run does, but for how long, a setting a line: two runs of one identity are the same
+ * run. */
 static char *identity_of(const tn_evolution_job *job)
 {
     char *text = NULL;
@@ -101,11 +102,11 @@ static char *identity_of(const tn_evolution_job *job)
             continue;
         if (i == TN_SET_CROSSOVER)
             value.written = 2; /* its default number is said too */
-        fputs(i ? " " : "", out);
         if (i == TN_SET_SEED)
             fprintf(out, "seed %" PRIu64, job->settings.seed);
         else
             tn_setting_write(out, i, &value);
+        fputc('\n', out);
     }
     bool written = !ferror(out);
     if (fclose(out) == 0 && written)

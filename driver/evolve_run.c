@@ -50,13 +50,39 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
     return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
 }
 
-static tn_status same_as_stored(tn_run *run, const char *key, const char *now, const char *what, tn_error *error)
+static void start_anew(tn_error *error)
+{
+    tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+}
+
+/* The identity has a setting a line: the first that differs is named. */
+static tn_status same_study(tn_run *run, tn_error *error)
 {
     char *stored;
-    tn_status status = tn_run_store_get_meta(run->store, key, &stored, error);
+    tn_status status = tn_run_store_get_meta(run->store, "identity", &stored, error);
+    const char *was = stored ? stored : "", *is = run->job->identity;
+    if (status == TN_OK && strcmp(was, is) != 0) {
+        while (strcspn(was, "\n") == strcspn(is, "\n") && *was && strncmp(was, is, strcspn(is, "\n") + 1) == 0) {
+            size_t line = strcspn(is, "\n") + 1;
+            was += line;
+            is += line;
+        }
+        status = tn_fail(error, TN_INVALID, 1252,
+                         "the run in %.100s was started with another study: it has `%.*s`, and this one `%.*s`",
+                         run->dir, (int)strcspn(was, "\n"), was, (int)strcspn(is, "\n"), is);
+        start_anew(error);
+    }
+    free(stored);
+    return status;
+}
+
+static tn_status same_grammar(tn_run *run, const char *now, tn_error *error)
+{
+    char *stored;
+    tn_status status = tn_run_store_get_meta(run->store, "grammar", &stored, error);
     if (status == TN_OK && (!stored || strcmp(stored, now) != 0)) {
-        status = tn_fail(error, TN_INVALID, 1252, "the run in %.200s was started with another %s", run->dir, what);
-        tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+        status = tn_fail(error, TN_INVALID, 1252, "the run in %.200s was started with another grammar", run->dir);
+        start_anew(error);
     }
     free(stored);
     return status;
@@ -215,34 +241,33 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
     return status;
 }
 
-/* Where there is a database but no meta in it, the run was killed while it began: then it begins again. */
+static tn_status begin_new(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
+                           tn_error *error)
+{
+    tn_status status = tn_run_store_create(path, options->durable, &run->store, error);
+    return status == TN_OK ? put_meta(run, texts, error) : status;
+}
+
+/* What was killed while it began begins again. */
 static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
                                tn_error *error)
 {
-    bool there = access(path, F_OK) == 0;
-    if (!options->resume || !there) {
-        tn_status status = tn_run_store_create(path, options->durable, &run->store, error);
-        return status == TN_OK ? put_meta(run, texts, error) : status;
-    }
-    char *identity = NULL;
-    tn_status status = tn_run_store_open(path, options->durable, false, &run->store, error);
-    if (status == TN_OK && tn_run_store_get_meta(run->store, "identity", &identity, NULL) == TN_OK && identity) {
-        status = same_as_stored(run, "identity", run->job->identity, "study", error);
-        if (status == TN_OK)
-            status = same_as_stored(run, "grammar", texts->grammar_text, "grammar", error);
-        if (status == TN_OK)
-            status = repeat(run, UINT64_MAX, error);
-    } else {
-        tn_run_store_free(run->store);
-        run->store = NULL;
-        if (unlink(path) != 0)
-            return tn_fail(error, TN_IO, 902, "cannot begin %.200s again: %s", path, strerror(errno));
-        status = tn_run_store_create(path, options->durable, &run->store, error);
-        if (status == TN_OK)
-            status = put_meta(run, texts, error);
-    }
-    free(identity);
-    return status;
+    bool begun;
+    if (!options->resume || access(path, F_OK) != 0)
+        return begin_new(run, path, options, texts, error);
+    tn_status status = tn_run_store_begun(path, &begun, error);
+    if (status != TN_OK)
+        return status;
+    if (!begun && unlink(path) != 0)
+        return tn_fail(error, TN_IO, 902, "cannot begin %.200s again: %s", path, strerror(errno));
+    if (!begun)
+        return begin_new(run, path, options, texts, error);
+    status = tn_run_store_open(path, options->durable, false, &run->store, error);
+    if (status == TN_OK)
+        status = same_study(run, error);
+    if (status == TN_OK)
+        status = same_grammar(run, texts->grammar_text, error);
+    return status == TN_OK ? repeat(run, UINT64_MAX, error) : status;
 }
 
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,

@@ -35,6 +35,17 @@ void tn_run_store_free(tn_run_store *store)
     free(store);
 }
 
+static tn_status cannot_open(const char *path, int flags, const tn_run_store *store, tn_error *error)
+{
+    if (!(flags & SQLITE_OPEN_CREATE) && access(path, F_OK) != 0) {
+        tn_fail(error, TN_IO, 901, "there is no run: no file %.200s", path);
+        tn_error_help(error, "name the folder that `tartan evolve` made, as hello.run");
+        return TN_IO;
+    }
+    return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path,
+                   sqlite3_errmsg(store->db));
+}
+
 static tn_status open_at(const char *path, int flags, bool durable, tn_run_store **store, tn_error *error)
 {
     tn_run_store *s = calloc(1, sizeof *s);
@@ -42,8 +53,7 @@ static tn_status open_at(const char *path, int flags, bool durable, tn_run_store
     if (!s)
         return tn_fail_memory(error);
     if (sqlite3_open_v2(path, &s->db, flags, NULL) != SQLITE_OK)
-        return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path,
-                       sqlite3_errmsg(s->db));
+        return cannot_open(path, flags, s, error);
     sqlite3_busy_timeout(s->db, 5000);
     return run(s, durable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF", error);
 }
@@ -105,6 +115,26 @@ tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_r
     if (status == TN_OK && !read_only)
         status = prepare_writing(*store, error);
     return done(store, status);
+}
+
+tn_status tn_run_store_begun(const char *path, bool *begun, tn_error *error)
+{
+    int64_t tables = 0, id = 0, rows = 0;
+    tn_run_store *store = NULL;
+    tn_status status = open_at(path, SQLITE_OPEN_READWRITE, false, &store, error);
+    if (status == TN_OK)
+        status = query_number(store, "SELECT count(*) FROM sqlite_master", &tables, error);
+    if (status == TN_OK && tables > 0)
+        status = query_number(store, "PRAGMA application_id", &id, error);
+    if (status == TN_OK && tables > 0 && id != APPLICATION_ID)
+        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
+    if (status == TN_OK && tables > 0)
+        status = query_number(store, "SELECT count(*) FROM meta", &rows, error);
+    if (status == TN_INVALID)
+        tn_error_help(error, "--resume leaves it as it is; -o DIR starts another run");
+    *begun = rows > 0;
+    tn_run_store_free(store);
+    return status;
 }
 
 /* ---- meta */

@@ -27,6 +27,10 @@ tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **sto
 tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error);
 void tn_run_store_free(tn_run_store *store);
 
+/* Does the file hold a run that has begun, or one that was killed before it did? TN_INVALID (E1251) where it is
+ * something else, or damaged. */
+tn_status tn_run_store_begun(const char *path, bool *begun, tn_error *error);
+
 /* All meta values are written in one transaction, before the first generation. */
 tn_status tn_run_store_put_meta(tn_run_store *store, const char *const *keys, const char *const *values, size_t count,
                                 tn_error *error);

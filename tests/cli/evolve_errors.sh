@@ -36,4 +36,14 @@ golden set_nothing "cd $scratch && tartan evolve hello.study -o other && tartan 
 golden twice "cd $scratch && tartan evolve hello.study -o other"
 golden folder "cd $scratch && tartan evolve hello.study -o genomes/there"
 golden run_file "cd $scratch && tartan evolve hello.study -o genomes"
+golden other_seed "cd $scratch && tartan evolve hello.study -o other --resume --seed 9"
+golden no_run "cd $scratch && tartan runs show nowhere"
+mkdir damaged
+printf 'garbage' >damaged/run.sqlite
+golden damaged "cd $scratch && tartan evolve hello.study -o damaged --resume"
+[ "$(cat damaged/run.sqlite)" = garbage ] || fail "--resume throws away what is no run"
+: >damaged/run.sqlite # as a run that is killed at once leaves it
+"$TARTAN" evolve hello.study -o damaged --resume >/dev/null || fail "a run that was killed while it began does not begin again"
+printf '3 3 1\n\n' | "$TARTAN" breed hello.study -o chosen >/dev/null
+golden chosen "cd $scratch && tartan runs show chosen"
 finish
