@@ -10,13 +10,17 @@ typedef struct gathering {
     size_t count, capacity;
 } gathering;
 
+/* Takes over its texts. */
 static bool add(gathering *g, tn_drawn_reason reason)
 {
     if (g->count == g->capacity) {
         size_t capacity = g->capacity * 2 + 32;
         tn_drawn_reason *larger = realloc(g->reasons, capacity * sizeof *larger);
-        if (!larger)
+        if (!larger) {
+            free((char *)(uintptr_t)reason.text);
+            free((char *)(uintptr_t)reason.evidence);
             return false;
+        }
         g->reasons = larger;
         g->capacity = capacity;
     }
@@ -42,18 +46,18 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
         reason.partly = node->run;
     if (node->closest != TN_NO_WHY)
         reason.lacking = (tn_stretch){node->closest, node->closest + 1};
-    return add(g, reason);
+    return add(g, reason) && !evidence.failed;
 }
 
 static bool add_rule(gathering *g, const tn_explained_rule *rule, bool full)
 {
-    tn_explain_rows rows;
+    tn_explain_rows rows = {0};
     tn_buffer evidence = {0};
     tn_buffer_printf(&evidence, "%s", rule->doc);
     bool ok = add(
         g, (tn_drawn_reason){
                .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = rule->drops});
-    ok = ok && tn_explain_rows_make(&rule->why, full, &rows);
+    ok = ok && !evidence.failed && tn_explain_rows_make(&rule->why, full, &rows);
     for (uint32_t i = 0; ok && i < rows.count; i++)
         ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i]);
     tn_explain_rows_clear(&rows);
@@ -81,8 +85,9 @@ tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
     const tn_drawn_plan plan = {explained->trays, explained->length, NULL, NULL};
-    tn_status status = ok ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
-                          : tn_fail_memory(error);
+    tn_status status = ok && !title.failed
+                           ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
+                           : tn_fail_memory(error);
     for (size_t i = 0; i < g.count; i++) {
         free((char *)(uintptr_t)g.reasons[i].text);
         free((char *)(uintptr_t)g.reasons[i].evidence);

@@ -16,10 +16,11 @@ static json_t *stretch_json(tn_stretch stretch)
     return json_pack("[i,i]", (int)stretch.begin + 1, (int)stretch.end);
 }
 
-/* The words of a buffer; frees it. */
-static json_t *take(tn_buffer *words)
+/* The words of a buffer; frees it. *ok = false where it does not have them all. */
+static json_t *take(tn_buffer *words, bool *ok)
 {
     json_t *made = string(words->data);
+    *ok = *ok && !words->failed;
     free(words->data);
     return made;
 }
@@ -46,7 +47,7 @@ static void set_place(json_t *made, const tn_explained *explained, const tn_expl
     json_object_set_new(made, "column", json_integer((json_int_t)place.column));
 }
 
-static json_t *node_json(const tn_explained *explained, const tn_explanation *why, uint32_t index)
+static json_t *node_json(const tn_explained *explained, const tn_explanation *why, uint32_t index, bool *ok)
 {
     const tn_why *node = &why->nodes[index];
     const tn_part *part = tn_why_part(why, node);
@@ -62,7 +63,7 @@ static json_t *node_json(const tn_explained *explained, const tn_explanation *wh
         json_array_append_new(trays, stretch_json(why->stretches[node->stretch_first + i]));
     json_object_set_new(made, "trays", trays);
     tn_words_evidence(why, node, &evidence);
-    json_object_set_new(made, "evidence", take(&evidence));
+    json_object_set_new(made, "evidence", take(&evidence, ok));
     if (node->mirrored)
         json_object_set_new(made, "mirrored", json_true());
     if (node->absent)
@@ -78,7 +79,7 @@ static json_t *node_json(const tn_explained *explained, const tn_explanation *wh
     if (node->closest != TN_NO_WHY) {
         tn_words_wrong(why, node, &wrong);
         json_object_set_new(made, "closest",
-                            json_pack("{s:i,s:o}", "tray", (int)node->closest + 1, "wrong", take(&wrong)));
+                            json_pack("{s:i,s:o}", "tray", (int)node->closest + 1, "wrong", take(&wrong, ok)));
     }
     if (part->kind == TN_PART_DISTANCE) {
         json_t *gaps = json_array();
@@ -90,13 +91,14 @@ static json_t *node_json(const tn_explained *explained, const tn_explanation *wh
 }
 
 /* The tree, made from its last node backwards: every node has a lower number than what is below it. */
-static json_t *tree_json(const tn_explained *explained, const tn_explanation *why)
+static json_t *tree_json(const tn_explained *explained, const tn_explanation *why, bool *ok)
 {
     json_t **made = calloc((size_t)why->node_count + 1, sizeof *made);
+    *ok = *ok && made;
     if (!made)
         return NULL;
     for (uint32_t i = why->node_count; i-- > 0;) {
-        made[i] = node_json(explained, why, i);
+        made[i] = node_json(explained, why, i, ok);
         json_t *parts = json_array();
         for (uint32_t child = why->nodes[i].first; child != TN_NO_WHY; child = why->nodes[child].next)
             json_array_append_new(parts, made[child]);
@@ -107,7 +109,7 @@ static json_t *tree_json(const tn_explained *explained, const tn_explanation *wh
     return root;
 }
 
-static json_t *rule_json(const tn_explained *explained, const tn_explained_rule *rule)
+static json_t *rule_json(const tn_explained *explained, const tn_explained_rule *rule, bool *ok)
 {
     static const char *const kinds[] = {"require", "total", "prune"};
     json_t *made = json_object();
@@ -117,18 +119,18 @@ static json_t *rule_json(const tn_explained *explained, const tn_explained_rule 
     json_object_set_new(made, "matches", json_boolean(rule->holds));
     if (rule->clause)
         json_object_set_new(made, "drops", json_boolean(rule->drops));
-    json_object_set_new(made, "why", tree_json(explained, &rule->why));
+    json_object_set_new(made, "why", tree_json(explained, &rule->why, ok));
     uint32_t largest = rule->holds ? TN_NO_WHY : tn_explanation_largest(&rule->why);
     json_object_set_new(made, "largest",
-                        largest == TN_NO_WHY ? json_null() : node_json(explained, &rule->why, largest));
+                        largest == TN_NO_WHY ? json_null() : node_json(explained, &rule->why, largest, ok));
     return made;
 }
 
-static json_t *plan_json(const tn_schema *schema, const tn_tray *trays, size_t length)
+static json_t *plan_json(const tn_schema *schema, const tn_tray *trays, size_t length, bool *ok)
 {
     tn_buffer line = {0};
     tn_plan_write_line(schema, trays, length, &line);
-    return take(&line);
+    return take(&line, ok);
 }
 
 static json_t *rank_json(const tn_explained *explained, const tn_tray *trays, size_t length)
@@ -143,44 +145,45 @@ static json_t *rank_json(const tn_explained *explained, const tn_tray *trays, si
     return made;
 }
 
-static json_t *near_json(const tn_explained *explained)
+static json_t *near_json(const tn_explained *explained, bool *ok)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < explained->near.count; i++) {
         const tn_near_plan *plan = &explained->near.plans[i];
         tn_buffer changes = {0};
         json_t *made = json_object();
-        tn_words_changes(explained, plan, &changes);
-        json_object_set_new(made, "plan", plan_json(explained->schema, plan->trays, plan->length));
+        *ok = tn_words_changes(explained, plan, &changes) && *ok;
+        json_object_set_new(made, "plan", plan_json(explained->schema, plan->trays, plan->length, ok));
         json_object_set_new(made, "rank", rank_json(explained, plan->trays, plan->length));
-        json_object_set_new(made, "changes", take(&changes));
+        json_object_set_new(made, "changes", take(&changes, ok));
         json_array_append_new(list, made);
     }
     return list;
 }
 
-static void set_library(json_t *made, const tn_explained *explained)
+static void set_library(json_t *made, const tn_explained *explained, bool *ok)
 {
     json_object_set_new(made, "library", string(tn_text(explained->opened->module, explained->library->name)));
     json_object_set_new(made, "kept", json_boolean(explained->kept));
     json_object_set_new(made, "rank", rank_json(explained, explained->trays, explained->length));
     json_object_set_new(made, "too_short_or_long", json_boolean(explained->length_drops));
     json_object_set_new(made, "distance", explained->near.count ? json_integer(explained->near.cost) : json_null());
-    json_object_set_new(made, "nearest", near_json(explained));
+    json_object_set_new(made, "nearest", near_json(explained, ok));
     json_object_set_new(made, "more", json_boolean(explained->near.more));
 }
 
 bool tn_explained_json(const tn_explained *explained, tn_buffer *out)
 {
     json_t *made = json_object(), *rules = json_array();
-    json_object_set_new(made, "plan", plan_json(explained->schema, explained->trays, explained->length));
+    bool ok = true;
+    json_object_set_new(made, "plan", plan_json(explained->schema, explained->trays, explained->length, &ok));
     if (explained->library)
-        set_library(made, explained);
+        set_library(made, explained, &ok);
     for (size_t i = 0; i < explained->count; i++)
-        json_array_append_new(rules, rule_json(explained, &explained->rules[i]));
+        json_array_append_new(rules, rule_json(explained, &explained->rules[i], &ok));
     json_object_set_new(made, explained->library ? "clauses" : "rules", rules);
     char *text = json_dumps(made, JSON_COMPACT);
-    bool ok = text && tn_buffer_printf(out, "%s\n", text);
+    ok = ok && text && tn_buffer_printf(out, "%s\n", text);
     free(text);
     json_decref(made);
     return ok;

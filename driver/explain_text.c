@@ -27,7 +27,7 @@ static void write_gaps(writing *w, const tn_why *node, unsigned depth)
     for (uint32_t i = 0; i < node->gap_count && (w->full || i < 4); i++) {
         tn_buffer line = {0};
         tn_words_gap(w->why, node, &w->why->gaps[node->gap_first + i], &line);
-        w->ok &= line.data && tn_buffer_printf(w->out, "%*s%s\n", (int)(2 * depth + 6), "", line.data);
+        w->ok &= !line.failed && tn_buffer_printf(w->out, "%*s%s\n", (int)(2 * depth + 6), "", line.data);
         free(line.data);
     }
     bool vacuous = node->matched && node->gap_count == 0 && node->stretch_count > 0;
@@ -48,12 +48,13 @@ static void write_line(writing *w, const tn_why *node, unsigned depth)
         w->ok &= tn_buffer_printf(w->out, "%*s%s", used + 2 < column ? (int)(column - used) : 2, "", evidence.data);
     }
     w->ok &= tn_buffer_append(w->out, "\n", 1);
+    w->ok &= !evidence.failed;
     free(evidence.data);
 }
 
 static void write_tree(writing *w)
 {
-    tn_explain_rows rows;
+    tn_explain_rows rows = {0};
     w->ok &= tn_explain_rows_make(w->why, w->full, &rows);
     for (uint32_t i = 0; i < rows.count; i++) {
         const tn_why *node = &w->why->nodes[rows.nodes[i]];
@@ -77,6 +78,7 @@ static void write_largest(writing *w)
     tn_words_evidence(w->why, node, &evidence);
     w->ok &= tn_buffer_printf(w->out, "  the most that matches: %s%s%s\n", text, evidence.size ? ": " : "",
                               evidence.size ? evidence.data : "");
+    w->ok &= !evidence.failed;
     free(evidence.data);
 }
 

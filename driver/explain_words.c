@@ -225,5 +225,5 @@ bool tn_words_changes(const tn_explained *explained, const tn_near_plan *plan, t
         }
     }
     free(cost);
-    return true;
+    return !out->failed;
 }

@@ -146,20 +146,19 @@ static tn_status put_relations(const tn_reporting *r, const card *c)
 static tn_status put_alone(tn_reporting *r, const card *c, const tn_shown_plan *plan)
 {
     tn_explained explained;
-    tn_status status = tn_report_written(
-        r, tn_report_html(r, "<details><summary>the shortest plan that only this keeps out</summary>\n"));
+    tn_status status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0,
+                                         plan->trays, plan->length, plan->length + 1, r->error);
     if (status == TN_OK)
-        status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0, plan->trays,
-                                   plan->length, plan->length + 1, r->error);
-    if (status != TN_OK)
-        return status;
-    status = tn_report_put_explained(r, &explained, c->name);
+        status = tn_report_written(
+            r, tn_report_html(r, "<details><summary>the shortest plan that only this keeps out</summary>\n"));
+    if (status == TN_OK)
+        status = tn_report_put_explained(r, &explained, c->name);
+    if (status == TN_OK)
+        status = tn_report_written(r, tn_report_html(r, "<p class=\"line\">") &&
+                                          tn_report_plan(r, plan->trays, plan->length) &&
+                                          tn_report_html(r, "</p></details>\n"));
     tn_explained_clear(&explained);
-    if (status != TN_OK)
-        return status;
-    return tn_report_written(r, tn_report_html(r, "<p class=\"line\">") &&
-                                    tn_report_plan(r, plan->trays, plan->length) &&
-                                    tn_report_html(r, "</p></details>\n"));
+    return status;
 }
 
 static tn_status put_witness_alone(tn_reporting *r, const card *c)

@@ -23,8 +23,10 @@ static bool reserve(tn_buffer *buffer, size_t more)
 
 bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length)
 {
-    if (!reserve(buffer, length))
+    if (!reserve(buffer, length)) {
+        buffer->failed = true;
         return false;
+    }
     memcpy(buffer->data + buffer->size, text, length);
     buffer->size += length;
     buffer->data[buffer->size] = '\0';
@@ -42,6 +44,7 @@ bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
         vsnprintf(buffer->data + buffer->size, (size_t)length + 1, format, again);
         buffer->size += (size_t)length;
     }
+    buffer->failed = buffer->failed || !done;
     va_end(again);
     va_end(args);
     return done;

@@ -37,7 +37,7 @@ static words *at(const elimination *e, uint32_t from, uint32_t to)
 
 static char *take(elimination *e, tn_buffer *made)
 {
-    if (!made->data)
+    if (made->failed)
         e->failed = true;
     if (made->size > PART_MAX)
         e->long_ = true;
@@ -237,6 +237,8 @@ tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
             write(&made, whole, whole->maybe ? FORM_ATOM : FORM_ROW, whole->maybe ? "?" : "");
         tn_buffer_printf(&made, "$");
     }
+    if (made.failed)
+        status = tn_fail_memory(error);
     if (status == TN_OK && (e.long_ || made.size > TN_REGEX_LENGTH_MAX))
         status = tn_fail(error, TN_LIMIT, 802, "the pattern would be longer than the limit of %u characters",
                          TN_REGEX_LENGTH_MAX);

@@ -16,11 +16,13 @@ typedef struct tn_plan {
     size_t capacity;
 } tn_plan;
 
-/* Text that grows; zero it to begin with, free data with free(). Always ends with a zero byte that is not counted. */
+/* Text that grows; zero it to begin with, free data with free(). Always ends with a zero byte that is not counted. What
+ * many calls write can be asked about once: `failed` stays set after one that was out of memory. */
 typedef struct tn_buffer {
     char *data;
     size_t size;
     size_t capacity;
+    bool failed;
 } tn_buffer;
 
 bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length);
