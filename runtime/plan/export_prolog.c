@@ -6,66 +6,8 @@
 #include <string.h>
 
 #include "runtime/plan/parts.h"
+#include "runtime/plan/prolog_prelude.h"
 #include "runtime/vm/code.h"
-
-/* What every program starts with: the judgements of docs/plan-language.md that are not a rule's own. w(N, Plan) is a
- * plan of N trays, [I, J) a stretch of it. */
-static const char prelude[] =
-    "plan_of(Trays, w(N, Plan)) :- Plan =.. [plan|Trays], functor(Plan, _, N).\n"
-    "tray_at(w(_, Plan), I, Tray) :- K is I + 1, arg(K, Plan, Tray).\n"
-    "\n"
-    "from_to(I, J, I) :- I =< J.\n"
-    "from_to(I, J, K) :- I < J, I1 is I + 1, from_to(I1, J, K).\n"
-    "\n"
-    "one_of(X, [X|_]) :- !.\n"
-    "one_of(X, [_|Xs]) :- one_of(X, Xs).\n"
-    "\n"
-    "stretch(I, J, A, B) :- Last is J - 1, from_to(I, Last, A), A1 is A + 1, from_to(A1, J, B).\n"
-    "somewhere(Part, W, I, J) :- stretch(I, J, A, B), call(Part, W, A, B), !.\n"
-    "\n"
-    "% Parts side by side; may(Part) can be left out.\n"
-    "side_by_side([], _, I, I).\n"
-    "side_by_side([may(Part)|Parts], W, I, J) :- side_by_side([Part|Parts], W, I, J), !.\n"
-    "side_by_side([may(_)|Parts], W, I, J) :- !, side_by_side(Parts, W, I, J).\n"
-    "side_by_side([Part|Parts], W, I, J) :-\n"
-    "    I1 is I + 1, from_to(I1, J, C), call(Part, W, I, C), side_by_side(Parts, W, C, J), !.\n"
-    "\n"
-    "at_beginning(_, I, _) :- I =:= 0.\n"
-    "at_end(w(N, _), _, J) :- J =:= N.\n"
-    "\n"
-    "mirrored(Part, w(N, Plan), I, J) :-\n"
-    "    Plan =.. [plan|Trays], reversed(Trays, [], Back), plan_of(Back, W), A is N - J, B is N - I, call(Part, W, A, "
-    "B).\n"
-    "reversed([], Back, Back).\n"
-    "reversed([T|Ts], Done, Back) :- reversed(Ts, [T|Done], Back).\n"
-    "\n"
-    "every_tray(Part, W, I, J) :-\n"
-    "    I < J, Last is J - 1, \\+ (from_to(I, Last, K), K1 is K + 1, \\+ call(Part, W, K, K1)).\n"
-    "\n"
-    "count(_, _, J, J, 0) :- !.\n"
-    "count(Part, W, I, J, N) :-\n"
-    "    I1 is I + 1, count(Part, W, I1, J, M), ( call(Part, W, I, I1) -> N is M + 1 ; N = M ).\n"
-    "\n"
-    "sum(_, _, _, J, J, 0) :- !.\n"
-    "sum(Field, Part, W, I, J, S) :-\n"
-    "    I1 is I + 1, sum(Field, Part, W, I1, J, R),\n"
-    "    ( call(Part, W, I, I1) -> tray_at(W, I, Tray), arg(Field, Tray, V), length_of(Field, V, L), S is R + L ; S = "
-    "R ).\n"
-    "\n"
-    "starts(Part, W, I, J, N) :- starts(Part, W, I, I, J, N).\n"
-    "starts(_, _, _, J, J, 0) :- !.\n"
-    "starts(Part, W, I, K, J, N) :-\n"
-    "    K1 is K + 1, starts(Part, W, I, K1, J, M),\n"
-    "    ( from_to(K1, J, B), call(Part, W, K, B) -> N is M + 1 ; N = M ).\n"
-    "\n"
-    "% Some source such that what separates it from every destination meets the separator.\n"
-    "distance(Source, Destination, Separator, W, I, J) :-\n"
-    "    I < J, call(Source, W, I, J), W = w(N, _),\n"
-    "    \\+ ( stretch(0, N, A, B), call(Destination, W, A, B), gap(I, J, A, B, G, H), \\+ call(Separator, W, G, H) "
-    ").\n"
-    "gap(I, _, _, B, B, I) :- B =< I, !.\n"
-    "gap(_, J, A, _, J, A) :- J =< A, !.\n"
-    "gap(I, _, _, _, I, I).\n";
 
 /* A program being written. */
 typedef struct writing {
@@ -363,6 +305,20 @@ static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 
 /* ---- rules and libraries */
 
+/* The predicate of the rule's own name. */
+static void put_own_name(writing *w, const tn_rule_record *rule)
+{
+    const char *name = tn_text(w->module, rule->name);
+    if (tn_prolog_built_in(name)) {
+        put(w, "% a built-in predicate has this name: match_plan/2 asks for the rule\n\n");
+        return;
+    }
+    put_atom(w, name, NULL);
+    put(w, "(Trays) :- plan_of(Trays, W), W = w(N, _), ");
+    put_name(w, rule->holds, 0);
+    put(w, "(W, 0, N), !.\n\n");
+}
+
 static tn_status put_rule(writing *w, const tn_rule_record *rule, tn_error *error)
 {
     const char *name = tn_text(w->module, rule->name), *doc = tn_text(w->module, rule->doc);
@@ -371,12 +327,27 @@ static tn_status put_rule(writing *w, const tn_rule_record *rule, tn_error *erro
     put(w, *doc ? ": " : "");
     put_comment(w, doc);
     put(w, "\n");
-    put_atom(w, name, NULL);
-    put(w, "(Trays) :- plan_of(Trays, W), W = w(N, _), ");
-    put_name(w, rule->holds, 0);
-    put(w, "(W, 0, N), !.\n\n");
+    put_own_name(w, rule);
     tn_status status = put_function(w, rule->whole, error);
     return status == TN_OK ? put_function(w, rule->holds, error) : status;
+}
+
+/* Every rule by its name as an atom. */
+static void put_rule_names(writing *w)
+{
+    put(w, "% ---- rules by name\n:- dynamic(rule_part/2).\n");
+    for (size_t i = 0; i < w->module->RULE_count; i++) {
+        const tn_rule_record *rule = &w->module->RULE_records[i];
+        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record)
+            continue;
+        put(w, "rule_part(");
+        put_atom(w, tn_text(w->module, rule->name), NULL);
+        put(w, ", ");
+        put_name(w, rule->holds, 0);
+        put(w, ").\n");
+    }
+    put(w, "\nmatch_plan(Rule, Trays) :-\n"
+           "    plan_of(Trays, W), W = w(N, _), rule_part(Rule, Part), call(Part, W, 0, N).\n\n");
 }
 
 static void put_clause(writing *w, const tn_library_record *library, const tn_clause_record *clause)
@@ -394,7 +365,10 @@ static tn_status put_libraries(writing *w, tn_error *error)
 {
     const tn_module *module = w->module;
     tn_status status = TN_OK;
-    put(w, "% ---- libraries\n:- dynamic(prune_clause/3).\n:- dynamic(require_clause/3).\n:- dynamic(trays_of/3).\n");
+    static const char *const facts[] = {"trays_of", "prune_clause", "require_clause"};
+    put(w, "% ---- libraries\n");
+    for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
+        w->ok = w->ok && tn_buffer_printf(w->out, ":- dynamic(%s/3).\n:- discontiguous(%s/3).\n", facts[i], facts[i]);
     for (size_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
         const tn_library_record *library = &module->LIBRARY_records[l];
         if (&module->SCHEMA_records[library->schema] != w->schema->record)
@@ -451,12 +425,13 @@ tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *er
         put(&w, tn_text(w.module, schema->fields[f].name));
     }
     put(&w, ").\n\n");
-    put(&w, prelude);
+    put(&w, tn_prolog_prelude);
     put(&w, "\n");
     put_lengths(&w);
     for (size_t i = 0; status == TN_OK && i < w.module->RULE_count; i++)
         if (&w.module->SCHEMA_records[w.module->RULE_records[i].schema] == schema->record)
             status = put_rule(&w, &w.module->RULE_records[i], error);
+    put_rule_names(&w);
     if (status == TN_OK)
         status = put_libraries(&w, error);
     return status == TN_OK && !w.ok ? tn_fail_memory(error) : status;

@@ -2,8 +2,8 @@
  *
  * A program of ISO Prolog that stands alone: a plan is a list of trays, a tray a term tray(V1, ..., Vn) of the values
  * in schema order as a plan line writes them ('4''', single, '-', 'dense:4'''). For each rule a predicate of its name
- * that holds of the plans that it matches; for each library keep_plan(Library, Trays) and prune_plan(Library, Clause,
- * Trays).
+ * that holds of the plans that it matches (but where that is a built-in one), and match_plan(Rule, Trays); for each
+ * library keep_plan(Library, Trays) and prune_plan(Library, Clause, Trays).
  */
 #ifndef TARTAN_PLAN_EXPORT_PROLOG_H
 #define TARTAN_PLAN_EXPORT_PROLOG_H
