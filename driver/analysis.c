@@ -287,7 +287,8 @@ static tn_status tell_not_analysed(const teller *t)
         d->span = is_rule ? rule_span(t, f->rule) : library_span(t);
         d->has_span = true;
     }
-    tn_help(list_of(t), d, "%s", f->why->help);
+    if (f->why->help[0])
+        tn_help(list_of(t), d, "%s", f->why->help);
     return TN_OK;
 }
 

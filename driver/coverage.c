@@ -18,12 +18,14 @@ typedef struct measuring {
     tn_coverage *plans; /* of the library; without one, of the rule at hand */
     tn_coverage *tests; /* of all rules and clauses that tests are of; NULL: there are none */
     uint32_t *tested;   /* per test block: its first clause in `tests` */
+    bool *left_out;     /* per test block: not known, a clause of it passes a limit */
     tn_covered *covered;
 } measuring;
 
-static bool is_own_test(const measuring *m, const tn_test_block *block)
+static bool is_own_test(const measuring *m, size_t b)
 {
-    return !block->imported && block->schema == m->schema_index;
+    const tn_test_block *block = &m->opened->compilation.program->tests[b];
+    return !block->imported && block->schema == m->schema_index && !m->left_out[b];
 }
 
 /* ---- the two sets of clauses */
@@ -48,30 +50,71 @@ static size_t clauses_of(const measuring *m, const tn_test_block *block)
     return block->is_library ? m->module->LIBRARY_records[block->index].clause_count : 1;
 }
 
+/* Appends the clauses of a block; those of a library are asked one by one. */
+static void add_clauses(const measuring *m, const tn_test_block *block, tn_coverage_clause *clauses, size_t *count)
+{
+    for (size_t i = 0; i < clauses_of(m, block); i++)
+        clauses[(*count)++].function =
+            block->is_library
+                ? m->module->CLAUSE_records[m->module->LIBRARY_records[block->index].clause_first + i].holds
+                : m->module->RULE_records[block->index].holds;
+}
+
+/* All blocks together, or, where some clause passes a limit, each by itself: those with such a clause are left out, and
+ * that is said. */
+static tn_status choose_blocks(measuring *m, tn_coverage_clause *clauses, size_t *count, tn_error *error)
+{
+    const tn_program *program = m->opened->compilation.program;
+    tn_status status = TN_OK;
+    *count = 0;
+    for (size_t b = 0; status == TN_OK && b < program->test_count; b++) {
+        const tn_test_block *block = &program->tests[b];
+        tn_coverage *alone = NULL;
+        size_t first = *count;
+        m->tested[b] = (uint32_t)first;
+        if (!is_own_test(m, b))
+            continue;
+        add_clauses(m, block, clauses, count);
+        status =
+            tn_coverage_new(m->schema, clauses + first, *count - first, 0, 0, m->options->max_states, &alone, error);
+        tn_coverage_free(alone);
+        if (status == TN_LIMIT) {
+            tn_diagnostic *note = tn_finding_note(m->opened, error);
+            tn_note(&m->opened->compilation.diagnostics, note, NULL, "so whether tests of `%s` notice is not known",
+                    block->subject);
+            m->left_out[b] = true;
+            *count = first;
+            status = TN_OK;
+        }
+    }
+    return status;
+}
+
 static tn_status cover_tests(measuring *m, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
-    size_t count = 0;
+    size_t count = 0, all = 0;
     m->tested = calloc(program->test_count + 1, sizeof *m->tested);
-    if (!m->tested)
+    m->left_out = calloc(program->test_count + 1, sizeof *m->left_out);
+    if (!m->tested || !m->left_out)
         return tn_fail_memory(error);
-    for (size_t b = 0; b < program->test_count; b++) {
-        m->tested[b] = (uint32_t)count;
-        count += is_own_test(m, &program->tests[b]) ? clauses_of(m, &program->tests[b]) : 0;
-    }
-    tn_coverage_clause *clauses = calloc(count + 1, sizeof *clauses);
+    for (size_t b = 0; b < program->test_count; b++)
+        all += clauses_of(m, &program->tests[b]);
+    tn_coverage_clause *clauses = calloc(all + 1, sizeof *clauses);
     if (!clauses)
         return tn_fail_memory(error);
     for (size_t b = 0; b < program->test_count; b++) {
-        const tn_test_block *block = &program->tests[b];
-        for (size_t i = 0; is_own_test(m, block) && i < clauses_of(m, block); i++)
-            clauses[m->tested[b] + i].function =
-                block->is_library
-                    ? m->module->CLAUSE_records[m->module->LIBRARY_records[block->index].clause_first + i].holds
-                    : m->module->RULE_records[block->index].holds;
+        m->tested[b] = (uint32_t)count;
+        if (is_own_test(m, b))
+            add_clauses(m, &program->tests[b], clauses, &count);
     }
-    tn_status status =
-        count ? tn_coverage_new(m->schema, clauses, count, 0, 0, m->options->max_states, &m->tests, error) : TN_OK;
+    uint32_t most = m->options->max_states;
+    tn_status status = count ? tn_coverage_new(m->schema, clauses, count, 0, 0, most, &m->tests, error) : TN_OK;
+    if (status == TN_LIMIT) {
+        status = choose_blocks(m, clauses, &count, error);
+        if (status == TN_OK && count)
+            status = tn_coverage_new(m->schema, clauses, count, 0, 0, most, &m->tests, error);
+    }
     free(clauses);
     return status;
 }
@@ -132,7 +175,7 @@ static tn_status tests_notice(const measuring *m, bool *notice, tn_error *error)
     if (!trays)
         return tn_fail_memory(error);
     for (size_t b = 0; m->tests && b < program->test_count && !*notice; b++)
-        for (size_t i = 0; is_own_test(m, &program->tests[b]) && i < program->tests[b].case_count && !*notice; i++)
+        for (size_t i = 0; is_own_test(m, b) && i < program->tests[b].case_count && !*notice; i++)
             *notice = case_notices(m, b, &program->tests[b].cases[i], trays);
     free(trays);
     return TN_OK;
@@ -274,6 +317,8 @@ static tn_status measure_subject(measuring *m, subject s, tn_error *error)
     tn_status status = try_subject(m, &s, error);
     if (status != TN_LIMIT)
         return status;
+    if (error->code_offset == TN_NO_OFFSET)
+        error->code_offset = m->module->FUNCTION_records[s.function].code_begin;
     tn_diagnostic *note = tn_finding_note(m->opened, error);
     tn_note(&m->opened->compilation.diagnostics, note, NULL, "`%s` is not analysed", s.name);
     return TN_OK;
@@ -370,6 +415,7 @@ tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *opti
     tn_coverage_free(m.tests);
     tn_schema_free(m.schema);
     free(m.tested);
+    free(m.left_out);
     return status;
 }
 

@@ -203,6 +203,8 @@ tn_status tn_coverage_flips(tn_coverage *c, mpz_t flips, tn_error *error)
     tn_dfa_free(with);
     tn_dfa_free(without);
     tn_dfa_free(required);
+    if (status == TN_LIMIT && error && !error->help[0])
+        tn_error_help(error, "raise it with --max-states, or give fewer trays");
     return status;
 }
 

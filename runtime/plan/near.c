@@ -7,8 +7,8 @@
 #include "runtime/plan/near_data.h"
 #include "runtime/plan/rules.h"
 
-#define COMBINE_DEFAULT 4000u    /* edges: about a millisecond of combining */
-#define COMBINE_MOST (64u << 20) /* edges */
+#define COMBINE_DEFAULT 4000u   /* edges: about a millisecond of combining */
+#define COMBINE_MOST (1u << 20) /* edges: half a second */
 #define PATIENCE_DEFAULT 50000u
 #define EDGES_PER_NODE 16u
 #define CELLS_MAX (64u << 20) /* of a band: plans of thousands of trays */

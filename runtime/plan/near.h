@@ -13,8 +13,8 @@
 
 #include "runtime/plan/schema.h"
 
-/* Nodes of the search for one plan, or edges between them in units of sixteen; past it E0808. */
-#define TN_NEAR_NODES_MAX 4000000u
+/* Nodes of the search for one plan (and sixteen times as many steps between them); past it E0808. */
+#define TN_NEAR_NODES_MAX 500000u
 
 typedef struct tn_near_finder tn_near_finder;
 

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Rule sets that blow up: every command ends with what passed which limit, where, and what raises it; nothing that was
+# not analysed passes for fine.
+name=limits
+. "$(dirname "$0")/golden.bash"
+
+plan="8' double - - dense:4' open:8' open:3'"
+for library in blown joint; do
+    limit=${library/joint/--max-states 200}
+    limit=${limit/blown/}
+    golden "count_$library" "tartan count blow-up.plan --library $library $limit"
+    golden "diff_$library" "tartan diff blow-up.plan blow-up.plan --library $library $limit"
+    golden "explain_$library" "tartan explain blow-up.plan \"$plan\" --library $library --full $limit | head -n 3"
+    golden "report_$library" "tartan report blow-up.plan --library $library $limit -o $scratch/report"
+    golden "coverage_$library" "tartan test blow-up.plan --coverage --library $library $limit"
+done
+golden check 'tartan check blow-up.plan'
+golden check_small 'tartan check blow-up.plan --max-states 3'
+golden relations 'tartan check blow-up.plan --relations --max-states 3'
+golden regex 'tartan export blow-up.plan --regex --rule far'
+golden match "printf '%s\\n' \"$plan | $plan\" | tartan match blow-up.plan --rule far --format bits"
+finish
