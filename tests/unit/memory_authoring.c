@@ -147,27 +147,27 @@ static void expect_robust(operation operate, opened_rows *rows, size_t step)
 
 static void explaining(void **state)
 {
-    expect_robust(explain, *state, 40);
+    expect_robust(explain, *state, 16);
 }
 
 static void covering(void **state)
 {
-    expect_robust(cover, *state, 16);
+    expect_robust(cover, *state, 10);
 }
 
 static void reporting(void **state)
 {
-    expect_robust(report, *state, 10);
+    expect_robust(report, *state, 6);
 }
 
 static void drawing(void **state)
 {
-    expect_robust(draw, *state, 100);
+    expect_robust(draw, *state, 30);
 }
 
 static void exporting(void **state)
 {
-    expect_robust(export, *state, 100);
+    expect_robust(export, *state, 30);
 }
 
 static int open_rows(void **state)
