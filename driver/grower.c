@@ -32,20 +32,11 @@ void tn_grower_free(tn_grower *g)
     free(g);
 }
 
-static const char *first_error(const tn_opened *opened)
-{
-    const tn_diagnostics *list = &opened->compilation.diagnostics;
-    for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].severity == TN_ERROR)
-            return list->items[i].message;
-    return "it does not compile";
-}
-
 static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
 {
     if (tn_open(path, false, &g->opened) != TN_OK) {
         return tn_fail(error, TN_INVALID, 1245, "the growth study %.100s cannot be used: %.300s", path,
-                       first_error(&g->opened));
+                       tn_first_error(&g->opened));
     }
     tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
     for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
@@ -105,7 +96,7 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
     *r = (rules){0};
     tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &r->opened);
     if (status != TN_OK)
-        return tn_fail(error, TN_INVALID, 0, "%.400s", first_error(&r->opened));
+        return tn_fail(error, TN_INVALID, 0, "%.400s", tn_first_error(&r->opened));
     status = tn_growth_system_read(r->opened.module, &r->system, error);
     if (status == TN_OK)
         status = *growth ? tn_growth_renew(*growth, r->system, &study->environment, &study->options, error)
@@ -152,15 +143,7 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
         score_goals(g, &fitness, score, message);
     }
     rules_clear(&compiled);
-    if (status == TN_MEMORY || status == TN_INTERNAL) {
-        *error = own;
-        return status;
-    }
-    if (status != TN_OK) {
-        score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
-        snprintf(message, 200, "%.199s", own.message);
-    }
-    return TN_OK;
+    return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
 }
 
 static bool find_goal(const tn_grower *g, const char *name, uint32_t *goal)

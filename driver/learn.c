@@ -169,15 +169,6 @@ static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *w
     return status;
 }
 
-static const char *first_error(const tn_opened *opened)
-{
-    const tn_diagnostics *list = &opened->compilation.diagnostics;
-    for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].severity == TN_ERROR)
-            return list->items[i].message;
-    return "it does not compile";
-}
-
 static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                             char message[200], tn_error *error)
 {
@@ -188,19 +179,12 @@ static tn_status score_rule(void *context, unsigned thread, const char *sentence
     (void)thread;
     tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, size, false, &opened);
     if (status != TN_OK)
-        snprintf(own.message, sizeof own.message, "%.199s", first_error(&opened));
+        snprintf(own.message, sizeof own.message, "%.199s", tn_first_error(&opened));
     else
         status = judge(l, opened.module, &wrong, &own);
     tn_close(&opened);
-    if (status == TN_MEMORY || status == TN_INTERNAL) {
-        *error = own;
-        return status;
-    }
-    if (status != TN_OK) {
-        score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
-        snprintf(message, 200, "%.199s", own.message);
-        return TN_OK;
-    }
+    if (status != TN_OK)
+        return tn_score_refuse(status, &own, score, message, error);
     score->objectives[0] = (double)wrong + (l->separately ? 0 : l->length_weight * (double)size);
     score->objectives[1] = (double)size;
     return TN_OK;

@@ -99,6 +99,15 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
     return status;
 }
 
+const char *tn_first_error(const tn_opened *opened)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].severity == TN_ERROR)
+            return list->items[i].message;
+    return "it does not compile";
+}
+
 void tn_close(tn_opened *opened)
 {
     tn_module_free(opened->module);

@@ -26,6 +26,9 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
+/* What is wrong in a file that could not be opened, the first of it, in a sentence. */
+const char *tn_first_error(const tn_opened *opened);
+
 void tn_close(tn_opened *opened);
 
 #endif

@@ -36,6 +36,10 @@ typedef struct tn_evaluator {
     tn_status (*adjust)(void *context, const char *change, tn_error *error);
 } tn_evaluator;
 
+/* What a failed evaluation returns: running out of memory ends the run; anything else is the sentence's own fault,
+ * whose score then says so. */
+tn_status tn_score_refuse(tn_status status, const tn_error *why, tn_score *score, char message[200], tn_error *error);
+
 typedef enum tn_initialisation {
     TN_INITIALISE_RANDOM,
     TN_INITIALISE_RAMPED,

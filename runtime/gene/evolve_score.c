@@ -1,7 +1,19 @@
 /* Scores: each sentence is evaluated once, by all threads, or recalled. */
 #include <math.h>
+#include <stdio.h>
 
 #include "runtime/gene/evolve_state.h"
+
+tn_status tn_score_refuse(tn_status status, const tn_error *why, tn_score *score, char message[200], tn_error *error)
+{
+    if (status == TN_MEMORY || status == TN_INTERNAL) {
+        *error = *why;
+        return status;
+    }
+    score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
+    snprintf(message, 200, "%.199s", why->message);
+    return TN_OK;
+}
 
 static void worst_score(tn_score *score, tn_score_state state)
 {

@@ -141,14 +141,9 @@ static tn_status fit(void *context, unsigned thread, const char *sentence, size_
     tn_error wrong = {0};
     tn_status status =
         tn_expression_parse(sentence, size, (const char *const *)p->names, p->variables, expression, &wrong);
-    if (status == TN_INVALID || status == TN_LIMIT) {
-        score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
-        snprintf(message, 200, "%.199s", wrong.message);
-        return TN_OK;
-    }
-    if (status == TN_OK)
-        status =
-            tn_expression_evaluate(expression, (const double *const *)p->columns, p->points, p->values[thread], error);
+    if (status != TN_OK)
+        return tn_score_refuse(status, &wrong, score, message, error);
+    status = tn_expression_evaluate(expression, (const double *const *)p->columns, p->points, p->values[thread], error);
     if (status == TN_OK)
         score->objectives[0] = sqrt(mean_squared_error(p->values[thread], p->columns[p->variables], p->points));
     return status;
