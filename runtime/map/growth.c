@@ -5,7 +5,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "runtime/map/pass.h"
+#include "runtime/map/decide.h"
 #include "runtime/vm/numeric.h"
 
 tn_growth_options tn_growth_options_default(void)
@@ -80,9 +80,11 @@ static tn_walk *make_shape(tn_shape *shape, const tn_template *template, tn_walk
             *walk++ = (tn_walk){(uint16_t)(j - 1), false, template->segments[j - 1].reversed, (uint16_t)j};
     }
     shape->right_count = (uint32_t)(walk - shape->right);
-    for (uint32_t b = 0; b < template->branch_count; b++)
-        if (template->branches[b].at == 0 || template->branches[b].at == points)
-            shape->end_branches = true;
+    for (uint32_t b = 0; b < template->branch_count; b++) {
+        shape->left_branches += template->branches[b].side == TN_SIDE_LEFT;
+        shape->right_branches += template->branches[b].side == TN_SIDE_RIGHT;
+        shape->end_branches |= template->branches[b].at == 0 || template->branches[b].at == points;
+    }
     return walk;
 }
 
@@ -150,7 +152,7 @@ static tn_status plant(tn_growth *growth, tn_error *error)
                     .origin = space->darts[here].data,
                     .face_first = space->faces[here].data};
     map->side = map->origin + 2 * (size_t)n;
-    map->face_rank = map->face_first + 3;
+    map->face_rank = growth->ranked ? map->face_first + 3 : NULL;
     for (uint32_t i = 0; i < n; i++) {
         const tn_axiom_edge *edge = &growth->system->axiom[i];
         uint32_t back = n - 1 - i, along = n + i; /* the outer face runs the other way */
@@ -163,8 +165,8 @@ static tn_status plant(tn_growth *growth, tn_error *error)
     }
     for (uint32_t f = 0; f <= 2; f++)
         map->face_first[f] = f * n;
-    map->face_rank[TN_OUTER_FACE] = 0;
-    map->face_rank[1] = 1;
+    for (uint32_t f = 0; f < 2 && growth->ranked; f++)
+        map->face_rank[f] = f;
     growth->steps = 0;
     growth->draws = 0;
     growth->length = growth->options.start_length;
@@ -192,6 +194,7 @@ tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, con
                           const tn_growth_options *options, tn_error *error)
 {
     clear_shapes(growth);
+    tn_deciders_forget(&growth->space);
     *growth = (tn_growth){.system = system,
                           .environment = environment,
                           .options = *options,
@@ -227,12 +230,12 @@ void tn_growth_free(tn_growth *growth)
     if (!growth)
         return;
     tn_workspace *space = &growth->space;
-    tn_pages *all[] = {&space->positions, &space->states[0], &space->states[1], &space->darts[0],
-                       &space->darts[1],  &space->faces[0],  &space->faces[1],  &space->ends,
-                       &space->slots,     &space->records,   &space->joints,    &space->made};
+    tn_pages *all[] = {&space->positions, &space->states[0], &space->states[1], &space->darts[0], &space->darts[1],
+                       &space->faces[0],  &space->faces[1],  &space->survey,    &space->choices,  &space->chunks,
+                       &space->slots,     &space->records,   &space->joints,    &space->cut_of,   &space->made};
+    tn_deciders_clear(space);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         tn_pages_release(all[i]);
-    tn_chunks_free(space->chunks, space->chunk_count);
     clear_shapes(growth);
     free(growth);
 }
@@ -254,13 +257,13 @@ static void explain_outside(tn_pass *pass)
 {
     uint64_t *failures = pass->growth->counts.failures;
     for (uint32_t r = 0; r < pass->record_count; r++) {
-        const tn_record *record = &pass->records[r];
-        const tn_template *template = &pass->growth->system->templates[record->template];
+        const tn_frame *frame = &pass->frames[r];
+        const tn_template *template = &pass->growth->system->templates[frame->template];
         for (uint32_t b = 0; b < template->branch_count; b++) {
             uint8_t side = template->branches[b].side;
             if (side == TN_SIDE_NONE)
                 failures[TN_FAIL_SIDE]++;
-            else if ((side == TN_SIDE_LEFT ? record->left : record->right) == TN_OUTER_FACE)
+            else if ((side == TN_SIDE_LEFT ? frame->left_face : frame->right_face) == TN_OUTER_FACE)
                 failures[TN_FAIL_OUTER]++;
         }
     }
@@ -289,19 +292,25 @@ static tn_status drop_vertices(tn_map *map, tn_error *error)
     return TN_OK;
 }
 
+tn_status tn_growth_check_edges(const tn_growth *growth, uint64_t edges, tn_error *error)
+{
+    uint64_t limit = growth->options.edge_limit && growth->options.edge_limit < TN_EDGES_MAX
+                         ? growth->options.edge_limit
+                         : TN_EDGES_MAX;
+    if (edges <= limit)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, 840, "step %u makes %llu edges; the limit is %llu", growth->steps + 1,
+            (unsigned long long)edges, (unsigned long long)limit);
+    tn_error_help(error, "take fewer steps, or raise the limit with --edge-limit (at most %u)", TN_EDGES_MAX);
+    return TN_LIMIT;
+}
+
 static tn_status finish_pass(tn_pass *pass, tn_error *error)
 {
     tn_growth *growth = pass->growth;
     growth->map = *pass->new;
     growth->space.current = !growth->space.current;
     growth->branches = growth->pending.count ? pass->branch_first + pass->branch_count : 0;
-    uint64_t limit = growth->options.edge_limit;
-    if (limit && growth->map.edge_count > limit) {
-        tn_fail(error, TN_LIMIT, 840, "step %u makes %u edges; the limit is %llu", growth->steps + 1,
-                growth->map.edge_count, (unsigned long long)limit);
-        tn_error_help(error, "take fewer steps, or raise the limit with --edge-limit (at most %u)", TN_EDGES_MAX);
-        return TN_LIMIT;
-    }
     return pass->runs ? drop_vertices(&growth->map, error) : TN_OK;
 }
 
@@ -344,9 +353,11 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                 explain_outside(&pass);
             status = tn_pass_faces(&pass, error);
         }
-        if (status == TN_OK)
+        if (status == TN_OK && !growth->needs_ranks)
             status = finish_pass(&pass, error);
-    }
+    } else if (status == TN_OK && pass.joins_last)
+        for (uint32_t e = 0; e < growth->map.edge_count; e++) /* nothing is fresh between steps */
+            growth->map.states[e] &= ~TN_STATE_FRESH;
     free(pass.list);
     free(pass.runs);
     return status;
@@ -371,27 +382,19 @@ static void look_for_rest(tn_growth *growth, uint32_t vertices, uint32_t edges, 
     growth->has_fingerprint = true;
 }
 
-tn_status tn_growth_step(tn_growth *growth, tn_error *error)
+static tn_status take_step(tn_growth *growth, tn_error *error)
 {
     tn_map *map = &growth->map;
     uint32_t vertices = map->vertex_count, edges = map->edge_count, faces = map->face_count;
+    uint32_t groups = growth->system->group_count, together = growth->system->sync ? groups : 1;
     growth->counts = (tn_growth_counts){0};
     growth->branches = 0;
     growth->length *= (growth->options.scale[0] + growth->options.scale[1] + growth->options.scale[2]) / 3;
     tn_status status = tn_growth_displace(growth, error);
-    if (growth->system->sync) {
-        if (status == TN_OK && growth->system->group_count)
-            status = run_pass(growth, 0, growth->system->group_count, error);
-    } else {
-        for (uint32_t e = 0; e < edges; e++)
-            map->states[e] &= ~TN_STATE_FRESH;
-        for (uint32_t g = 0; g < growth->system->group_count && status == TN_OK; g++)
-            status = run_pass(growth, g, g + 1, error);
-        for (uint32_t e = 0; e < map->edge_count && status == TN_OK; e++)
-            map->states[e] &= ~TN_STATE_FRESH;
-    }
+    for (uint32_t g = 0; g < groups && status == TN_OK && !growth->needs_ranks; g += together)
+        status = run_pass(growth, g, g + together, error);
     clear_pending(growth);
-    if (status != TN_OK)
+    if (status != TN_OK || growth->needs_ranks)
         return status;
     growth->steps++;
     look_for_rest(growth, vertices, edges, faces);
@@ -400,6 +403,19 @@ tn_status tn_growth_step(tn_growth *growth, tn_error *error)
 #else
     return TN_OK;
 #endif
+}
+
+/* The order in which faces were made matters only once a face has to wait for another, which few systems ever need.
+ * So it is kept only from then on: the surface is grown again to where it was, and then further. */
+tn_status tn_growth_step(tn_growth *growth, tn_error *error)
+{
+    tn_status status = take_step(growth, error);
+    if (status != TN_OK || !growth->needs_ranks)
+        return status;
+    growth->needs_ranks = false;
+    growth->ranked = true;
+    status = tn_growth_regrow(growth, growth->steps, error);
+    return status == TN_OK ? take_step(growth, error) : status;
 }
 
 tn_status tn_growth_regrow(tn_growth *growth, uint32_t steps, tn_error *error)

@@ -10,22 +10,28 @@
 
 /* ---- pairs of branches */
 
-/* How far a pair comes: TN_JOIN_FAILURE_COUNT where nothing but the topology could stand against it. */
-static tn_join_failure compare(const tn_growth *growth, const tn_loop_branch *a, const tn_loop_branch *b,
-                               double *distance)
+tn_join_failure tn_branches_measure(const tn_growth *growth, tn_vector a_direction, tn_vector a_at,
+                                    tn_vector b_direction, tn_vector b_at, double *distance)
 {
-    if (tn_dot(a->direction, b->direction) > growth->branch_cosine)
-        return TN_FAIL_ANGLE;
-    tn_vector way = tn_sub(b->at, a->at);
+    tn_vector way = tn_sub(b_at, a_at);
     double length = tn_norm(way);
     if (growth->options.facing &&
-        (tn_dot(a->direction, way) <= 1e-9 * length || tn_dot(b->direction, way) >= -1e-9 * length))
+        (tn_dot(a_direction, way) <= 1e-9 * length || tn_dot(b_direction, way) >= -1e-9 * length))
         return TN_FAIL_FACING;
     if (growth->options.branch_length >= 0 && length > growth->options.branch_length * growth->length * (1 + 1e-9))
         return TN_FAIL_DISTANCE;
     double quanta = length / growth->length * QUANTA + 0.5;
     *distance = quanta < 0x1p62 ? (double)(int64_t)quanta : quanta;
     return TN_JOIN_FAILURE_COUNT;
+}
+
+/* How far a pair comes: TN_JOIN_FAILURE_COUNT where nothing but the topology could stand against it. */
+static tn_join_failure compare(const tn_growth *growth, const tn_loop_branch *a, const tn_loop_branch *b,
+                               double *distance)
+{
+    if (!tn_branches_oppose(growth, a->direction, b->direction))
+        return TN_FAIL_ANGLE;
+    return tn_branches_measure(growth, a->direction, a->at, b->direction, b->at, distance);
 }
 
 static bool add_candidate(tn_loop *loop, tn_candidate candidate)
@@ -129,7 +135,7 @@ static void turn(const tn_pass *pass, uint32_t *dart, uint32_t *face)
     uint32_t arriving = before_in_face(pass->old, *face, *dart);
     uint32_t side = pass->old->side[arriving] ^ 1;
     *dart = pass->dart[side];
-    *face = pass->face[side];
+    *face = pass->sides[side].face;
 }
 
 /* The vertex at the other end of the first piece of what a dart's edge became. */
@@ -137,7 +143,7 @@ static uint32_t neighbour(const tn_pass *pass, uint32_t side)
 {
     uint32_t slot = pass->slot[side / 2];
     if (slot & TN_KEPT)
-        return pass->end[side ^ 1];
+        return pass->sides[side ^ 1].origin;
     const tn_record *record = &pass->records[slot];
     uint32_t pieces = pass->growth->shapes[record->template].template->segment_count;
     bool against = side & 1;
@@ -146,7 +152,7 @@ static uint32_t neighbour(const tn_pass *pass, uint32_t side)
     uint32_t far = side / 2;
     if (pass->runs)
         far = against ? pass->runs[slot].first : pass->runs[slot].last;
-    return pass->end[2 * (size_t)far + (against ? 0 : 1)];
+    return pass->sides[2 * (size_t)far + (against ? 0 : 1)].origin;
 }
 
 static bool is_linked(const tn_pass *pass, uint32_t face, uint32_t old_vertex, uint32_t to)

@@ -21,6 +21,7 @@ typedef struct tn_loop_branch {
     uint32_t record; /* of the edge it comes from; TN_NONE: from an earlier pass */
     uint32_t point;  /* the path's point it leaves from */
     uint32_t beyond; /* the face on the other side of its edge, where its vertex is new; TN_NONE: an old vertex */
+    uint32_t dart;   /* of the cut: the joined edge's dart that leaves here */
     bool reversed;
 } tn_loop_branch;
 
@@ -55,10 +56,23 @@ typedef enum tn_join_outcome {
     TN_JOIN_MEMORY
 } tn_join_outcome;
 
-void tn_loop_clear(tn_loop *loop);
+static inline tn_vector tn_branch_direction(tn_vector heading, tn_vector up, const tn_template_branch *branch)
+{
+    tn_vector left = tn_cross(up, heading), h = tn_scale(heading, branch->direction[0]);
+    return tn_along(tn_along(h, left, branch->direction[1]), up, branch->direction[2]);
+}
 
-/* Asks for the memory that the faces soon after this one will need. */
-void tn_loop_prefetch(const tn_pass *pass, uint32_t face);
+/* Do two branches' directions let them join? */
+static inline bool tn_branches_oppose(const tn_growth *growth, tn_vector a, tn_vector b)
+{
+    return !(tn_dot(a, b) > growth->branch_cosine);
+}
+
+/* TN_JOIN_FAILURE_COUNT where they lie so that they may join; then their distance, quantised. */
+tn_join_failure tn_branches_measure(const tn_growth *growth, tn_vector a_direction, tn_vector a_at,
+                                    tn_vector b_direction, tn_vector b_at, double *distance);
+
+void tn_loop_clear(tn_loop *loop);
 
 /* The loop of a face: what its darts become, and (where `branches`) the branches on its side. False: out of memory. */
 bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool branches);

@@ -2,8 +2,7 @@
 #include <stdlib.h>
 
 #include "runtime/map/join.h"
-
-#define AHEAD 6u /* faces, and darts of each */
+#include "runtime/map/room.h"
 
 void tn_loop_clear(tn_loop *loop)
 {
@@ -16,23 +15,9 @@ void tn_loop_clear(tn_loop *loop)
 
 static bool make_room(tn_loop *loop, size_t items, size_t branches)
 {
-    if (loop->item_count + items > loop->item_room) {
-        size_t room = 2 * (loop->item_count + items) + 64;
-        tn_loop_item *grown = realloc(loop->items, room * sizeof *grown);
-        if (!grown)
-            return false;
-        loop->items = grown;
-        loop->item_room = room;
-    }
-    if (loop->branch_count + branches > loop->branch_room) {
-        size_t room = 2 * (loop->branch_count + branches) + 64;
-        tn_loop_branch *grown = realloc(loop->branches, room * sizeof *grown);
-        if (!grown)
-            return false;
-        loop->branches = grown;
-        loop->branch_room = room;
-    }
-    return true;
+    return tn_make_room((void **)&loop->items, &loop->item_room, loop->item_count + items, sizeof *loop->items) &&
+           tn_make_room((void **)&loop->branches, &loop->branch_room, loop->branch_count + branches,
+                        sizeof *loop->branches);
 }
 
 static void add_dart(tn_loop *loop, uint32_t vertex, uint32_t side)
@@ -40,32 +25,42 @@ static void add_dart(tn_loop *loop, uint32_t vertex, uint32_t side)
     loop->items[loop->item_count++] = (tn_loop_item){vertex, side, 0, false, false};
 }
 
-static int32_t branch_age(uint8_t change, int32_t age)
-{
-    return change == TN_AGE_KEEP ? age : change == TN_AGE_MORE ? age + 1 : change == TN_AGE_LESS ? age - 1 : 0;
-}
-
+/* A branch of a record; its direction is filled in by the caller. */
 static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32_t index, uint32_t vertex,
                        uint32_t beyond)
 {
     const tn_record *record = &pass->records[slot];
-    const tn_template *template = &pass->growth->system->templates[record->template];
+    const tn_template *template = pass->growth->shapes[record->template].template;
     const tn_template_branch *b = &template->branches[index];
     bool old = b->at == 0 || b->at == template->segment_count;
-    tn_vector h = tn_vector_at(record->heading), u = tn_vector_at(record->up), l = tn_cross(u, h);
-    tn_loop_branch *branch = &loop->branches[loop->branch_count];
-    branch->direction = tn_along(tn_along(tn_scale(h, b->direction[0]), l, b->direction[1]), u, b->direction[2]);
-    branch->at = tn_vector_at(pass->new->positions + 3 * (size_t)vertex);
-    branch->id = record->branch + index;
-    branch->label = b->label;
-    branch->item = loop->item_count;
-    branch->age = branch_age(b->age, record->age);
-    branch->partner = -1;
-    branch->record = slot;
-    branch->point = b->at;
-    branch->beyond = old ? TN_NONE : beyond;
-    branch->reversed = b->reversed;
+    loop->branches[loop->branch_count] = (tn_loop_branch){.at = tn_vector_at(pass->new->positions + 3 * (size_t)vertex),
+                                                          .id = record->branch + index,
+                                                          .label = b->label,
+                                                          .item = loop->item_count,
+                                                          .age = tn_changed_age(b->age, record->age),
+                                                          .partner = -1,
+                                                          .record = slot,
+                                                          .point = b->at,
+                                                          .beyond = old ? TN_NONE : beyond,
+                                                          .reversed = b->reversed};
     loop->items[loop->item_count++] = (tn_loop_item){vertex, loop->branch_count++, 0, true, false};
+}
+
+/* Directions of the branches from `first` on, which are those of the edge of a side (or of its chain). */
+static void turn_branches(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32_t side, uint32_t first)
+{
+    if (first == loop->branch_count)
+        return;
+    const tn_record *record = &pass->records[slot];
+    tn_run run = pass->runs ? pass->runs[slot] : (tn_run){side / 2, side / 2};
+    tn_vector heading, up;
+    double length;
+    tn_pass_frame(pass, run.first, run.last, &heading, &up, &length);
+    for (uint32_t i = first; i < loop->branch_count; i++) {
+        tn_loop_branch *branch = &loop->branches[i];
+        branch->direction = tn_branch_direction(
+            heading, up, &pass->growth->system->templates[record->template].branches[branch->id - record->branch]);
+    }
 }
 
 static void add_pending(tn_loop *loop, const tn_pass *pass, const tn_pending *pending, uint32_t vertex)
@@ -92,7 +87,7 @@ static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool a
     const tn_shape *shape = &pass->growth->shapes[record->template];
     const tn_walk *walk = against ? shape->right : shape->left;
     uint32_t count = against ? shape->right_count : shape->left_count, points = shape->template->segment_count;
-    uint32_t beyond = against ? record->left : record->right;
+    uint32_t beyond = against ? pass->frames[slot].left_face : pass->frames[slot].right_face;
     for (uint32_t i = 0; i < count; i++) {
         if (walk[i].branch && !branches)
             continue;
@@ -105,32 +100,6 @@ static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool a
             add_branch(loop, pass, slot, walk[i].index, vertex, beyond);
         else
             add_dart(loop, vertex, 2 * (record->child + walk[i].index) + (walk[i].reversed != against));
-    }
-}
-
-/* A face's records lie where its edges' numbers say, all over memory: asked for a few faces ahead, they are there in
- * time. */
-void tn_loop_prefetch(const tn_pass *pass, uint32_t face)
-{
-    const tn_map *old = pass->old;
-    if (face + 3 * AHEAD >= old->face_count)
-        return;
-    const uint32_t *side = old->side, *first = old->face_first;
-    uint32_t far = face + 3 * AHEAD, middle = face + 2 * AHEAD, near = face + AHEAD;
-    for (uint32_t d = first[far], end = first[far + 1]; d < end && d < first[far] + AHEAD; d++)
-        __builtin_prefetch(&pass->slot[side[d] / 2]);
-    for (uint32_t d = first[middle], end = first[middle + 1]; d < end && d < first[middle] + AHEAD; d++) {
-        uint32_t slot = pass->slot[side[d] / 2];
-        if (slot & TN_KEPT)
-            continue;
-        const char *record = (const char *)&pass->records[slot];
-        __builtin_prefetch(record);
-        __builtin_prefetch(record + sizeof(tn_record) - 1);
-    }
-    for (uint32_t d = first[near], end = first[near + 1]; d < end && d < first[near] + AHEAD; d++) {
-        uint32_t slot = pass->slot[side[d] / 2];
-        if (!(slot & TN_KEPT))
-            __builtin_prefetch(pass->new->positions + 3 * (size_t)pass->records[slot].vertex);
     }
 }
 
@@ -162,10 +131,12 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
             return false;
         while (pending < pending_end && pending->dart == first + i)
             add_pending(loop, pass, pending++, origins[i]);
+        uint32_t before = loop->branch_count;
         if (shape)
             add_pieces(loop, pass, slot, against, origins[i], origins[next % size], branches);
         else
             add_dart(loop, origins[i], 2 * (slot & ~TN_KEPT) | against);
+        turn_branches(loop, pass, slot, sides[i], before);
     }
     return true;
 }

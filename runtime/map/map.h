@@ -47,7 +47,8 @@ typedef struct tn_map {
     tn_edge_state *states;                         /* [edge] */
     uint32_t *face_first; /* [face] its first dart; the next face's first is one past its last; [face_count]: 2 *
                              edge_count */
-    uint32_t *face_rank;  /* [face] its place in the order of creation (storage keeps neighbours together instead) */
+    uint32_t *face_rank;  /* [face] its place in the order of creation (storage keeps neighbours together instead); NULL
+                             as long as no face ever had to wait for another */
 } tn_map;
 
 /* How many darts a face has; at least 3. */

@@ -58,7 +58,7 @@ static tn_status find_contexts(const tn_pass *pass, contexts *around, tn_error *
         uint32_t bit = around->bit_of[tn_state_label(map->states[side / 2])];
         if (bit == TN_NONE)
             continue;
-        size_t word = (size_t)pass->end[side] * around->words + bit / 64;
+        size_t word = (size_t)pass->sides[side].origin * around->words + bit / 64;
         uint64_t mask = (uint64_t)1 << bit % 64;
         around->twice[word] |= around->once[word] & mask;
         around->once[word] |= mask;
@@ -120,9 +120,10 @@ static uint16_t select_template(const tn_pass *pass, const contexts *around, con
     int32_t age = tn_state_age(state);
     for (uint32_t r = 0; r < group->rule_count; r++) {
         const tn_growth_rule *rule = &group->rules[r];
-        if (rule->left != TN_NO_LABEL && !has_context(around, pass->end[2 * (size_t)edge], rule->left, own))
+        if (rule->left != TN_NO_LABEL && !has_context(around, pass->sides[2 * (size_t)edge].origin, rule->left, own))
             continue;
-        if (rule->right != TN_NO_LABEL && !has_context(around, pass->end[2 * (size_t)edge + 1], rule->right, own))
+        if (rule->right != TN_NO_LABEL &&
+            !has_context(around, pass->sides[2 * (size_t)edge + 1].origin, rule->right, own))
             continue;
         if (rule->alternative_count == 1 || rule->conditional) {
             for (uint32_t i = 0; i < rule->alternative_count; i++)
@@ -228,7 +229,7 @@ typedef struct chain_search {
 static uint32_t next_in_chain(const tn_pass *pass, uint32_t edge)
 {
     const tn_map *map = pass->old;
-    uint32_t d = pass->dart[2 * (size_t)edge], f = pass->face[2 * (size_t)edge],
+    uint32_t d = pass->dart[2 * (size_t)edge], f = pass->sides[2 * (size_t)edge].face,
              next = d + 1 == map->face_first[f + 1] ? map->face_first[f] : d + 1;
     return map->side[next] & 1 ? TN_NONE : map->side[next] / 2;
 }
@@ -243,8 +244,8 @@ static bool find_chain(chain_search *search, const tn_growth_group *group, uint3
         if (tn_state_label(state) != group->labels[i] || state & TN_STATE_FRESH || search->taken[e])
             return false;
         if (i + 1 == group->label_count)
-            return pass->end[2 * (size_t)edge] != pass->end[2 * (size_t)e + 1];
-        if (search->degree[pass->end[2 * (size_t)e + 1]] != 2)
+            return pass->sides[2 * (size_t)edge].origin != pass->sides[2 * (size_t)e + 1].origin;
+        if (search->degree[pass->sides[2 * (size_t)e + 1].origin] != 2)
             return false;
         uint32_t next = next_in_chain(pass, e);
         if (next == TN_NONE)
@@ -279,7 +280,7 @@ static void refuse_small_faces(chain_search *search)
     size_t kept = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
         tn_replacement *one = &pass->list[i];
-        uint32_t left = pass->face[2 * (size_t)one->first], right = pass->face[2 * (size_t)one->last + 1];
+        uint32_t left = pass->sides[2 * (size_t)one->first].face, right = pass->sides[2 * (size_t)one->last + 1].face;
         uint32_t pieces = pass->growth->system->templates[one->template].segment_count;
         if (one->length > pieces) {
             uint32_t loss = one->length - pieces;
@@ -333,7 +334,7 @@ static tn_status match_chains(tn_pass *pass, const contexts *around, tn_error *e
         status = tn_fail_memory(error);
     } else {
         for (size_t side = 0; side < 2 * (size_t)map->edge_count; side++)
-            search.degree[pass->end[side]]++;
+            search.degree[pass->sides[side].origin]++;
         for (uint32_t f = 0; f < map->face_count; f++)
             search.size[f] = tn_face_size(map, f);
         for (uint32_t g = pass->group_first; g < pass->group_last && status == TN_OK; g++)
@@ -363,8 +364,7 @@ tn_status tn_pass_match(tn_pass *pass, tn_error *error)
     if (status == TN_OK && has_chains(pass)) {
         status = match_chains(pass, &around, error);
     } else if (status == TN_OK) {
-        /* where the joined edges' darts will be noted, once choices are made */
-        tn_pages *choices = &pass->growth->space.joints;
+        tn_pages *choices = &pass->growth->space.choices;
         if (tn_pages_reserve(choices, pass->old->edge_count * sizeof *pass->choice)) {
             pass->choice = choices->data;
             status = match_singly(pass, &around, error);

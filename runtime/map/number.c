@@ -18,28 +18,25 @@ static uint32_t joints_end(const tn_pass *pass, uint32_t chunk)
 static void count_joints(void *context, uint32_t chunk)
 {
     const numbering *n = context;
+    uint32_t count = 0;
     for (uint32_t b = chunk * TN_CHUNK_EDGES, end = joints_end(n->pass, chunk); b < end; b++)
-        n->first[chunk + 1] += n->pass->joints[b] != TN_NONE;
+        count += n->pass->joints[b] != TN_NONE;
+    n->first[chunk + 1] = count;
 }
 
 static void number_chunk(void *context, uint32_t chunk)
 {
     const numbering *n = context;
-    const tn_map *new = n->pass->new;
-    uint32_t edge = n->first[chunk];
+    uint32_t *joints = n->pass->joints, edge = n->first[chunk];
     for (uint32_t b = chunk * TN_CHUNK_EDGES, end = joints_end(n->pass, chunk); b < end; b++) {
-        uint32_t start = n->pass->joints[b];
-        if (start == TN_NONE)
+        if (joints[b] == TN_NONE)
             continue;
-        uint32_t opposite = new->side[start];
-        new->states[edge] = new->side[opposite];
-        new->side[start] = 2 * edge;
-        new->side[opposite] = 2 * edge + 1;
-        edge++;
+        n->pass->new->states[edge] = joints[b];
+        joints[b] = edge++;
     }
 }
 
-tn_status tn_pass_number_joints(tn_pass *pass, tn_error *error)
+tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error)
 {
     uint32_t numbers = pass->branch_first + pass->branch_count;
     uint32_t chunks = (numbers + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;

@@ -6,23 +6,38 @@
 #include <sys/mman.h>
 
 #define HUGE_PAGE ((size_t)2 << 20)
-#define SMALL ((size_t)256 << 10) /* up to here the heap serves as well */
+#define SMALL ((size_t)512 << 10) /* up to here the heap serves as well */
 
-static size_t rounded(size_t size)
+/* A mapping that begins where a huge page does, untouched. */
+static void *map_aligned(size_t capacity)
 {
-    size_t unit = size >= HUGE_PAGE ? HUGE_PAGE : (size_t)4096;
-    return (size + unit - 1) & ~(unit - 1);
-}
-
-/* From the heap to a mapping of its own: too small for what it held to matter much. */
-static void *map_fresh(const tn_pages *pages, size_t capacity)
-{
-    void *data = mmap(NULL, capacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    char *data = mmap(NULL, capacity + HUGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (data == MAP_FAILED)
         return NULL;
-    if (pages->data)
+    size_t before = (HUGE_PAGE - (uintptr_t)data % HUGE_PAGE) % HUGE_PAGE;
+    if (before)
+        munmap(data, before);
+    if (before < HUGE_PAGE)
+        munmap(data + before + capacity, HUGE_PAGE - before);
+    return data + before;
+}
+
+/* A larger mapping that holds what there was: copied from the heap, where it was too small for that to matter; its
+ * pages taken over otherwise. */
+static void *enlarge(const tn_pages *pages, size_t capacity)
+{
+    void *data = map_aligned(capacity);
+    if (!data)
+        return NULL;
+    if (pages->capacity > SMALL) {
+        if (mremap(pages->data, pages->capacity, capacity, MREMAP_MAYMOVE | MREMAP_FIXED, data) == MAP_FAILED) {
+            munmap(data, capacity);
+            return NULL;
+        }
+    } else if (pages->data) {
         memcpy(data, pages->data, pages->capacity);
-    free(pages->data);
+        free(pages->data);
+    }
     return data;
 }
 
@@ -39,19 +54,11 @@ bool tn_pages_reserve(tn_pages *pages, size_t size)
         *pages = (tn_pages){data, size};
         return true;
     }
-    size_t capacity = rounded(size);
-    void *data;
-    if (pages->capacity <= SMALL) {
-        data = map_fresh(pages, capacity);
-    } else {
-        data = mremap(pages->data, pages->capacity, capacity, MREMAP_MAYMOVE);
-        if (data == MAP_FAILED)
-            data = NULL;
-    }
+    size_t capacity = (size + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
+    void *data = enlarge(pages, capacity);
     if (!data)
         return false;
-    if (capacity >= HUGE_PAGE)
-        madvise(data, capacity, MADV_HUGEPAGE); /* advice only: without huge pages it is merely slower */
+    madvise(data, capacity, MADV_HUGEPAGE); /* advice only: without huge pages it is merely slower */
     *pages = (tn_pages){data, capacity};
     return true;
 }

@@ -3,18 +3,22 @@
  * A step is one pass for all groups of rules (Sync) or one for each group. A pass reads the old map and writes a new
  * one:
  *
- *   survey   each edge's ends and faces, each face's normal               (survey.c)
- *   match    which template, if any, replaces each edge                   (match.c)
- *   rewrite  numbers, states and new vertices of what replaces each edge  (rewrite.c)
- *   faces    each face's loop with its pieces and branches; branches      (faces.c, join.c)
- *            joined; the loops that result written out
- *   number   joined edges numbered by their lower branch                  (number.c)
+ *   survey   each edge side's vertex and face, each face's normal                            (survey.c)
+ *   match    which template, if any, replaces each edge                                      (match.c)
+ *   rewrite  numbers, states, frames and new vertices of what replaces each edge             (rewrite.c)
+ *   decide   which branches of each face join, and into which loops the face is cut           (decide.c)
+ *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
+ *   stamp    every dart of the new map written once, in its place                             (stamp.c)
+ *
+ * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again where
+ * another face has the same edges replaced by the same templates.
  */
 #ifndef TARTAN_MAP_PASS_H
 #define TARTAN_MAP_PASS_H
 
 #include "runtime/map/growth.h"
 #include "runtime/map/pages.h"
+#include "runtime/map/vector.h"
 
 #define TN_NONE UINT32_MAX
 #define TN_NO_TEMPLATE UINT16_MAX
@@ -38,16 +42,32 @@ typedef struct tn_shape {
     bool end_branches; /* some branch leaves from an end of the path, a vertex that was there before */
 } tn_shape;
 
-/* What replaces an edge (or a chain of edges). */
+/* What replaces an edge (or a chain of edges): the numbers that writing it needs. */
 typedef struct tn_record {
-    double heading[3], up[3]; /* frame of the edge */
-    uint32_t child;           /* first new edge */
-    uint32_t vertex;          /* first new vertex, at the path's point 1 */
-    uint32_t branch;          /* first branch */
-    uint32_t left, right;     /* faces of the old map */
+    uint32_t child;  /* first new edge */
+    uint32_t vertex; /* first new vertex, at the path's point 1 */
+    uint32_t branch; /* first branch */
     uint16_t template;
     int16_t age; /* of the replaced edge */
 } tn_record;
+
+typedef float tn_quad __attribute__((vector_size(16)));
+
+/* Where it is: all that most faces need to know of it to join its branches, in one cache line. The frame is rounded;
+ * where that could decide anything, tn_pass_frame works it out again. */
+typedef struct tn_frame {
+    tn_quad heading, left, up;      /* of the replaced edge; each one's last is 0 */
+    uint32_t left_face, right_face; /* of the old map */
+    uint32_t branch;                /* these three as in its record */
+    uint16_t template;
+    int16_t age;
+} tn_frame;
+
+/* One side of an edge. */
+typedef struct tn_edge_side {
+    uint32_t origin; /* the vertex it starts at */
+    uint32_t face;   /* that it is on */
+} tn_edge_side;
 
 typedef struct tn_run {
     uint32_t first, last; /* edges of a chain */
@@ -56,7 +76,8 @@ typedef struct tn_run {
 /* A branch that did not join yet. */
 typedef struct tn_pending {
     double direction[3];
-    uint32_t dart; /* it lies in the corner before this dart */
+    uint32_t dart;       /* it lies in the corner before this dart (while faces are decided: of its face's cut) */
+    uint32_t face, loop; /* while faces are decided: the face, and which loop of its cut */
     uint32_t id;
     uint32_t label;
     int32_t age;
@@ -65,7 +86,7 @@ typedef struct tn_pending {
 
 typedef struct tn_pending_list {
     tn_pending *items; /* by face; within a face in the order of its loop */
-    size_t count, capacity;
+    size_t count;
     uint32_t *face_first; /* [face_count + 1] */
 } tn_pending_list;
 
@@ -73,10 +94,10 @@ typedef struct tn_pending_list {
  */
 typedef struct tn_workspace {
     tn_pages positions, states[2], darts[2], faces[2];
-    tn_pages ends, slots, records, joints, made;
-    struct tn_chunk *chunks; /* of faces being worked out */
-    uint32_t chunk_count;
+    tn_pages survey, choices, chunks, slots, records, joints, cut_of, made;
     int current;
+    struct tn_decider *deciders; /* [decider_count] one for each thread */
+    int decider_count;
 } tn_workspace;
 
 struct tn_growth {
@@ -88,6 +109,8 @@ struct tn_growth {
     tn_walk *walks;       /* storage of the shapes */
     uint32_t *group_of;   /* [label] the group whose whole predecessor it is, or TN_NONE */
     bool weighted;        /* some choice is random */
+    bool ranked;          /* faces have ranks: not before a face has to wait for others (see tn_growth_step) */
+    bool needs_ranks;     /* one had to */
     bool hard;            /* some boundary moves vertices */
     tn_workspace space;
     tn_map map;
@@ -111,11 +134,10 @@ typedef struct tn_pass {
     bool joins_last;                  /* what does not join now is dropped */
     int threads;
     /* survey */
-    uint32_t *end;       /* [2 edge + against] the vertex that side starts at */
-    uint32_t *face;      /* [2 edge + against] its face */
+    tn_edge_side *sides; /* [2 edge + against] */
     double *normal;      /* [face][3] */
-    uint32_t *dart;      /* [2 edge + against]; only where old vertices have branches */
-    bool walks_vertices; /* `dart` is needed, and `end` and `face` are kept */
+    uint32_t *dart;      /* [2 edge + against]; only where `walks_vertices` */
+    bool walks_vertices; /* joining may ask who is around a vertex */
     /* match */
     uint16_t *choice;            /* [edge] template or TN_NO_TEMPLATE */
     struct tn_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
@@ -123,19 +145,28 @@ typedef struct tn_pass {
     /* rewrite */
     uint32_t *slot; /* [edge] its record, or TN_KEPT | its new number */
     tn_record *records;
+    tn_frame *frames; /* [record]; lie where the new map's darts will be: gone once faces are decided */
     uint32_t record_count;
     tn_run *runs;                        /* [record]; only where chains are replaced */
     uint32_t vertices, edges;            /* of the new map, without joined edges */
     uint32_t branch_first, branch_count; /* numbers of this pass's branches: [first, first + count) */
     bool out_of_range;
-    /* faces */
-    uint32_t *joints;        /* [branch number] of the lower branch: the joined edge's first dart; TN_NONE: none */
-    uint32_t *made_first;    /* [old face's rank] the number of its first join, in the order of storage */
-    uint32_t *made_count;    /* [old face's rank] its joins; then the rank of the first face that they made */
-    uint32_t *pending_first; /* [new face] where its waiting branches begin; only where joins are tried again */
+    /* decide */
+    uint32_t *joints; /* [branch] where it is a joined pair's lower one: the edge's state, then its number; others:
+                         TN_NONE */
+    uint32_t *cut_of; /* [face] how it is cut (face_cut.h) */
+    uint32_t *made;   /* [rank of a face] its joins, then the rank of the first face that they make; NULL: no ranks */
+    struct tn_face_chunk *chunks;
+    uint32_t chunk_count;
 } tn_pass;
 
 #define TN_KEPT 0x80000000u
+
+/* The age of what a successor draws, by the mark it has there (tn_age_change), from the age of what it replaces. */
+static inline int32_t tn_changed_age(uint8_t change, int32_t age)
+{
+    return change == TN_AGE_KEEP ? age : change == TN_AGE_MORE ? age + 1 : change == TN_AGE_LESS ? age - 1 : 0;
+}
 
 typedef struct tn_replacement {
     uint32_t first, last, length; /* edges of the chain */
@@ -145,9 +176,19 @@ typedef struct tn_replacement {
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
 tn_status tn_pass_match(tn_pass *pass, tn_error *error);
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error);
+
+/* The frame of what replaces the edges first .. last, unit vectors, and the length between their ends. Returns where it
+ * begins. */
+tn_vector tn_pass_frame(const tn_pass *pass, uint32_t first, uint32_t last, tn_vector *heading, tn_vector *up,
+                        double *length);
+
+tn_status tn_pass_decide(tn_pass *pass, tn_error *error);
+void tn_pass_stamp(tn_pass *pass);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
-tn_status tn_pass_number_joints(tn_pass *pass, tn_error *error);
-void tn_chunks_free(struct tn_chunk *chunks, uint32_t count);
+tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error);
+
+/* TN_LIMIT where a step makes more edges than the options allow. */
+tn_status tn_growth_check_edges(const tn_growth *growth, uint64_t edges, tn_error *error);
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error);
 
 #endif

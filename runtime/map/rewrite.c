@@ -14,12 +14,11 @@ typedef struct tally_counts {
     uint64_t records, kept, pieces, vertices, branches;
 } tally_counts;
 
-/* The turtle's frame of a (possibly chained) edge. U is the sum of the unit normals of its faces made normal to H;
- * where they cancel or are along H, the left face's, z, then x. */
-static tn_vector frame_up(const tn_pass *pass, uint32_t left, uint32_t right, tn_vector heading)
+/* U is the sum of the unit normals of the edge's faces made normal to H; where they cancel or are along H, the left
+ * face's, z, then x. */
+static tn_vector up_of(tn_vector both, tn_vector left, tn_vector heading)
 {
-    tn_vector l = tn_vector_at(pass->normal + 3 * (size_t)left), r = tn_vector_at(pass->normal + 3 * (size_t)right);
-    tn_vector candidates[] = {tn_add(l, r), l, {0, 0, 1}, {1, 0, 0}};
+    tn_vector candidates[] = {both, left, {0, 0, 1}, {1, 0, 0}};
     for (int i = 0; i < 4; i++) {
         tn_vector up = tn_along(candidates[i], heading, -tn_dot(candidates[i], heading));
         double length2 = tn_dot(up, up);
@@ -29,36 +28,54 @@ static tn_vector frame_up(const tn_pass *pass, uint32_t left, uint32_t right, tn
     return (tn_vector){0, 0, 1};
 }
 
-static int32_t changed_age(uint8_t change, int32_t age)
+static inline tn_vector make_frame(const tn_pass *pass, tn_edge_side from, tn_edge_side to, tn_vector *heading,
+                                   tn_vector *up, double *length)
 {
-    switch (change) {
-    case TN_AGE_KEEP:
-        return age;
-    case TN_AGE_MORE:
-        return age + 1;
-    case TN_AGE_LESS:
-        return age - 1;
-    default:
-        return 0;
-    }
+    tn_vector a = tn_vector_at(pass->old->positions + 3 * (size_t)from.origin);
+    tn_vector h = tn_sub(tn_vector_at(pass->old->positions + 3 * (size_t)to.origin), a);
+    *length = tn_norm(h);
+    h = *length > 1e-300 ? tn_scale(h, 1 / *length) : (tn_vector){1, 0, 0};
+    tn_vector left = tn_vector_at(pass->normal + 3 * (size_t)from.face);
+    *heading = h;
+    *up = up_of(tn_add(left, tn_vector_at(pass->normal + 3 * (size_t)to.face)), left, h);
+    return a;
 }
 
-static bool place_vertices(const tn_pass *pass, const tn_template *template, uint32_t first, tn_vector from,
-                           double length, tn_vector h, tn_vector u)
+tn_vector tn_pass_frame(const tn_pass *pass, uint32_t first, uint32_t last, tn_vector *heading, tn_vector *up,
+                        double *length)
+{
+    return make_frame(pass, pass->sides[2 * (size_t)first], pass->sides[2 * (size_t)last + 1], heading, up, length);
+}
+
+static tn_quad rounded(tn_vector a)
+{
+    typedef double four __attribute__((vector_size(32)));
+    return __builtin_convertvector(((four){a.x, a.y, a.z, 0}), tn_quad);
+}
+
+/* Frame and new vertices of what replaces the edges first .. last. False where a coordinate leaves its range. */
+static inline bool place(const tn_pass *pass, uint32_t first, uint32_t last, const tn_template *template,
+                         const tn_record *record, tn_frame *frame)
 {
     const tn_growth *growth = pass->growth;
-    tn_vector l = tn_cross(u, h);
-    bool finite = true;
+    tn_edge_side from = pass->sides[2 * (size_t)first], to = pass->sides[2 * (size_t)last + 1];
+    tn_vector h, u;
+    double length;
+    tn_vector a = make_frame(pass, from, to, &h, &u, &length), l = tn_cross(u, h);
+    *frame = (tn_frame){rounded(h), rounded(l),     rounded(u),       from.face,
+                        to.face,    record->branch, record->template, record->age};
+    double *at = pass->new->positions + 3 * (size_t)record->vertex;
+    double wild = 0; /* what is no finite number stays none when subtracted from itself */
     for (uint32_t j = 0; j + 1 < template->segment_count; j++) {
         const double *c = template->segments[j].end;
-        tn_vector p = tn_along(tn_along(tn_scale(h, c[0]), l, c[1]), u, c[2]);
-        p = tn_along(from, p, length);
+        tn_vector p = tn_along(a, tn_along(tn_along(tn_scale(h, c[0]), l, c[1]), u, c[2]), length);
         if (growth->hard)
-            p = tn_environment_place(growth->environment, p, from, tn_along(from, h, length));
-        tn_vector_put(pass->new->positions + 3 * (size_t)(first + j), p);
-        finite = finite && isfinite(p.x + p.y + p.z);
+            p = tn_environment_place(growth->environment, p, a, tn_along(a, h, length));
+        tn_vector_put(at + 3 * (size_t)j, p);
+        double sum = p.x + p.y + p.z;
+        wild += sum - sum;
     }
-    return finite;
+    return wild == 0;
 }
 
 /* Replaces the edges first .. last; `at` holds the numbers that come next. False where an age or a coordinate leaves
@@ -66,32 +83,16 @@ static bool place_vertices(const tn_pass *pass, const tn_template *template, uin
 static bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tally_counts *at)
 {
     const tn_template *template = &pass->growth->system->templates[chosen];
-    tn_record *record = &pass->records[at->records];
-    uint32_t from = pass->end[2 * (size_t)first], to = pass->end[2 * (size_t)last + 1];
     int32_t age = tn_state_age(pass->old->states[first]);
-    record->left = pass->face[2 * (size_t)first];
-    record->right = pass->face[2 * (size_t)last + 1];
-    record->child = (uint32_t)at->pieces;
-    record->vertex = (uint32_t)at->vertices;
-    record->branch = (uint32_t)at->branches;
-    record->template = chosen;
-    record->age = (int16_t)age;
+    tn_record record = {(uint32_t)at->pieces, (uint32_t)at->vertices, (uint32_t)at->branches, chosen, (int16_t)age};
+    pass->records[at->records] = record;
     if (pass->runs)
         pass->runs[at->records] = (tn_run){first, last};
-
-    tn_vector a = tn_vector_at(pass->old->positions + 3 * (size_t)from);
-    tn_vector h = tn_sub(tn_vector_at(pass->old->positions + 3 * (size_t)to), a);
-    double length = tn_norm(h);
-    h = length > 1e-300 ? tn_scale(h, 1 / length) : (tn_vector){1, 0, 0};
-    tn_vector u = frame_up(pass, record->left, record->right, h);
-    tn_vector_put(record->heading, h);
-    tn_vector_put(record->up, u);
-    if (!place_vertices(pass, template, record->vertex, a, length, h, u))
+    if (!place(pass, first, last, template, &record, &pass->frames[at->records]))
         return false;
-
-    bool fresh = !pass->growth->system->sync;
+    bool fresh = !pass->joins_last;
     for (uint32_t j = 0; j < template->segment_count; j++) {
-        int32_t now = changed_age(template->segments[j].age, age);
+        int32_t now = tn_changed_age(template->segments[j].age, age);
         if (now > TN_AGE_MAX || now < -TN_AGE_MAX)
             return false;
         pass->new->states[at->pieces + j] = tn_state(template->segments[j].label, now, fresh);
@@ -129,8 +130,8 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     }
     uint64_t vertices = (uint64_t)old->vertex_count + total->vertices;
     uint64_t most = edges + (total->branches + growth->pending.count) / 2;
-    uint64_t bytes = 24 * vertices + 4 * most + (8 * (uint64_t)sizeof(uint32_t) / 2) * most +
-                     sizeof(tn_record) * total->records + sizeof(uint32_t) * total->branches +
+    uint64_t bytes = 3 * sizeof(double) * vertices + (sizeof(tn_edge_state) + 4 * sizeof(uint32_t)) * most +
+                     (sizeof(tn_record) + sizeof(tn_frame)) * total->records + sizeof(uint32_t) * total->branches +
                      40 * (uint64_t)old->edge_count;
     if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
         tn_fail(error, TN_LIMIT, 841, "step %u would need about %llu MB of memory; the limit is %llu MB",
@@ -147,12 +148,14 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
         !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
         !tn_pages_reserve(&space->records, (size_t)total->records * sizeof *pass->records) ||
+        !tn_pages_reserve(&space->darts[!space->current], (size_t)total->records * sizeof *pass->frames) ||
         !tn_pages_reserve(&space->slots, (size_t)old->edge_count * sizeof *pass->slot))
         return tn_fail_memory(error);
     growth->map.positions = space->positions.data; /* vertices stay where they are; new ones follow them */
     pass->new->positions = space->positions.data;
     pass->new->states = space->states[!space->current].data;
     pass->records = space->records.data;
+    pass->frames = space->darts[!space->current].data;
     pass->slot = space->slots.data;
     return TN_OK;
 }
@@ -160,7 +163,8 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
 static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
 {
     pass->slot[edge] = TN_KEPT | number;
-    pass->new->states[number] = pass->old->states[edge];
+    tn_edge_state state = pass->old->states[edge];
+    pass->new->states[number] = pass->joins_last ? state & ~TN_STATE_FRESH : state;
 }
 
 /* ---- each edge on its own */
@@ -181,11 +185,11 @@ static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally
 }
 
 /* What an edge's frame needs lies all over memory: asked for some edges ahead, it is there in time. */
-static void prefetch(const tn_pass *pass, uint32_t edge)
+static inline __attribute__((always_inline)) void prefetch(const tn_pass *pass, uint32_t edge)
 {
     for (size_t side = 2 * (size_t)edge; side < 2 * (size_t)edge + 2; side++) {
-        __builtin_prefetch(pass->old->positions + 3 * (size_t)pass->end[side]);
-        __builtin_prefetch(pass->normal + 3 * (size_t)pass->face[side]);
+        __builtin_prefetch(pass->old->positions + 3 * (size_t)pass->sides[side].origin);
+        __builtin_prefetch(pass->normal + 3 * (size_t)pass->sides[side].face);
     }
 }
 
@@ -297,7 +301,7 @@ static tn_status rewrite_list(tn_pass *pass, tn_error *error)
     tally_counts at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
     for (size_t i = 0; i < pass->list_count; i++) {
         const tn_replacement *one = &pass->list[i];
-        uint32_t d = pass->dart[2 * (size_t)one->first], f = pass->face[2 * (size_t)one->first];
+        uint32_t d = pass->dart[2 * (size_t)one->first], f = pass->sides[2 * (size_t)one->first].face;
         uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
         for (uint32_t j = 0; j < one->length; j++)
             pass->slot[pass->old->side[first + (d - first + j) % size] / 2] = (uint32_t)at.records;
