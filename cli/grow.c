@@ -108,7 +108,7 @@ static void warn_of_fault(run_state *run, uint32_t code, const tn_fault *fault, 
         snprintf(since, sizeof since, ", since step %u", steps[0]);
     tn_diagnostics *list = tn_job_diagnostics(run->job);
     tn_diagnostic *d =
-        tn_report_bare(list, TN_WARNING, code, "after step %u, %u %s%s; the oldest is around (%.4g, %.4g, %.4g)",
+        tn_report_bare(list, TN_WARNING, code, "after step %u, %u %s%s; the first is around (%.4g, %.4g, %.4g)",
                        steps[1], fault->count, what, since, fault->place[0], fault->place[1], fault->place[2]);
     tn_help(list, d, "%s", help);
 }

@@ -15,7 +15,7 @@ typedef struct search {
     const uint32_t *face_of; /* [edge side] */
     double (*normals)[3];    /* [face] twice its area long */
     uint32_t crossed, inverted;
-    uint32_t first_crossed, first_inverted; /* ranks */
+    uint32_t first_crossed, first_inverted; /* each one's lowest edge side */
     bool out_of_memory;
 } search;
 
@@ -110,48 +110,58 @@ static bool is_inverted(const search *s, uint32_t face)
     return tn_dot(n, around) < AGAINST * tn_norm(n) * tn_norm(around);
 }
 
+/* A face's place in the order in which faces are written. */
+static uint32_t lowest_side(const tn_map *map, uint32_t face)
+{
+    uint32_t lowest = UINT32_MAX;
+    for (uint32_t d = map->face_first[face]; d < map->face_first[face + 1]; d++)
+        lowest = map->side[d] < lowest ? map->side[d] : lowest;
+    return lowest;
+}
+
 static void look_for_crossed(search *s, int threads)
 {
-    uint32_t count = 0, oldest = UINT32_MAX;
+    uint32_t count = 0, first = UINT32_MAX;
 #pragma omp parallel num_threads(threads) if (s->map->face_count > CHUNK)
     {
         tn_outline outline = {0};
-#pragma omp for schedule(static, CHUNK) reduction(+ : count) reduction(min : oldest)
+#pragma omp for schedule(static, CHUNK) reduction(+ : count) reduction(min : first)
         for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
             if (!is_crossed(s, f, &outline))
                 continue;
             count++;
-            oldest = s->map->face_rank[f] < oldest ? s->map->face_rank[f] : oldest;
+            uint32_t side = lowest_side(s->map, f);
+            first = side < first ? side : first;
         }
         tn_outline_clear(&outline);
     }
     s->crossed = count;
-    s->first_crossed = oldest;
+    s->first_crossed = first;
 }
 
 static void look_for_inverted(search *s, int threads)
 {
-    uint32_t count = 0, oldest = UINT32_MAX;
-#pragma omp parallel for num_threads(threads) schedule(static, CHUNK) reduction(+ : count) reduction(min : oldest)     \
+    uint32_t count = 0, first = UINT32_MAX;
+#pragma omp parallel for num_threads(threads) schedule(static, CHUNK) reduction(+ : count) reduction(min : first)     \
     if (s->map->face_count > CHUNK)
     for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
         if (!is_inverted(s, f))
             continue;
         count++;
-        oldest = s->map->face_rank[f] < oldest ? s->map->face_rank[f] : oldest;
+        uint32_t side = lowest_side(s->map, f);
+        first = side < first ? side : first;
     }
     s->inverted = count;
-    s->first_inverted = oldest;
+    s->first_inverted = first;
 }
 
-static tn_fault fault_at(const tn_map *map, uint32_t count, uint32_t rank)
+static tn_fault fault_at(const search *s, uint32_t count, uint32_t side)
 {
+    const tn_map *map = s->map;
     tn_fault fault = {.count = count};
-    uint32_t face = TN_OUTER_FACE + 1;
-    while (count > 0 && map->face_rank[face] != rank)
-        face++;
     if (count == 0)
         return fault;
+    uint32_t face = s->face_of[side];
     for (uint32_t d = map->face_first[face]; d < map->face_first[face + 1]; d++)
         for (int k = 0; k < 3; k++)
             fault.place[k] += map->positions[3 * (size_t)map->origin[d] + (size_t)k] / tn_face_size(map, face);
@@ -173,8 +183,8 @@ tn_status tn_faults_find(const tn_growth *growth, tn_faults *faults, tn_error *e
     }
     if (status == TN_OK) {
         look_for_inverted(&s, threads);
-        faults->crossed = fault_at(map, s.crossed, s.first_crossed);
-        faults->inverted = fault_at(map, s.inverted, s.first_inverted);
+        faults->crossed = fault_at(&s, s.crossed, s.first_crossed);
+        faults->inverted = fault_at(&s, s.inverted, s.first_inverted);
     }
     free(face_of);
     free(s.normals);

@@ -7,7 +7,7 @@
 
 typedef struct tn_fault {
     uint32_t count;  /* faces */
-    double place[3]; /* the middle of the oldest of them, in model units */
+    double place[3]; /* the middle of the first of them, as faces are written, in model units */
 } tn_fault;
 
 typedef struct tn_faults {

@@ -10,8 +10,8 @@
  *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
  *
- * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again where
- * another face has the same edges replaced by the same templates.
+ * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again
+ * where another face has the same edges replaced by the same templates.
  */
 #ifndef TARTAN_MAP_PASS_H
 #define TARTAN_MAP_PASS_H

@@ -192,7 +192,7 @@ grep -qa 'element face 256' limited.ply || fail 'the last complete step is not w
 
 # Faces that cross themselves or are turned over are counted, with their place; --werror takes them for errors.
 run grow square.hemls -n 4 --scale 1.3 --attractor 'at 1 1 1 strength 9' --attractor 'at -1 0 1 strength 9' -o pulled.obj
-grep -q "W105.*after step 4, .* faces' outlines cross themselves.*oldest is around (" stderr || { cat stderr; fail 'crossed faces are not told'; }
+grep -q "W105.*after step 4, .* faces' outlines cross themselves.*first is around (" stderr || { cat stderr; fail 'crossed faces are not told'; }
 grep -q 'W106.*after step 4, .* turned over onto' stderr || { cat stderr; fail 'faces turned over are not told'; }
 code=0
 "$TARTAN" grow square.hemls -n 4 --scale 1.3 --attractor 'at 1 1 1 strength 9' --attractor 'at -1 0 1 strength 9' --werror -o pulled.obj 2>stderr || code=$?
