@@ -149,35 +149,57 @@ class Careful(ref.Growth):
 
 
 def random_system(R):
-    labels, timed = R.randint(1, 3), R.random() < 0.4
+    """Labels, ages, weights, conditions, contexts, chains, branches nested and in space, paths that leave the line or the
+    plane, `~`, forces; every option that a study has and the reference too."""
+    labels, timed = R.randint(1, 4), R.random() < 0.4
     edge = lambda age=True: "Edge%d" % R.randrange(labels) + (R.choice(["", "_i", "_i+1", "_i-1"]) if age and timed else "")
     turn = lambda signs: " ".join(R.choice(signs) * R.randint(1, 3))
+    tilde = lambda share: "~ " if R.random() < share else ""
+    back = {"+": "-", "-": "+", "&": "^", "^": "&", "\\": "/", "/": "\\"}
+
+    def branches():
+        if R.random() < 0.25:
+            n = R.randint(1, 3)
+            both = [edge(), edge(), " ".join("+" * n), " ".join("-" * n)]
+            return R.choice(["[ [ %s %s ] %s %s ]", "[ %s %s ] [ %s %s ]"]) % (both[2], both[0], both[3], both[1])
+        if R.random() < 0.15:
+            return "[ [ [ + %s ] - %s ] & %s %s ]" % (edge(), edge(), turn("+-"), edge())
+        return "[ %s %s%s ]" % (turn("+++---&^\\/"), tilde(0.3), edge())
 
     def successor():
         out = []
         for j in range(R.randint(1, 4)):
-            for _ in range(R.choice([0, 0, 1, 2])):
-                if R.random() < 0.25:
-                    n = R.randint(1, 3)
-                    out.append("[ [ %s %s ] %s %s ]" % (" ".join("+" * n), edge(), " ".join("-" * n), edge()))
-                else:
-                    out.append("[ %s %s%s ]" % (turn("+++---&^\\/"), R.choice(["", "", "~ "]), edge()))
-            out.append(("+ %s -" if R.random() < 0.15 else "%s") % (("~ " if R.random() < 0.15 else "") + edge()))
+            out += [branches() for _ in range(R.choice([0, 0, 1, 2]))]
+            kind, drawn = R.random(), tilde(0.15) + edge()
+            if kind < 0.15:
+                drawn = "+ %s -" % drawn
+            elif kind < 0.25:
+                way = [R.choice("+-&^\\/") for _ in range(R.randint(1, 2))]
+                drawn = " ".join(way + [drawn] + [back[w] for w in reversed(way)])
+            elif kind < 0.3:
+                drawn = "- %s + + %s -" % (drawn, edge())
+            out.append(drawn)
         if R.random() < 0.3:
             out.append("[ %s %s ]" % (turn("+-"), edge()))
         return " ".join(out)
 
-    lines = [" + ".join(("~ " if R.random() < 0.2 else "") + edge(False) for _ in range(R.randint(3, 6)))]
-    for _ in range(R.randint(1, 4)):
-        form = R.choice(["%s"] * 6 + ["%s %s", "%s < %s", "%s > %s", "%s < %s > %s"])
+    lines = [" + ".join(tilde(0.2) + edge(False) for _ in range(R.randint(3, 7)))]
+    for _ in range(R.randint(1, 5)):
+        form = R.choice(["%s"] * 7 + ["%s %s", "%s %s %s", "%s < %s", "%s > %s", "%s < %s > %s"])
         rule = form % tuple(edge(False) for _ in range(form.count("%"))) + " -> " + successor()
         kind = R.random()
         if kind < 0.2:
-            rule += " Weight %d\n -> %s Weight %d" % (R.randint(1, 3), successor(), R.randint(0, 3))
-        elif kind < 0.4:
-            rule += " If i %s %d" % (R.choice("<>="), R.randint(0, 2))
+            rule += " Weight %d" % R.randint(1, 3)
+            rule += "".join("\n -> %s Weight %s" % (successor(), R.choice(["0", "1", "2.5", "3"])) for _ in range(R.randint(1, 3)))
+        elif kind < 0.25:
+            rule += "\n -> " + successor()
+        elif kind < 0.45:
+            rule += " If i %s %d" % (R.choice("<>="), R.randint(-1, 2))
+            rule += "".join("\n -> %s If i %s %d" % (successor(), R.choice("<>="), R.randint(0, 3)) for _ in range(R.choice([0, 0, 1, 2])))
         lines.append(rule)
-    lines += ["Angle %d" % R.choice([30, 36, 45, 60, 90]), "BranchAngle %d" % R.choice([30, 60, 75, 90, 90, 120])]
+    # no angle with two multiples up to three that point the same way (72, 120): in the reference rounding decides there which
+    # of two such branches comes first
+    lines += ["Angle %d" % R.choice([15, 22, 30, 36, 45, 60, 75, 90, 100]), "BranchAngle %d" % R.choice([30, 60, 75, 90, 90, 120, 180])]
     if R.random() < 0.5:
         lines.append("Sync")
     options = {"scale": R.choice([0.8, 1.0, 1.5]), "seed": R.randint(0, 1000)}
@@ -185,7 +207,25 @@ def random_system(R):
                               ("fixed_center", True, 0.2), ("fixed_perimeter", True, 0.2)):
         if R.random() < share:
             options[key] = value
+    if R.random() < 0.3:
+        place = lambda: [R.uniform(-3, 3) for _ in range(3)]
+        options["env"] = [[R.choice(["attractor", "repeller"]), place(), R.uniform(0.1, 1), R.choice([1, 2, 2.5])]
+                          for _ in range(R.randint(0, 2))] + [["gravity", [0, 0, R.uniform(-0.3, 0.3)]]]
+    if R.random() < 0.25:
+        options["wall_mode"] = R.choice(["slide", "stop", "soft"])
+        options["walls"] = [R.choice([["plane", [0, 0, R.uniform(-1, 0)], [R.uniform(-0.3, 0.3), R.uniform(-0.3, 0.3), 1]],
+                                      ["sphere", [R.uniform(-1, 1), 0.2, R.uniform(-2, 2)], R.uniform(0.3, 1), False],
+                                      ["sphere", [0.1, 0.2, 0], R.uniform(2, 4), True],
+                                      ["box", [-2.1, -1.9, -1], [2.2, 2.3, 1.5], True]])]
     return "\n".join(lines), options
+
+
+def surroundings(options):
+    """Forces and walls as the reference's own objects."""
+    forces = {"attractor": ref.Attractor, "repeller": ref.Repeller, "gravity": ref.Gravity}
+    walls = {"plane": ref.Plane, "sphere": ref.Sphere, "box": ref.Box}
+    return {**options, "env": [forces[e[0]](*e[1:]) for e in options.get("env", [])],
+            "walls": [walls[w[0]](*w[1:]) for w in options.get("walls", [])]}
 
 
 def random_systems(count):
@@ -193,7 +233,7 @@ def random_systems(count):
     for seed in range(count):
         text, options = random_system(random.Random(seed))
         try:
-            g = Careful(ref.parse(text), ref.Options(**options))
+            g = Careful(ref.parse(text), ref.Options(**surroundings(options)))
         except ref.HemlsError:
             continue
         snapshot = lambda: (g.mesh()[0], [list(e[:2]) for e in g.mesh()[2]], g.histogram())

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EAR_CORNERS_MAX 2000u /* cutting ears takes the square of the corners; larger faces become fans */
-
 void tn_mesh_clear(tn_mesh *mesh)
 {
     free(mesh->positions);
@@ -35,8 +33,7 @@ static const double *place(const tn_mesh *mesh, uint32_t vertex)
     return mesh->positions + 3 * (size_t)vertex;
 }
 
-/* Newell's normal of a face: twice its area long. */
-static void face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, double n[3])
+void tn_mesh_face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, double n[3])
 {
     const double *first = place(mesh, corners[0]);
     n[0] = n[1] = n[2] = 0;
@@ -53,106 +50,6 @@ static void face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t c
     }
 }
 
-/* ---- triangles */
-
-/* Twice the area of a triangle as seen along the normal. */
-static double area(const tn_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, const double n[3])
-{
-    uint32_t corners[3] = {a, b, c};
-    double m[3];
-    face_normal(mesh, corners, 3, m);
-    return m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
-}
-
-static bool is_ear(const tn_mesh *mesh, const uint32_t *ring, uint32_t count, uint32_t i, const double n[3])
-{
-    uint32_t a = ring[(i + count - 1) % count], b = ring[i], c = ring[(i + 1) % count];
-    if (area(mesh, a, b, c, n) <= 0)
-        return false;
-    for (uint32_t j = 0; j < count; j++) {
-        uint32_t p = ring[j];
-        if (p == a || p == b || p == c)
-            continue;
-        if (area(mesh, a, b, p, n) >= 0 && area(mesh, b, c, p, n) >= 0 && area(mesh, c, a, p, n) >= 0)
-            return false;
-    }
-    return true;
-}
-
-/* Writes count - 2 triangles. `ring` is used up. */
-static void cut_ears(const tn_mesh *mesh, uint32_t *ring, uint32_t count, uint32_t *out)
-{
-    double n[3];
-    face_normal(mesh, ring, count, n);
-    while (count > 3) {
-        uint32_t ear = 0;
-        while (ear < count && !is_ear(mesh, ring, count, ear, n))
-            ear++;
-        if (ear == count) /* folded over itself: any corner will do */
-            ear = 0;
-        *out++ = ring[(ear + count - 1) % count];
-        *out++ = ring[ear];
-        *out++ = ring[(ear + 1) % count];
-        memmove(ring + ear, ring + ear + 1, (count - ear - 1) * sizeof *ring);
-        count--;
-    }
-    memcpy(out, ring, 3 * sizeof *out);
-}
-
-static void cut_face(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, uint32_t *ring, uint32_t *out)
-{
-    if (count <= EAR_CORNERS_MAX) {
-        memcpy(ring, corners, count * sizeof *ring);
-        cut_ears(mesh, ring, count, out);
-        return;
-    }
-    for (uint32_t i = 1; i + 1 < count; i++) {
-        *out++ = corners[0];
-        *out++ = corners[i];
-        *out++ = corners[i + 1];
-    }
-}
-
-tn_status tn_mesh_triangulate(tn_mesh *mesh, tn_error *error)
-{
-    size_t triangles = 0;
-    for (size_t f = 0; f < mesh->face_count; f++)
-        triangles += mesh->face_first[f + 1] - mesh->face_first[f] - 2;
-    if (triangles == mesh->face_count)
-        return TN_OK;
-    if (triangles > UINT32_MAX / 3)
-        return tn_fail(error, TN_LIMIT, 844, "the mesh would have %zu triangles; the limit is %u", triangles,
-                       UINT32_MAX / 3);
-    uint32_t ring[EAR_CORNERS_MAX];
-    uint32_t *first = malloc((triangles + 1) * sizeof *first), *corners = malloc((3 * triangles + 1) * sizeof *corners);
-    uint32_t *group = mesh->face_group ? malloc((triangles + 1) * sizeof *group) : NULL;
-    if (!first || !corners || (mesh->face_group && !group)) {
-        free(first);
-        free(corners);
-        free(group);
-        return tn_fail_memory(error);
-    }
-    size_t t = 0;
-    for (size_t f = 0; f < mesh->face_count; f++) {
-        uint32_t count = mesh->face_first[f + 1] - mesh->face_first[f];
-        cut_face(mesh, mesh->corners + mesh->face_first[f], count, ring, corners + 3 * t);
-        for (uint32_t i = 0; i + 2 < count; i++, t++) {
-            first[t] = (uint32_t)(3 * t);
-            if (group)
-                group[t] = mesh->face_group[f];
-        }
-    }
-    first[t] = (uint32_t)(3 * t);
-    free(mesh->face_first);
-    free(mesh->corners);
-    free(mesh->face_group);
-    mesh->face_first = first;
-    mesh->corners = corners;
-    mesh->face_group = group;
-    mesh->face_count = triangles;
-    return TN_OK;
-}
-
 /* ---- normals */
 
 tn_status tn_mesh_normals(const tn_mesh *mesh, double **normals, tn_error *error)
@@ -163,7 +60,7 @@ tn_status tn_mesh_normals(const tn_mesh *mesh, double **normals, tn_error *error
     for (size_t f = 0; f < mesh->face_count; f++) {
         double n[3];
         uint32_t first = mesh->face_first[f], end = mesh->face_first[f + 1];
-        face_normal(mesh, mesh->corners + first, end - first, n);
+        tn_mesh_face_normal(mesh, mesh->corners + first, end - first, n);
         for (uint32_t c = first; c < end; c++)
             for (int k = 0; k < 3; k++)
                 sums[3 * (size_t)mesh->corners[c] + (size_t)k] += n[k];

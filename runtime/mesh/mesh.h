@@ -27,7 +27,10 @@ void tn_mesh_clear(tn_mesh *mesh);
 /* Room for so many; TN_MEMORY. Groups and lines are not made. */
 tn_status tn_mesh_new(size_t vertices, size_t faces, size_t corners, tn_mesh *mesh, tn_error *error);
 
-/* Every face in triangles (ears cut off, so that hollow faces are covered rightly; very large ones as fans). */
+/* Newell's normal of a loop of vertices: twice its area long. */
+void tn_mesh_face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, double n[3]);
+
+/* Every face in triangles, ears cut off, so that hollow faces are covered rightly. */
 tn_status tn_mesh_triangulate(tn_mesh *mesh, tn_error *error);
 
 /* Unit normals of the vertices, [vertex_count][3], weighted by area; zero where there is none. The caller frees them.

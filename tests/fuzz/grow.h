@@ -5,8 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/map/draw.h"
+#include "runtime/map/faults.h"
 #include "runtime/map/stats.h"
 #include "runtime/map/study.h"
+#include "runtime/map/surface.h"
 
 enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_TEMPLATES = 200 };
 
@@ -18,6 +21,23 @@ static inline bool is_modest(const tn_module *module)
             return false;
     return module->GROWTH_count == 1 && module->BRANCH_count <= GROW_TEMPLATES && module->AXIOM_count <= GROW_EDGES &&
            module->FORCE_count <= GROW_EDGES && module->BOUNDARY_count <= GROW_EDGES;
+}
+
+/* What is done with a surface afterwards: faults are looked for, what is hidden in a picture is, a mesh is made. */
+static inline void look_at(const tn_growth *growth)
+{
+    tn_error error;
+    tn_faults faults;
+    tn_camera camera = tn_camera_default();
+    tn_view *view;
+    tn_mesh mesh;
+    if (tn_faults_find(growth, &faults, &error) != TN_OK || tn_view_take(growth, &camera, &view, &error) != TN_OK)
+        abort();
+    tn_view_free(view);
+    if (tn_surface_mesh(growth, &(tn_surface_options){.groups = true, .lines = true}, &mesh, &error) != TN_OK ||
+        tn_mesh_triangulate(&mesh, &error) != TN_OK)
+        abort();
+    tn_mesh_clear(&mesh);
 }
 
 static inline void grow_some(tn_growth *growth)
@@ -36,6 +56,7 @@ static inline void grow_some(tn_growth *growth)
             abort();
         tn_stats_clear(&stats);
     }
+    look_at(growth);
 }
 
 static inline void grow_module(const tn_module *module)

@@ -105,12 +105,14 @@ static void test_other_closed_forms(void **state)
     plant_text(&alternate, "t.study", "rules \"alternate\"");
     plant_text(&apical, "t.study", "rules \"apical\"");
     plant_text(&ruffle, "t.study", "rules \"ruffle\" scale 1.25");
-    for (uint32_t n = 0; n <= 7; n++) {
+    for (uint32_t n = 0; n <= 10; n++) {
         assert_counts(&koch, 3u << 2 * n, 3u << 2 * n, 1);
         assert_int_equal(tn_growth_map(alternate.growth)->face_count - 1, 1u << n);
         assert_int_equal(tn_growth_map(apical.growth)->face_count - 1, n + 1);
-        if (n > 0)
+        if (n > 0 && n < 10) /* in the tenth step ruffles cross, and 16 branches find none against them */
             assert_int_equal(tn_growth_map(ruffle.growth)->face_count - 1, (4u << n) - 4);
+        if (n == 10)
+            break;
         step(&koch);
         step(&alternate);
         step(&apical);
