@@ -78,7 +78,7 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
         status = write_sentence(sentence, individual, error);
     const char *const text[] = {individual->sentence};
     if (status == TN_OK && run->job->grower)
-        status = tn_grower_draw(run->job->grower, text, 1, sentence, picture, error);
+        status = tn_grower_draw(run->job->grower, text, NULL, 1, sentence, picture, error);
     else if (status == TN_OK && run->job->learner)
         status = tn_learner_draw(individual->sentence, picture, error);
     else if (status == TN_OK)

@@ -71,24 +71,39 @@ static void draw_cell(cairo_t *t, double x, double y, double height, size_t numb
                   (unsigned)((height - INSET - HEAD - INSET) / LEADING));
 }
 
+#define LABEL_BYTES 64u
+
 /* Surfaces are drawn as they are, in the members' order; those without a score come last and are not drawn. */
-static tn_status draw_surfaces(tn_run *run, const char *path, tn_error *error)
+static tn_status draw_surfaces(tn_run *run, size_t scored, const char *path, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    const char **sentences = calloc(scored, sizeof *sentences), **labels = calloc(scored, sizeof *labels);
+    char *text = malloc(scored * LABEL_BYTES), title[80];
+    tn_status status = sentences && labels && text ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < scored; i++) {
+        snprintf(text + i * LABEL_BYTES, LABEL_BYTES, "%zu   (score %.5g)", i + 1, members[i]->score.objectives[0]);
+        sentences[i] = members[i]->sentence;
+        labels[i] = text + i * LABEL_BYTES;
+    }
+    snprintf(title, sizeof title, "generation %u", run->generations ? run->generations - 1 : 0);
+    if (scored < count)
+        snprintf(title + strlen(title), 40, "; %zu more have no surface", count - scored);
+    if (status == TN_OK)
+        status = tn_grower_draw(run->job->grower, sentences, labels, scored, title, path, error);
+    free(sentences);
+    free(labels);
+    free(text);
+    return status;
+}
+
+static size_t count_scored(const tn_run *run)
 {
     size_t count, scored = 0;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
-    const char **sentences = calloc(count + 1, sizeof *sentences);
-    char title[80];
-    if (!sentences)
-        return tn_fail_memory(error);
-    while (scored < count && members[scored]->score.state == TN_SCORED) {
-        sentences[scored] = members[scored]->sentence;
+    while (scored < count && members[scored]->score.state == TN_SCORED)
         scored++;
-    }
-    snprintf(title, sizeof title, "generation %u: 1 to %zu, row by row", run->generations ? run->generations - 1 : 0,
-             scored);
-    tn_status status = tn_grower_draw(run->job->grower, sentences, scored, title, path, error);
-    free(sentences);
-    return status;
+    return scored;
 }
 
 static tn_status draw_sentences(tn_run *run, const char *path, tn_error *error)
@@ -122,5 +137,6 @@ static tn_status draw_sentences(tn_run *run, const char *path, tn_error *error)
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
 {
     snprintf(path, size, "%s/sheet-%04u.svg", run->dir, run->generations ? run->generations - 1 : 0);
-    return run->job->grower ? draw_surfaces(run, path, error) : draw_sentences(run, path, error);
+    size_t scored = run->job->grower ? count_scored(run) : 0;
+    return scored ? draw_surfaces(run, scored, path, error) : draw_sentences(run, path, error);
 }

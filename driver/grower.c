@@ -211,8 +211,8 @@ tn_evaluator tn_grower_evaluator(tn_grower *grower)
 
 /* ---- pictures */
 
-tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_t count, const char *title,
-                         const char *path, tn_error *error)
+tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const char *const *labels, size_t count,
+                         const char *title, const char *path, tn_error *error)
 {
     tn_canvas_format format;
     tn_view **views = calloc(count + 1, sizeof *views);
@@ -224,11 +224,12 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, size_
     tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++) {
         rules compiled;
-        if (grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, NULL) == TN_OK)
+        status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
+        if (status == TN_OK)
             status = tn_view_take(growth, &camera, &views[drawn++], error);
         rules_clear(&compiled);
     }
-    tn_view_options options = {.title = title, .numbered = count > 1};
+    tn_view_options options = {.title = title, .labels = labels};
     if (status == TN_OK && drawn)
         status = tn_views_draw(views, drawn, &options, path, format, error);
     for (size_t i = 0; views && i < drawn; i++)

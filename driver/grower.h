@@ -17,8 +17,9 @@ void tn_grower_free(tn_grower *grower);
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower);
 
-/* Grows sentences and draws them side by side in their order; those that cannot be grown are left out. */
-tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, size_t count, const char *title,
-                         const char *path, tn_error *error);
+/* Grows sentences that could be scored, and draws them side by side in their order, each over its label (`labels` may
+ * be NULL). */
+tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, const char *const *labels, size_t count,
+                         const char *title, const char *path, tn_error *error);
 
 #endif

@@ -358,13 +358,13 @@ static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const 
         top = TITLE_HEIGHT;
     }
     for (size_t i = 0; i < count; i++) {
-        char label[32];
-        if (options->numbered)
-            snprintf(label, sizeof label, "%zu", i + 1);
+        char label[96];
+        if (options->labels)
+            snprintf(label, sizeof label, "%s", options->labels[i]);
         else
             snprintf(label, sizeof label, "step %u", views[i]->step);
         paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
-                   count > 1 ? label : NULL);
+                   options->labels || count > 1 ? label : NULL);
     }
     write_foot(cr, views[count - 1], s, options);
 }

@@ -28,10 +28,10 @@ void tn_view_free(tn_view *view);
 uint32_t tn_view_by_depth(const tn_view *view);
 
 typedef struct tn_view_options {
-    const char *title;   /* or NULL */
-    const char *caption; /* a line at the foot: how it was made; or NULL */
-    uint32_t columns;    /* of a sheet; 0: about as many as rows */
-    bool numbered;       /* below each view its number from 1 on, to be chosen by; else its step, if there are several */
+    const char *title;         /* or NULL */
+    const char *caption;       /* a line at the foot: how it was made; or NULL */
+    uint32_t columns;          /* of a sheet; 0: about as many as rows */
+    const char *const *labels; /* below each view; NULL: its step, if there are several */
     uint32_t dpi;
     const tn_growth_system *system; /* names of labels, for the legend */
 } tn_view_options;
