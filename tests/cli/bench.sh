@@ -31,6 +31,10 @@ for peer in re2 pcre2 hyperscan; do
     fi
 done
 
+python3 tests/cli/many_rules.py 20 1 1..3 >"$scratch/many.plan"
+timeout 100 python3 bench/editor.py "$TARTAN" "$scratch/many.plan" 1 >"$scratch/editor.out" || fail 'the language server is not timed'
+is 'questions' "$(wc -l <"$scratch/editor.out")" 10
+
 runs library "$scratch/ten.tnb" 1000
 runs curve "$scratch/ten.tnb" 100 4 10 2
 for x in 1 10 100; do echo "plans $x $x"; done >"$scratch/points"
