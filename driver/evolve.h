@@ -2,7 +2,7 @@
  * database, resumed or new, generation by generation.
  *
  *   DIR/run.sqlite   the run (runtime/gene/run_store.h)
- *   DIR/best/        the best sentences as files, with their derivations
+ *   DIR/best/        the best sentences as files, with pictures, and scores.csv
  *   DIR/stats.csv    a line a generation
  *   DIR/fitness.svg  the same, drawn
  */

@@ -98,23 +98,73 @@ static bool seen_before(const tn_individual *const *members, size_t i)
     return false;
 }
 
-static tn_status write_best(tn_run *run, tn_error *error)
+static const char *objective_name(const tn_run *run, size_t i)
 {
-    char *dir = NULL;
-    if (asprintf(&dir, "%s/best", run->dir) < 0)
-        return tn_fail_memory(error);
-    tn_status status = tn_folder_make(dir, error);
-    empty_best(dir);
+    if (run->job->evaluator.objectives == 1)
+        return "score";
+    if (run->job->learner)
+        return i ? "length" : "errors";
+    return tn_grower_objective(run->job->grower, i);
+}
+
+/* scores.csv, beside the files: a line for each. */
+static void list_head(const tn_run *run, FILE *out)
+{
+    fputs("file,individual", out);
+    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
+        fprintf(out, ",%s", objective_name(run, i));
+    fputc('\n', out);
+}
+
+static void list_individual(const tn_run *run, size_t number, const tn_individual *individual, FILE *out)
+{
+    fprintf(out, "%zu.%s,%" PRIu64, number, run->job->extension, individual->id);
+    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
+        fprintf(out, ",%.17g", individual->score.objectives[i]);
+    fputc('\n', out);
+}
+
+/* The best of one objective, or the first front of several. */
+static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_error *error)
+{
     size_t count, front = tn_evolution_front(run->evolution), written = 0;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
     bool several = run->job->evaluator.objectives > 1;
+    tn_status status = TN_OK;
+    list_head(run, list);
     for (size_t i = 0; i < count && status == TN_OK; i++) {
         if (several ? i >= front : written >= BEST_MAX)
             break;
-        if (members[i]->score.state == TN_SCORED && !seen_before(members, i))
-            status = write_individual(run, dir, ++written, members[i], error);
+        if (members[i]->score.state != TN_SCORED || seen_before(members, i))
+            continue;
+        status = write_individual(run, dir, ++written, members[i], error);
+        list_individual(run, written, members[i], list);
+    }
+    return status;
+}
+
+static tn_status write_best(tn_run *run, tn_error *error)
+{
+    char *dir = NULL, *list = NULL;
+    tn_output output;
+    tn_status status = TN_OK;
+    if (asprintf(&dir, "%s/best", run->dir) < 0 || asprintf(&list, "%s/best/scores.csv", run->dir) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_folder_make(dir, error);
+    if (status == TN_OK) {
+        empty_best(dir);
+        status = tn_output_open(list, &output, error);
+    }
+    if (status == TN_OK) {
+        status = write_members(run, dir, output.stream, error);
+        if (status == TN_OK)
+            status = tn_output_commit(&output, error);
+        else
+            tn_output_discard(&output);
     }
     free(dir);
+    free(list);
     return status;
 }
 

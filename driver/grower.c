@@ -209,6 +209,11 @@ tn_evaluator tn_grower_evaluator(tn_grower *grower)
     return (tn_evaluator){grower, grower->separately ? grower->goal_count : 1, score_growth, adjust};
 }
 
+const char *tn_grower_objective(const tn_grower *g, size_t i)
+{
+    return name_of(g, g->goals[i]);
+}
+
 /* ---- pictures */
 
 tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const char *const *labels, size_t count,
