@@ -21,6 +21,7 @@ void tn_cuts_empty(tn_cuts *cuts)
     cuts->count = cuts->dart_count = cuts->loop_count = cuts->join_count = cuts->waiting_count = 0;
 }
 
+/* One more than is needed, so that there is an array to point into where nothing is. */
 static bool make_room(tn_cuts *cuts, const tn_loop *loop, bool waiting)
 {
     size_t darts = cuts->dart_count + loop->item_count, side_room = cuts->dart_room;
@@ -29,10 +30,10 @@ static bool make_room(tn_cuts *cuts, const tn_loop *loop, bool waiting)
            tn_make_room((void **)&cuts->sides, &cuts->dart_room, darts, sizeof *cuts->sides) &&
            tn_make_room((void **)&cuts->loops, &cuts->loop_room, cuts->loop_count + loop->join_count + 1,
                         sizeof *cuts->loops) &&
-           tn_make_room((void **)&cuts->joins, &cuts->join_room, cuts->join_count + loop->join_count,
+           tn_make_room((void **)&cuts->joins, &cuts->join_room, cuts->join_count + loop->join_count + 1,
                         sizeof *cuts->joins) &&
            (!waiting || tn_make_room((void **)&cuts->waiting, &cuts->waiting_room,
-                                     cuts->waiting_count + loop->branch_count, sizeof *cuts->waiting));
+                                     cuts->waiting_count + loop->branch_count + 1, sizeof *cuts->waiting));
 }
 
 /* Branches met after a loop's last dart lie in the corner before its first: they come first. */
@@ -54,7 +55,7 @@ static void turn_waiting(tn_cut_waiting *list, uint32_t count, uint32_t first_da
 static void write_loop(tn_cuts *cuts, tn_cut *cut, tn_loop *loop, uint32_t start, bool waiting)
 {
     uint32_t *origins = cuts->origins + cut->dart_first, *sides = cuts->sides + cut->dart_first;
-    tn_cut_waiting *list = cuts->waiting + cut->waiting_first;
+    tn_cut_waiting *list = waiting ? cuts->waiting + cut->waiting_first : NULL;
     uint32_t first = cut->dart_count, before = cut->waiting_count, i = start;
     do {
         tn_loop_item *item = &loop->items[i];
