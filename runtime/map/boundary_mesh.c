@@ -72,8 +72,8 @@ static void bound(const tn_boundary_mesh *mesh, node *box, uint32_t begin, uint3
         for (uint32_t i = begin; i < end; i++) {
             for (int c = 0; c < 3; c++) {
                 double v = component(mesh->corner[3 * (size_t)mesh->order[i] + (size_t)c], k);
-                box->low[k] = fmin(box->low[k], v);
-                box->high[k] = fmax(box->high[k], v);
+                box->low[k] = tn_smaller(box->low[k], v);
+                box->high[k] = tn_larger(box->high[k], v);
             }
         }
     }
@@ -266,9 +266,9 @@ tn_status tn_boundary_mesh_new(const double *positions, size_t vertex_count, con
 
 static double box_distance2(const node *box, tn_vector x)
 {
-    double dx = fmax(fmax(box->low[0] - x.x, x.x - box->high[0]), 0);
-    double dy = fmax(fmax(box->low[1] - x.y, x.y - box->high[1]), 0);
-    double dz = fmax(fmax(box->low[2] - x.z, x.z - box->high[2]), 0);
+    double dx = tn_larger(tn_larger(box->low[0] - x.x, x.x - box->high[0]), 0);
+    double dy = tn_larger(tn_larger(box->low[1] - x.y, x.y - box->high[1]), 0);
+    double dz = tn_larger(tn_larger(box->low[2] - x.z, x.z - box->high[2]), 0);
     return dx * dx + dy * dy + dz * dz;
 }
 
@@ -396,8 +396,8 @@ static bool box_meets(const node *box, const segment *s, double until)
             continue;
         }
         double t0 = (low - x) * s->inverse[k], t1 = (high - x) * s->inverse[k];
-        enter = fmax(enter, fmin(t0, t1));
-        leave = fmin(leave, fmax(t0, t1));
+        enter = tn_larger(enter, tn_smaller(t0, t1));
+        leave = tn_smaller(leave, tn_larger(t0, t1));
     }
     return enter <= leave;
 }
@@ -414,7 +414,7 @@ static bool triangle_meets(const tn_boundary_mesh *mesh, uint32_t triangle, cons
     double along = tn_dot(s->d, n);
     if (along >= 0 || height < -TOUCH)
         return false;
-    double t = fmax(0, height) / -along;
+    double t = tn_larger(0, height) / -along;
     if (!(t < 1))
         return false;
     tn_vector p = tn_along(s->x, s->d, t), geometric = tn_cross(tn_sub(c[1], c[0]), tn_sub(c[2], c[0]));
