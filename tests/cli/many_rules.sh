@@ -47,7 +47,7 @@ assert idle and found == idle, (found, idle)
 EOF
 }
 idle 120 1 0..3
-idle 60 1 1..5
+idle 50 2 0..4
 check 50 1 0..3
 check 50 2 0..3
 check 500 1 0..3
