@@ -115,8 +115,10 @@ echo '1 2' >&3
 for i in $(seq 200); do [ -f asked/sheet-0001.svg ] && break; sleep 0.1; done
 sleep 0.5
 kill -TERM "$pid"
-wait "$pid"; [ $? -eq 130 ] || fail "an interrupted prompt does not end as interrupted"
+for i in $(seq 600); do kill -0 "$pid" 2> /dev/null || break; sleep 0.1; done
+kill -0 "$pid" 2> /dev/null && fail "an interrupted prompt waits for its answer"
 exec 3>&-
+wait "$pid"; [ $? -eq 130 ] || fail "an interrupted prompt does not end as interrupted"
 "$TARTAN" runs show asked | grep -q '^ *1 ' || fail "an interrupted breeding forgets what was chosen"
 
 # ---- fitting data; evaluations that fail are counted, not fatal
