@@ -114,6 +114,8 @@ void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)
         }
     }
     const tn_module *module = library->schema->module;
+    if (error->code_offset == TN_NO_OFFSET)
+        error->code_offset = module->FUNCTION_records[clause_record(library, worst)->holds].code_begin;
     char others[200] = "";
     if (most[1] != worst)
         snprintf(others, sizeof others, ", `%.60s` or `%.60s`, which multiply the states most",
