@@ -1,7 +1,8 @@
-// The ten rules of ten.plan as regular expressions over a byte a tray, and what the peers that match them have in common.
+// The ten rules of ten.plan as regular expressions over a byte a tray, and what the peers that match them have in
+// common.
 //
-// The expressions are written by hand from the rules' meaning, within what RE2, PCRE2 and Hyperscan all understand. A peer is timed by
-// peer_run, which first compares its decisions with those that bench_plan left.
+// The expressions are written by hand from the rules' meaning, within what RE2, PCRE2 and Hyperscan all understand. A
+// peer is timed by peer_run, which first compares its decisions with those that bench_plan left.
 #ifndef TARTAN_BENCH_EXPRESSIONS_H
 #define TARTAN_BENCH_EXPRESSIONS_H
 
@@ -41,7 +42,8 @@ inline std::vector<std::string> expressions()
     auto body = [&](const Tray &t) { return begins(t[5], "dense"); };
     auto machine = [&](const Tray &t) { return begins(t[4], "dense"); };
     auto dense = [&](const Tray &t) { return body(t) || machine(t); };
-    std::string w4 = set([](const Tray &t) { return t[0] == "4'"; }), not_w4 = set([](const Tray &t) { return t[0] != "4'"; });
+    std::string w4 = set([](const Tray &t) { return t[0] == "4'"; }),
+                not_w4 = set([](const Tray &t) { return t[0] != "4'"; });
     std::string body_dense = set(body), empty = set([&](const Tray &t) { return !machine(t); });
     std::string no_totem = set([&](const Tray &t) { return !(wide(t) && body(t)); });
     std::string main_empty = set([&](const Tray &t) { return wide(t) && !machine(t) && !body(t); });
@@ -49,7 +51,8 @@ inline std::vector<std::string> expressions()
     std::string open12 = set([&](const Tray &t) { return wide(t) && !dense(t); });
     std::string low = set([&](const Tray &t) { return !dense(t) && t[1] == "single"; });
     std::string great = set([](const Tray &t) { return t[3] == "great"; });
-    std::string pub = set([](const Tray &t) { return t[2] == "public"; }), private_ = set([](const Tray &t) { return t[2] != "public"; });
+    std::string pub = set([](const Tray &t) { return t[2] == "public"; }),
+                private_ = set([](const Tray &t) { return t[2] != "public"; });
     std::string hall = set([](const Tray &t) { return t[3] == "great" && t[2] != "public"; });
     std::string main_machine = set([&](const Tray &t) { return wide(t) && machine(t); });
     std::string any = set([](const Tray &) { return true; });
@@ -64,10 +67,10 @@ inline std::vector<std::string> expressions()
         "^" + private_ + "*$|" + pub + private_ + "*" + pub,
         any + pub + any,
         main_machine + not_w4 + "*" + main_machine,
-        "(?:^" + private_ + "*|" + pub + private_ + "{3,})" + hall + "(?:" + private_ + "*$|" + private_ + "{3,}" + pub + ")",
+        "(?:^" + private_ + "*|" + pub + private_ + "{3,})" + hall + "(?:" + private_ + "*$|" + private_ + "{3,}" +
+            pub + ")",
     };
 }
-
 
 // One expression that matches where any of them does.
 inline std::string alternation()
@@ -94,7 +97,8 @@ inline Peer peer_read(const std::string &folder)
 {
     Peer peer;
     std::string line;
-    std::ifstream spellings(folder + "/trays.txt"), bytes(folder + "/plans.bin", std::ios::binary), masks(folder + "/mask.txt");
+    std::ifstream spellings(folder + "/trays.txt"), bytes(folder + "/plans.bin", std::ios::binary),
+        masks(folder + "/mask.txt");
     while (std::getline(spellings, line)) {
         std::istringstream words(line);
         trays.emplace_back(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
@@ -114,7 +118,8 @@ inline double seconds()
     return now.tv_sec + now.tv_nsec * 1e-9;
 }
 
-// Compares decide(plan) with our decisions (all: the bits of the rules; any: 0 or 1), then prints the median seconds a plan of 7 runs.
+// Compares decide(plan) with our decisions (all: the bits of the rules; any: 0 or 1), then prints the median seconds a
+// plan of 7 runs.
 template <typename Decide> void peer_run(const char *work, const char *name, const Peer &peer, Decide decide)
 {
     bool any = std::string(work) == "any";

@@ -85,8 +85,7 @@ static tn_status draw(const tn_diff_report *report, const tn_settings *settings,
     tn_status status = collect(report, headings, &s, error);
     snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, report->paths[0], report->paths[1],
              settings->seed.value);
-    snprintf(title, sizeof title, "%.160s: what changes",
-             tn_text(report->modules[1], report->records[1]->name));
+    snprintf(title, sizeof title, "%.160s: what changes", tn_text(report->modules[1], report->records[1]->name));
     tn_draw_options options = {.title = settings->title ? settings->title : title,
                                .number_name = "rank",
                                .notes = lines,

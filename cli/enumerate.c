@@ -34,7 +34,8 @@ static void refuse_range(tn_job *job)
 static void note_end(tn_job *job, const mpz_t kept)
 {
     char *digits = tn_digits(kept, false);
-    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?", job->settings->from);
+    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?",
+                job->settings->from);
     free(digits);
 }
 

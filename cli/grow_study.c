@@ -64,8 +64,8 @@ static bool say_statements(FILE *out, const tn_settings *s)
 static bool open_study(tn_job *job, const char *path, bool has_source, char *text, size_t size)
 {
     if (has_source) {
-        tn_job_status(job,
-                      tn_open_bytes("<options>.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
+        tn_job_status(
+            job, tn_open_bytes("<options>.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
         return job->opened.module != NULL;
     }
     if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)

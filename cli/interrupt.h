@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-/* From here on SIGINT, SIGTERM and SIGHUP are taken note of instead of ending the program; a second one ends it. One that
- * was ignored stays so (nohup). */
+/* From here on SIGINT, SIGTERM and SIGHUP are taken note of instead of ending the program; a second one ends it. One
+ * that was ignored stays so (nohup). */
 void tn_interrupt_watch(void);
 
 bool tn_interrupted(void);

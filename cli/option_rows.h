@@ -42,7 +42,7 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_CHOICE, HELP), .choices = CHOICES                          \
     }
 
-#define MAYBE(NAME, LETTER, ARGUMENT, FIELD, CHOICES, HELP)                                                           \
+#define MAYBE(NAME, LETTER, ARGUMENT, FIELD, CHOICES, HELP)                                                            \
     {                                                                                                                  \
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_MAYBE, HELP), .choices = CHOICES                           \
     }

@@ -73,7 +73,7 @@ typedef struct tn_settings {
     const char *output, *dropped;
     bool json, mirror, resume, check, diff;
     bool no_analysis, relations, examples; /* of check */
-    int notation; /* 0: what the file's name says; otherwise one more than a tn_notation */
+    int notation;                          /* 0: what the file's name says; otherwise one more than a tn_notation */
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 

@@ -5,8 +5,8 @@
 
 #include "compiler/bnf.h"
 #include "compiler/emit.h"
-#include "compiler/study.h"
 #include "compiler/evolution.h"
+#include "compiler/study.h"
 #include "runtime/vm/file.h"
 
 /* What `use` needs to know of a .plan file. */

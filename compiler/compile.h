@@ -29,7 +29,7 @@ typedef struct tn_compilation {
      * what became of them (check.h) */
     const struct tn_imports *imports;
     const struct tn_checked *checked;
-    uint8_t *module;     /* bytes of the module, owned; NULL where there were errors */
+    uint8_t *module; /* bytes of the module, owned; NULL where there were errors */
     size_t module_size;
 } tn_compilation;
 

@@ -28,7 +28,8 @@ static bool is_operator(const tn_format *format, size_t i)
 static size_t gap_before(const tn_format *format, size_t i)
 {
     bool tight = tn_format_is(format, i, ")") || tn_format_is(format, i, ",") || tn_format_is(format, i - 1, "(") ||
-                 is_sign(format, i - 1) || (tn_format_is(format, i, "(") && format->tokens[i - 1].kind == TN_TOKEN_NAME);
+                 is_sign(format, i - 1) ||
+                 (tn_format_is(format, i, "(") && format->tokens[i - 1].kind == TN_TOKEN_NAME);
     return tight ? 0 : 1;
 }
 

@@ -28,7 +28,8 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span);
 /* Bytes of the UTF-8 character at the start of a text that tn_text_check has passed. */
 size_t tn_character_size(const char *text, size_t size);
 
-/* The value of what a lexer has found to be a decimal number, "-12.5e3", whatever the locale says; infinite where it is too large. */
+/* The value of what a lexer has found to be a decimal number, "-12.5e3", whatever the locale says; infinite where it is
+ * too large. */
 double tn_decimal_value(const char *text, size_t size);
 
 #endif

@@ -14,7 +14,7 @@ typedef struct tn_test_case {
     const char *doc;       /* or NULL */
     const char *const *by; /* drop ... by NAME, NAME: clause names; all must be among the reasons */
     size_t by_count;
-    bool todo;             /* expected to fail */
+    bool todo; /* expected to fail */
     tn_span span;
 } tn_test_case;
 

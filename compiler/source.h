@@ -22,8 +22,8 @@ typedef struct tn_source {
     size_t line_count;
 } tn_source;
 
-/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the disk
- * counts. */
+/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the
+ * disk counts. */
 typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
 
 typedef struct tn_sources {

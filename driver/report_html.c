@@ -182,17 +182,18 @@ bool tn_report_chart(const tn_reporting *r, uint32_t low, const mpz_t *generated
     unsigned long most = 0;
     for (size_t i = 0; i < count; i++)
         most = magnitude(generated[i]) > most ? magnitude(generated[i]) : most;
-    bool written = tn_buffer_printf(
-        r->page,
-        "<figure class=\"chart\"><svg width=\"%d\" viewBox=\"0 0 %d %zu\" font-size=\"12\" font-family=\"sans-serif\" role=\"img\" "
-        "aria-label=\"plans by length\">\n",
-        CHART_WIDTH, CHART_WIDTH, count * BAR_ROW + 10);
+    bool written = tn_buffer_printf(r->page,
+                                    "<figure class=\"chart\"><svg width=\"%d\" viewBox=\"0 0 %d %zu\" font-size=\"12\" "
+                                    "font-family=\"sans-serif\" role=\"img\" "
+                                    "aria-label=\"plans by length\">\n",
+                                    CHART_WIDTH, CHART_WIDTH, count * BAR_ROW + 10);
     for (size_t i = 0; written && i < count; i++) {
         size_t y = i * BAR_ROW + 4;
         written = tn_buffer_printf(r->page, "<text x=\"0\" y=\"%zu\">%zu trays</text>", y + BAR_HEIGHT + 4, low + i) &&
                   write_bar(r, generated[i], most, y, "#c9c4b8") &&
                   write_bar(r, kept[i], most, y + BAR_HEIGHT + 1, "#5a7d4f");
     }
-    return written && tn_buffer_printf(r->page, "</svg></figure>\n<p class=\"quiet\">grey: generated; green: kept. The scale is "
-                                                "logarithmic.</p>\n");
+    return written &&
+           tn_buffer_printf(r->page, "</svg></figure>\n<p class=\"quiet\">grey: generated; green: kept. The scale is "
+                                     "logarithmic.</p>\n");
 }

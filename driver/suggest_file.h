@@ -4,8 +4,8 @@
 
 #include "runtime/vm/error.h"
 
-/* Where no file `path` exists, puts the file of the same folder with the nearest name into the error's help. False where
- * there is none; then the help stays as it is. */
+/* Where no file `path` exists, puts the file of the same folder with the nearest name into the error's help. False
+ * where there is none; then the help stays as it is. */
 bool tn_suggest_file(const char *path, tn_error *error);
 
 #endif

@@ -13,7 +13,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.S | re.M)
 
 def run(command, folder):
     path = os.path.dirname(os.path.abspath(os.environ["TARTAN"])) + os.pathsep + os.environ["PATH"]
-    done = subprocess.run(["bash", "-c", command], cwd=folder, env=dict(os.environ, PATH=path, NO_COLOR="1"),
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=dict(os.environ, PATH=path, NO_COLOR="1", LC_ALL="C.UTF-8"),
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
     return done.returncode, done.stdout.decode("utf-8", "replace")
 

@@ -1,4 +1,5 @@
-/* A program of its own that uses Tartan: compiles rules, says which of them match the plans of a list, and asks a library for plans.
+/* A program of its own that uses Tartan: compiles rules, says which of them match the plans of a list, and asks a
+ * library for plans.
  *
  *   cc embed.c $(pkg-config --cflags --libs tartan) -o embed
  *   ./embed narrow.plan <plans.txt
@@ -13,7 +14,8 @@ enum { TRAYS_MAX = 64 };
 static void show(void *context, const tartan_diagnostic *d)
 {
     static const char *const severities[] = {"note", "warning", "error"};
-    fprintf(context, "%s:%zu:%zu: %s: %s\n", d->path ? d->path : "?", d->line, d->column, severities[d->severity], d->message);
+    fprintf(context, "%s:%zu:%zu: %s: %s\n", d->path ? d->path : "?", d->line, d->column, severities[d->severity],
+            d->message);
     if (d->help)
         fprintf(context, "    help: %s\n", d->help);
 }

@@ -46,7 +46,8 @@ tn_vector tn_environment_move(const tn_environment *environment, tn_vector x, tn
  * nothing). */
 tn_vector tn_environment_project(const tn_environment *environment, tn_vector x);
 
-/* The same for a new vertex on an edge between two others: it does not lie across a membrane from both of them either. */
+/* The same for a new vertex on an edge between two others: it does not lie across a membrane from both of them either.
+ */
 tn_vector tn_environment_place(const tn_environment *environment, tn_vector p, tn_vector from, tn_vector to);
 
 /* Is x on the wrong side of a soft boundary, by more than 1e-9? */

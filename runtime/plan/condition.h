@@ -4,7 +4,6 @@
 
 #include "runtime/vm/module.h"
 
-
 #define TN_CONDITION_STEPS_MAX (UINT64_C(1) << 30)
 
 /* E(n), n >= 0, for a verified condition function (index into FUNCTION records). */

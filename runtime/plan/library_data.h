@@ -90,8 +90,8 @@ tn_status tn_library_order(const tn_library *library, const tn_sparse *generator
 /* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
 void tn_library_blame(const tn_library *library, size_t worst, tn_error *error);
 
-/* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking and
- * sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
+/* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
+ * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
                         tn_library **library, tn_error *error);
 

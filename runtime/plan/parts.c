@@ -349,7 +349,8 @@ const char *tn_part_word(tn_part_kind kind)
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }
 
-/* How many of the `used` bytes stay when the text is cut before the byte `next`: none of a character that `next` goes on with. */
+/* How many of the `used` bytes stay when the text is cut before the byte `next`: none of a character that `next` goes
+ * on with. */
 static size_t whole_characters(const char *text, size_t used, char next)
 {
     while (used > 0 && ((unsigned char)next & 0xc0) == 0x80)

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "runtime/vm/code.h"
+#include "runtime/vm/condition_text.h"
 #include "runtime/vm/disasm_growth.h"
 #include "runtime/vm/disasm_settings.h"
-#include "runtime/vm/condition_text.h"
 #include "runtime/vm/growth.h"
 #include "runtime/vm/utf8.h"
 
@@ -413,7 +413,8 @@ static void list_nonterminal(tn_lister *lister, uint32_t index)
     const tn_nonterminal_record *rule = &module->NONTERMINAL_records[index];
     fputc('\n', lister->out);
     write_name(lister, rule->name);
-    fprintf(lister->out, ", productions %u..%u\n", rule->production_first, rule->production_first + rule->production_count - 1);
+    fprintf(lister->out, ", productions %u..%u\n", rule->production_first,
+            rule->production_first + rule->production_count - 1);
     lister->shown_line = 0;
     for (uint32_t i = 0; i < rule->production_count && !ferror(lister->out); i++) {
         const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
@@ -437,8 +438,9 @@ static void list_grammar(tn_lister *lister, size_t index)
     const tn_grammar_record *grammar = &lister->module->GRAMMAR_records[index];
     fprintf(lister->out, "\ngrammar %zu  ", index);
     write_name(lister, grammar->name);
-    fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect], grammar->max_depth,
-            grammar->wraps, repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
+    fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect],
+            grammar->max_depth, grammar->wraps, repairs[grammar->repair],
+            grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
     write_place(lister, grammar->file, grammar->begin);
     for (uint32_t i = 0; i < grammar->rule_count && !ferror(lister->out); i++)
         list_nonterminal(lister, grammar->rule_first + i);

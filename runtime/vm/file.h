@@ -23,8 +23,8 @@ typedef struct tn_output {
     char *temporary;  /* owned; the file's name till then; NULL while it has none */
 } tn_output;
 
-/* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is left
- * of it when the program is killed. E0902 where that cannot be written. */
+/* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is
+ * left of it when the program is killed. E0902 where that cannot be written. */
 tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
 
 /* Flushes, syncs and renames it over its target. On failure the temporary file is removed and the target

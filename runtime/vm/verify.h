@@ -14,8 +14,8 @@
  *   growth    one rewrite system and one study at most; labels, points and templates that are there; numbers within the
  *             limits of growth.h
  *
- *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that ends
- *             with its one DONE, whose bodies nest, and whose operands are the grammar's own
+ *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that
+ * ends with its one DONE, whose bodies nest, and whose operands are the grammar's own
  *
  *   settings  of an evolution ascend, are in range and agree with one another, and there is one grammar
  *
@@ -35,8 +35,8 @@ tn_status tn_verify_growth(const tn_module *module, tn_error *error);
 tn_status tn_verify_settings(const tn_module *module, tn_error *error);
 tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error);
 
-/* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved past
- * them. A part of verifying the code. */
+/* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved
+ * past them. A part of verifying the code. */
 tn_status tn_verify_grammars(const tn_module *module, uint32_t *offset, size_t *map, tn_error *error);
 
 #endif

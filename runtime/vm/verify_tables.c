@@ -42,7 +42,8 @@ static bool is_string(const tn_module *module, tn_string string)
     return string < module->strings_size && (string == 0 || module->strings[string - 1] == '\0');
 }
 
-/* The first record of a section that has a string that is none or a number that is not finite, or the number of records. */
+/* The first record of a section that has a string that is none or a number that is not finite, or the number of
+ * records. */
 #define FITS_STR(value) is_string(module, (value))
 #define FITS_U32(value) true
 #define FITS_I64(value) true
@@ -71,7 +72,8 @@ static tn_status check_strings(tn_checker *checker)
         return refuse(checker, "its strings are not UTF-8 text");
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     if (bad_string_##NAME(module) < module->NAME##_count)                                                              \
-        return refuse(checker, "record %zu of " #NAME " has a string that is none, or a number that is not finite", bad_string_##NAME(module));
+        return refuse(checker, "record %zu of " #NAME " has a string that is none, or a number that is not finite",    \
+                      bad_string_##NAME(module));
 #include "runtime/vm/records.def"
 #undef SECTION
     return TN_OK;

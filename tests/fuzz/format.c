@@ -1,5 +1,5 @@
-/* Formatting any text as any notation: it ends, says what is wrong or lays the text out so that it means the same (which
- * formatting itself checks: it fails with TN_INTERNAL otherwise), and what is laid out stays as it is. */
+/* Formatting any text as any notation: it ends, says what is wrong or lays the text out so that it means the same
+ * (which formatting itself checks: it fails with TN_INTERNAL otherwise), and what is laid out stays as it is. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -35,8 +35,10 @@ static void match(const tn_schema *schema, uint32_t function)
     tn_matcher *by_vm = NULL, *by_dfa = NULL;
     tn_error error;
     bool both =
-        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_VM, STATES, LENGTH, false, TN_SIMD_BEST}, &vm, &error) == TN_OK &&
-        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_DFA, STATES, LENGTH, false, TN_SIMD_BEST}, &dfa, &error) == TN_OK &&
+        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_VM, STATES, LENGTH, false, TN_SIMD_BEST}, &vm,
+                     &error) == TN_OK &&
+        tn_rules_new(schema, &function, 1, &(tn_rules_options){TN_ENGINE_DFA, STATES, LENGTH, false, TN_SIMD_BEST},
+                     &dfa, &error) == TN_OK &&
         tn_matcher_new(vm, &by_vm, &error) == TN_OK && tn_matcher_new(dfa, &by_dfa, &error) == TN_OK;
     for (uint64_t i = 0; both && i < PLANS; i++) {
         tn_tray trays[PLAN_TRAYS];
