@@ -6,8 +6,7 @@
 #include "runtime/map/room.h"
 #include "runtime/map/share.h"
 
-#define MANY 64u  /* faces, for patterns to be worth their finding */
-#define AHEAD 32u /* darts */
+#define MANY 64u /* faces, for patterns to be worth their finding */
 
 /* ---- deciders */
 
@@ -227,21 +226,6 @@ static bool decide_face(const decision *d, uint32_t face)
 
 /* ---- all faces */
 
-/* What some darts further on than first .. end will need lies all over memory: asked for now, it is there in time. */
-static inline __attribute__((always_inline)) void prefetch(const tn_pass *pass, uint32_t first, uint32_t end)
-{
-    const uint32_t *side = pass->old->side, *slots = pass->slot;
-    const tn_frame *frames = pass->frames;
-    if (end + 2 * AHEAD > 2 * pass->old->edge_count)
-        return;
-    for (size_t i = first; i < end; i++) {
-        __builtin_prefetch(&slots[side[i + 2 * AHEAD] / 2]);
-        uint32_t slot = slots[side[i + AHEAD] / 2];
-        if (!(slot & TN_KEPT))
-            __builtin_prefetch(&frames[slot]);
-    }
-}
-
 static void decide_chunk(void *context, uint32_t number)
 {
     tn_pass *pass = context;
@@ -252,7 +236,7 @@ static void decide_chunk(void *context, uint32_t number)
     pass->chunks[number] = (tn_face_chunk){.decider = decider};
     decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
     for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
-        prefetch(pass, pass->old->face_first[f], pass->old->face_first[f + 1]);
+        tn_ask_ahead(pass, pass->old->face_first[f], pass->old->face_first[f + 1], pass->frames, sizeof *pass->frames);
         d.decider->failed = !decide_face(&d, f);
     }
 }

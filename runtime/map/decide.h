@@ -37,4 +37,22 @@ static inline const tn_cuts *tn_cuts_of(const tn_pass *pass, const tn_face_chunk
     return of_pattern ? &decider->patterns.cuts : &decider->cuts;
 }
 
+#define TN_AHEAD 32u /* darts */
+
+/* What some darts further on than first .. end will need lies all over memory: asked for now, it is there in time.
+ * `items` are of `size` bytes, one a record. Always inlined: a call that only asks is taken for one without effect. */
+static inline __attribute__((always_inline)) void tn_ask_ahead(const tn_pass *pass, uint32_t first, uint32_t end,
+                                                               const void *items, size_t size)
+{
+    const uint32_t *side = pass->old->side, *slots = pass->slot;
+    if (end + 2 * TN_AHEAD > 2 * pass->old->edge_count)
+        return;
+    for (size_t i = first; i < end; i++) {
+        __builtin_prefetch(&slots[side[i + 2 * TN_AHEAD] / 2]);
+        uint32_t slot = slots[side[i + TN_AHEAD] / 2];
+        if (!(slot & TN_KEPT))
+            __builtin_prefetch((const char *)items + slot * size);
+    }
+}
+
 #endif

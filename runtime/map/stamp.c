@@ -4,8 +4,6 @@
 #include "runtime/map/decide.h"
 #include "runtime/map/share.h"
 
-#define AHEAD 32u /* darts */
-
 /* Where the next of each goes. */
 typedef struct place {
     uint32_t dart, face;
@@ -96,21 +94,6 @@ static void stamp_face(const tn_pass *pass, const tn_face_chunk *chunk, uint32_t
     at->dart += cut->dart_count;
 }
 
-/* What some darts further on than first .. end will need lies all over memory: asked for now, it is there in time. */
-static inline __attribute__((always_inline)) void prefetch(const tn_pass *pass, uint32_t first, uint32_t end)
-{
-    const uint32_t *side = pass->old->side, *slots = pass->slot;
-    const tn_record *records = pass->records;
-    if (end + 2 * AHEAD > 2 * pass->old->edge_count)
-        return;
-    for (size_t i = first; i < end; i++) {
-        __builtin_prefetch(&slots[side[i + 2 * AHEAD] / 2]);
-        uint32_t slot = slots[side[i + AHEAD] / 2];
-        if (!(slot & TN_KEPT))
-            __builtin_prefetch(&records[slot]);
-    }
-}
-
 static void stamp_chunk(void *context, uint32_t number)
 {
     const tn_pass *pass = context;
@@ -119,7 +102,8 @@ static void stamp_chunk(void *context, uint32_t number)
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
     place at = {(uint32_t)chunk->darts, (uint32_t)chunk->faces};
     for (uint32_t f = begin; f < end; f++) {
-        prefetch(pass, pass->old->face_first[f], pass->old->face_first[f + 1]);
+        tn_ask_ahead(pass, pass->old->face_first[f], pass->old->face_first[f + 1], pass->records,
+                     sizeof *pass->records);
         stamp_face(pass, chunk, f, &at);
     }
 }
