@@ -6,16 +6,18 @@
 #include "cli/library_job.h"
 #include "cli/option_rows.h"
 #include "driver/digits.h"
+#include "driver/findings.h"
 
 /* All counts of a library: one a length, and one (at the end) of all. */
 typedef struct length_counts {
     mpz_t generated, kept, mirror;
 } length_counts;
 
-typedef struct rule_counts {
-    uint32_t clause, states;
-    mpz_t prunes, only;
-} rule_counts;
+/* Of a clause: how many plans it keeps out, and only it; negative where that is not counted. */
+typedef struct clause_counts {
+    uint32_t states;
+    mpz_t out, only;
+} clause_counts;
 
 typedef struct counts {
     const tn_ready_library *ready;
@@ -23,8 +25,8 @@ typedef struct counts {
     uint32_t low;
     length_counts *lengths; /* the last is the total */
     size_t length_count;
-    rule_counts *rules;
-    size_t rule_count;
+    clause_counts *clauses;
+    uint32_t clause_count;
 } counts;
 
 static bool counts_new(const tn_ready_library *ready, bool mirror, counts *c)
@@ -34,19 +36,19 @@ static bool counts_new(const tn_ready_library *ready, bool mirror, counts *c)
                   .mirror = mirror,
                   .low = low,
                   .length_count = (size_t)high - low + 1,
-                  .rule_count = tn_library_prune_count(ready->library)};
+                  .clause_count = ready->record->clause_count};
     c->lengths = malloc(sizeof *c->lengths * (c->length_count + 1));
-    c->rules = malloc(sizeof *c->rules * (c->rule_count + 1));
-    if (!c->lengths || !c->rules) {
+    c->clauses = malloc(sizeof *c->clauses * ((size_t)c->clause_count + 1));
+    if (!c->lengths || !c->clauses) {
         free(c->lengths);
-        free(c->rules);
+        free(c->clauses);
         *c = (counts){0};
         return false;
     }
     for (size_t i = 0; i <= c->length_count; i++)
         mpz_inits(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
-    for (size_t i = 0; i < c->rule_count; i++)
-        mpz_inits(c->rules[i].prunes, c->rules[i].only, NULL);
+    for (size_t i = 0; i < c->clause_count; i++)
+        mpz_inits(c->clauses[i].out, c->clauses[i].only, NULL);
     return true;
 }
 
@@ -54,13 +56,34 @@ static void counts_free(counts *c)
 {
     for (size_t i = 0; c->lengths && i <= c->length_count; i++)
         mpz_clears(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
-    for (size_t i = 0; c->rules && i < c->rule_count; i++)
-        mpz_clears(c->rules[i].prunes, c->rules[i].only, NULL);
+    for (size_t i = 0; c->clauses && i < c->clause_count; i++)
+        mpz_clears(c->clauses[i].out, c->clauses[i].only, NULL);
     free(c->lengths);
-    free(c->rules);
+    free(c->clauses);
 }
 
-static tn_status count_all(counts *c, tn_error *error)
+static const tn_clause_record *clause_record(const counts *c, uint32_t i)
+{
+    return &c->ready->schema->module->CLAUSE_records[c->ready->record->clause_first + i];
+}
+
+static const char *clause_name(const counts *c, uint32_t i)
+{
+    return tn_text(c->ready->schema->module, clause_record(c, i)->name);
+}
+
+/* A clause past a limit leaves the other counts as they are: a note says which it is. */
+static tn_status count_clause(counts *c, tn_opened *opened, uint32_t i, tn_error *error)
+{
+    clause_counts *clause = &c->clauses[i];
+    tn_status status = tn_library_effect(c->ready->library, i, clause->out, clause->only, &clause->states, error);
+    if (status != TN_LIMIT)
+        return status;
+    tn_finding_uncounted(opened, clause_name(c, i), error);
+    return TN_OK;
+}
+
+static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
 {
     const tn_library *library = c->ready->library;
     tn_status status = TN_OK;
@@ -71,10 +94,8 @@ static tn_status count_all(counts *c, tn_error *error)
         if (status == TN_OK && c->mirror)
             status = tn_library_kept_mirror(library, length, c->lengths[i].mirror, error);
     }
-    for (size_t i = 0; status == TN_OK && i < c->rule_count; i++) {
-        rule_counts *rule = &c->rules[i];
-        status = tn_library_prune(library, i, &rule->clause, rule->prunes, rule->only, &rule->states, error);
-    }
+    for (uint32_t i = 0; status == TN_OK && i < c->clause_count; i++)
+        status = count_clause(c, opened, i, error);
     return status;
 }
 
@@ -89,7 +110,7 @@ static int column_width(const mpz_t largest, const char *heading)
 static void write_number(const mpz_t number, int width, FILE *out)
 {
     char *text = tn_digits(number, true);
-    fprintf(out, "  %*s", width, text ? text : "?");
+    fprintf(out, "  %*s", width, mpz_sgn(number) < 0 ? "-" : text ? text : "?");
     free(text);
 }
 
@@ -115,30 +136,30 @@ static void write_lengths(const counts *c, FILE *out)
     }
 }
 
-static const char *clause_name(const counts *c, uint32_t clause)
+/* The requirements, or the prunes. */
+static void write_clauses(const counts *c, bool prunes, const char *what, const char *out_heading, FILE *out)
 {
-    const tn_module *module = c->ready->schema->module;
-    return tn_text(module, module->CLAUSE_records[clause].name);
-}
-
-static void write_rules(const counts *c, FILE *out)
-{
-    if (c->rule_count == 0)
-        return;
-    int prunes = 6, only = 10, names = 4;
-    for (size_t i = 0; i < c->rule_count; i++) {
-        int name = (int)strlen(clause_name(c, c->rules[i].clause)), wide = column_width(c->rules[i].prunes, "prunes"),
-            alone = column_width(c->rules[i].only, "only by it");
+    int names = (int)strlen(what), outs = (int)strlen(out_heading), onlys = (int)strlen("only by it");
+    bool any = false;
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
+        int name = (int)strlen(clause_name(c, i)), wide = column_width(c->clauses[i].out, out_heading),
+            alone = column_width(c->clauses[i].only, "only by it");
         names = name > names ? name : names;
-        prunes = wide > prunes ? wide : prunes;
-        only = alone > only ? alone : only;
+        outs = wide > outs ? wide : outs;
+        onlys = alone > onlys ? alone : onlys;
+        any = true;
     }
-    fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, "rule", prunes, "prunes", only, "only by it", "states");
-    for (size_t i = 0; i < c->rule_count; i++) {
-        fprintf(out, "%-*s", names, clause_name(c, c->rules[i].clause));
-        write_number(c->rules[i].prunes, prunes, out);
-        write_number(c->rules[i].only, only, out);
-        fprintf(out, "  %6u\n", c->rules[i].states);
+    if (any)
+        fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, what, outs, out_heading, onlys, "only by it", "states");
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
+        fprintf(out, "%-*s", names, clause_name(c, i));
+        write_number(c->clauses[i].out, outs, out);
+        write_number(c->clauses[i].only, onlys, out);
+        fprintf(out, "  %6u\n", c->clauses[i].states);
     }
 }
 
@@ -157,13 +178,14 @@ static void write_text(const counts *c, FILE *out)
     free(text);
     mpz_clear(pruned);
     write_lengths(c, out);
-    write_rules(c, out);
+    write_clauses(c, false, "requirement", "keeps out", out);
+    write_clauses(c, true, "rule", "prunes", out);
 }
 
 static void set_number(json_t *object, const char *key, const mpz_t number)
 {
     char *text = tn_digits(number, false);
-    json_object_set_new(object, key, json_string(text ? text : ""));
+    json_object_set_new(object, key, mpz_sgn(number) < 0 ? json_null() : json_string(text ? text : ""));
     free(text);
 }
 
@@ -182,15 +204,17 @@ static json_t *lengths_json(const counts *c)
     return list;
 }
 
-static json_t *rules_json(const counts *c)
+static json_t *clauses_json(const counts *c, bool prunes, const char *out_key)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < c->rule_count; i++) {
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
         json_t *item = json_object();
-        json_object_set_new(item, "name", json_string(clause_name(c, c->rules[i].clause)));
-        set_number(item, "prunes", c->rules[i].prunes);
-        set_number(item, "only", c->rules[i].only);
-        json_object_set_new(item, "states", json_integer(c->rules[i].states));
+        json_object_set_new(item, "name", json_string(clause_name(c, i)));
+        set_number(item, out_key, c->clauses[i].out);
+        set_number(item, "only", c->clauses[i].only);
+        json_object_set_new(item, "states", json_integer(c->clauses[i].states));
         json_array_append_new(list, item);
     }
     return list;
@@ -215,7 +239,8 @@ static void write_json(const counts *c, FILE *out)
     if (c->mirror)
         set_number(root, "mirror", total->mirror);
     json_object_set_new(root, "by_length", lengths_json(c));
-    json_object_set_new(root, "rules", rules_json(c));
+    json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
+    json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
     json_dumpf(root, out, JSON_INDENT(2));
     fputc('\n', out);
     json_decref(root);
@@ -234,7 +259,7 @@ static void count(tn_job *job, const tn_ready_library *ready)
         return;
     }
     tn_job_show(job);
-    if (count_all(&c, &error) != TN_OK) {
+    if (count_all(&c, &job->opened, &error) != TN_OK) {
         tn_job_fail(job, &error);
     } else if (tn_job_output(job, settings->output, &output)) {
         (settings->json ? write_json : write_text)(&c, output.stream);
@@ -270,11 +295,12 @@ const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror]",
-    .description = "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
-                   "all, and for each "
-                   "pruning rule how many it prunes and how many nothing else would. Counts are exact whatever their "
-                   "size: they are "
-                   "computed over the library's automaton, and no plan is made.",
+    .description =
+        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
+        "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
+        "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
+        "many more plans there would be without them. Counts are exact whatever their size: they are "
+        "computed over the library's automaton, and no plan is made.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

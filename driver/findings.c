@@ -41,3 +41,13 @@ tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error)
         tn_help(list, diagnostic, "%s", error->help);
     return diagnostic;
 }
+
+tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const tn_error *error)
+{
+    tn_error note;
+    tn_fail(&note, error->status, error->code, "what only `%.80s` keeps out is not counted: %.360s", clause,
+            error->message);
+    tn_error_help(&note, "%s", error->help);
+    note.code_offset = error->code_offset;
+    return tn_finding_note(opened, &note);
+}

@@ -17,4 +17,7 @@ bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span);
 /* The same as file, line and column. */
 bool tn_code_place(const tn_opened *opened, uint32_t offset, tn_place *place);
 
+/* A note that a clause of this name is in the way of counting what it keeps out (tn_library_effect). */
+tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const tn_error *error);
+
 #endif

@@ -1,6 +1,7 @@
 /* The rules of a report: a card for each clause of the library. */
 #include <stdlib.h>
 
+#include "driver/findings.h"
 #include "driver/report_data.h"
 #include "runtime/plan/draw_rule.h"
 
@@ -27,22 +28,71 @@ static card card_of(const tn_reporting *r, uint32_t index)
     return c;
 }
 
+/* A name that clauses share (a total of a library and one of the library that it is from) is told apart by a number. */
+static bool put_id(const tn_reporting *r, const card *c)
+{
+    uint32_t before = 0;
+    for (uint32_t i = 0; i < c->index; i++)
+        before += strcmp(card_of(r, i).name, c->name) == 0;
+    return tn_report_text(r, c->name) && (!before || tn_buffer_printf(r->page, ".%u", before + 1));
+}
+
 static bool put_title(const tn_reporting *r, const card *c)
 {
     static const char *const kinds[] = {"required", "required", "prunes"};
-    return tn_report_html(r, "<section class=\"card\" id=\"rule-") && tn_report_text(r, c->name) &&
-           tn_report_html(r, "\"><h3>") && tn_report_text(r, c->name) && tn_report_html(r, " <small>") &&
-           tn_report_html(r, kinds[c->clause->kind]) && tn_report_html(r, "</small></h3>\n<p>") &&
-           tn_report_text(r, c->doc) && tn_report_html(r, "</p>\n");
+    return tn_report_html(r, "<section class=\"card\" id=\"rule-") && put_id(r, c) && tn_report_html(r, "\"><h3>") &&
+           tn_report_text(r, c->name) && tn_report_html(r, " <small>") && tn_report_html(r, kinds[c->clause->kind]) &&
+           tn_report_html(r, "</small></h3>\n<p>") && tn_report_text(r, c->doc) && tn_report_html(r, "</p>\n");
 }
 
-/* How much a clause prunes, and how much only it does. */
-static bool put_counts(const tn_reporting *r, const mpz_t prunes, const mpz_t only, const mpz_t generated)
+/* A count, and what share of `whole` it is; or that there is none. */
+static bool put_count(const tn_reporting *r, const char *what, const mpz_t count, const mpz_t whole, const char *of)
 {
-    return tn_report_html(r, "<p class=\"counts\">prunes <b>") && tn_report_number(r, prunes) &&
-           tn_report_html(r, "</b> (") && tn_report_share(r, prunes, generated) &&
-           tn_report_html(r, " of what is generated)<br>only it <b>") && tn_report_number(r, only) &&
-           tn_report_html(r, "</b></p>\n");
+    if (mpz_sgn(count) < 0)
+        return tn_report_html(r, what) && tn_report_html(r, " <b>not counted</b>: past the limit of states");
+    return tn_report_html(r, what) && tn_report_html(r, " <b>") && tn_report_number(r, count) &&
+           tn_report_html(r, "</b>") &&
+           (!of || (tn_report_html(r, " (") && tn_report_share(r, count, whole) && tn_report_html(r, of)));
+}
+
+/* How many plans there are of the library's lengths, whatever the clauses say. */
+static void count_all(const tn_reporting *r, mpz_t all)
+{
+    const tn_library *library = r->ready->library;
+    mpz_t plans;
+    mpz_init(plans);
+    mpz_set_ui(all, 0);
+    for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++) {
+        mpz_ui_pow_ui(plans, r->ready->schema->tray_count, length);
+        mpz_add(all, all, plans);
+    }
+    mpz_clear(plans);
+}
+
+/* How much a clause keeps out, and how much only it does. */
+static tn_status put_counts(const tn_reporting *r, const card *c)
+{
+    uint32_t states;
+    mpz_t out, only, whole;
+    mpz_inits(out, only, whole, NULL);
+    tn_status status = tn_library_effect(r->ready->library, c->index, out, only, &states, r->error);
+    if (status == TN_LIMIT) {
+        tn_finding_uncounted(r->opened, c->name, r->error);
+        status = TN_OK;
+    }
+    if (!c->prunes)
+        count_all(r, whole);
+    else if (status == TN_OK)
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, whole, r->error);
+    if (status == TN_OK)
+        status = tn_report_written(
+            r, tn_report_html(r, "<p class=\"counts\">") &&
+                   put_count(r, c->prunes ? "prunes" : "keeps out", out, whole,
+                             c->prunes ? " of what is generated)" : " of all plans of these lengths)") &&
+                   tn_report_html(r, "<br>") && put_count(r, "only it", only, whole, NULL) &&
+                   tn_report_html(r, "</p>\n"));
+    mpz_clears(out, only, whole, NULL);
+    return status;
 }
 
 static tn_status put_picture(tn_reporting *r, const card *c)
@@ -212,9 +262,11 @@ static bool put_coverage(const tn_reporting *r, const card *c)
 
 /* ---- all */
 
-static tn_status put_card(tn_reporting *r, const card *c, const mpz_t prunes, const mpz_t only, const mpz_t generated)
+static tn_status put_card(tn_reporting *r, const card *c)
 {
-    tn_status status = tn_report_written(r, put_title(r, c) && (!c->prunes || put_counts(r, prunes, only, generated)));
+    tn_status status = tn_report_written(r, put_title(r, c));
+    if (status == TN_OK)
+        status = put_counts(r, c);
     if (status == TN_OK)
         status = put_picture(r, c);
     if (status == TN_OK)
@@ -228,20 +280,10 @@ static tn_status put_card(tn_reporting *r, const card *c, const mpz_t prunes, co
 
 tn_status tn_report_rules(tn_reporting *r)
 {
-    size_t prune = 0;
-    mpz_t prunes, only, generated;
-    mpz_inits(prunes, only, generated, NULL);
     tn_status status = tn_report_written(r, tn_report_html(r, "<h2 id=\"rules\">Rules</h2>\n"));
-    if (status == TN_OK)
-        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, generated, r->error);
     for (uint32_t i = 0; status == TN_OK && i < r->ready->record->clause_count; i++) {
         card c = card_of(r, i);
-        uint32_t index, states;
-        if (c.prunes)
-            status = tn_library_prune(r->ready->library, prune++, &index, prunes, only, &states, r->error);
-        if (status == TN_OK)
-            status = put_card(r, &c, prunes, only, generated);
+        status = put_card(r, &c);
     }
-    mpz_clears(prunes, only, generated, NULL);
     return status;
 }

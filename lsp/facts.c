@@ -15,7 +15,9 @@ enum {
 
 /* ---- counts */
 
-static void add_count(tn_facts *facts, const char *library, const char *rule, const mpz_t prunes, const mpz_t only)
+/* rule: NULL where it is the library that is counted. */
+static void add_count(tn_facts *facts, const char *library, const char *rule, bool requires, const mpz_t out,
+                      const mpz_t only)
 {
     if (facts->count == facts->capacity) {
         size_t capacity = facts->capacity ? 2 * facts->capacity : 32;
@@ -26,25 +28,28 @@ static void add_count(tn_facts *facts, const char *library, const char *rule, co
         facts->capacity = capacity;
     }
     tn_rule_count *item = &facts->counts[facts->count++];
-    *item = (tn_rule_count){strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, prunes),
-                            mpz_get_str(NULL, 10, only)};
+    *item = (tn_rule_count){strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, out),
+                            mpz_get_str(NULL, 10, only), requires};
 }
 
-static void count_library(tn_facts *facts, const tn_module *module, const tn_library *library, const char *name)
+static void count_library(tn_facts *facts, const tn_module *module, const tn_library *library, uint32_t index)
 {
+    const tn_library_record *record = &module->LIBRARY_records[index];
+    const char *name = tn_text(module, record->name);
     tn_error error;
-    mpz_t prunes, only;
-    mpz_inits(prunes, only, NULL);
-    if (tn_library_generated(library, TN_ALL_LENGTHS, prunes, &error) == TN_OK) {
+    mpz_t out, only;
+    mpz_inits(out, only, NULL);
+    if (tn_library_generated(library, TN_ALL_LENGTHS, out, &error) == TN_OK) {
         tn_library_kept(library, TN_ALL_LENGTHS, only);
-        add_count(facts, name, NULL, prunes, only);
+        add_count(facts, name, NULL, false, out, only);
     }
-    for (size_t i = 0; i < tn_library_prune_count(library); i++) {
-        uint32_t clause, states;
-        if (tn_library_prune(library, i, &clause, prunes, only, &states, &error) == TN_OK)
-            add_count(facts, name, tn_text(module, module->CLAUSE_records[clause].name), prunes, only);
+    for (uint32_t i = 0; i < record->clause_count; i++) {
+        const tn_clause_record *clause = &module->CLAUSE_records[record->clause_first + i];
+        uint32_t states;
+        if (tn_library_effect(library, i, out, only, &states, &error) == TN_OK)
+            add_count(facts, name, tn_text(module, clause->name), clause->kind != TN_CLAUSE_PRUNE, out, only);
     }
-    mpz_clears(prunes, only, NULL);
+    mpz_clears(out, only, NULL);
 }
 
 static void count_module(tn_facts *facts, const tn_module *module)
@@ -57,7 +62,7 @@ static void count_module(tn_facts *facts, const tn_module *module)
         tn_error error;
         if (tn_schema_new(module, record->schema, 0, &schema, &error) == TN_OK &&
             tn_library_new(schema, (uint32_t)i, &options, &library, &error) == TN_OK)
-            count_library(facts, module, library, tn_text(module, record->name));
+            count_library(facts, module, library, (uint32_t)i);
         tn_library_free(library);
         tn_schema_free(schema);
     }
@@ -107,7 +112,7 @@ void tn_facts_free(tn_facts *facts)
     for (size_t i = 0; i < facts->count; i++) {
         free(facts->counts[i].library);
         free(facts->counts[i].rule);
-        free(facts->counts[i].prunes);
+        free(facts->counts[i].out);
         free(facts->counts[i].only);
     }
     for (size_t i = 0; i < facts->matrix_count; i++) {
@@ -136,11 +141,19 @@ static void write_grouped(FILE *out, const char *digits)
 
 static void write_count(FILE *out, const tn_rule_count *item)
 {
-    fprintf(out, "\n- ");
-    if (item->rule)
-        fprintf(out, "prunes ");
-    write_grouped(out, item->prunes);
-    fprintf(out, item->rule ? " plans of `%s`, " : " plans generated, ", item->library);
+    if (!item->rule)
+        fprintf(out, "\n- ");
+    else if (item->requires)
+        fprintf(out, "\n- required in `%s`: keeps out ", item->library);
+    else
+        fprintf(out, "\n- prunes ");
+    write_grouped(out, item->out);
+    if (!item->rule)
+        fprintf(out, " plans generated, ");
+    else if (item->requires)
+        fprintf(out, " plans of its lengths, ");
+    else
+        fprintf(out, " plans of `%s`, ", item->library);
     write_grouped(out, item->only);
     fprintf(out, item->rule ? " of them alone" : " kept");
 }
@@ -151,7 +164,7 @@ static void write_counts(FILE *out, const tn_facts *facts, const tn_symbol *symb
     for (size_t i = 0; i < facts->count; i++) {
         const tn_rule_count *item = &facts->counts[i];
         const char *name = !library ? item->rule : item->rule ? NULL : item->library;
-        if (name && strcmp(name, symbol->name) == 0 && item->library && item->prunes && item->only)
+        if (name && strcmp(name, symbol->name) == 0 && item->library && item->out && item->only)
             write_count(out, item);
     }
 }

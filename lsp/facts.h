@@ -1,5 +1,5 @@
-/* What is known of a module's rules beyond their text, for hovering: how many plans each prunes, and how the plans that
- * it matches lie to those of the others. Owns its texts. */
+/* What is known of a module's rules beyond their text, for hovering: how many plans each keeps out, and how the plans
+ * that it matches lie to those of the others. Owns its texts. */
 #ifndef TARTAN_LSP_FACTS_H
 #define TARTAN_LSP_FACTS_H
 
@@ -8,7 +8,8 @@
 
 typedef struct tn_rule_count {
     char *library, *rule;
-    char *prunes, *only; /* in digits; rule NULL: how many are generated and kept */
+    char *out, *only; /* in digits, as in tn_library_effect; rule NULL: how many are generated and kept */
+    bool requires;
 } tn_rule_count;
 
 /* The relations of the rules of one schema. */

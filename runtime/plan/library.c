@@ -29,23 +29,13 @@ void tn_integers_free(mpz_t *integers, size_t count)
 
 /* ---- clauses */
 
-static const tn_clause_record *clause_record(const tn_library *library, size_t i)
-{
-    return &library->schema->module->CLAUSE_records[library->record->clause_first + i];
-}
-
-static bool is_prune(const tn_library *library, size_t i)
-{
-    return clause_record(library, i)->kind == TN_CLAUSE_PRUNE;
-}
-
 /* Says in which clause it was that lowering passed a limit. */
 static tn_status name_clause(const tn_library *library, size_t i, tn_error *error)
 {
     if (!error)
         return TN_LIMIT;
     tn_error inner = *error;
-    const char *name = tn_text(library->schema->module, clause_record(library, i)->name);
+    const char *name = tn_text(library->schema->module, tn_library_clause(library, i)->name);
     tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s", name, inner.message);
     tn_error_help(error, "%s", inner.help);
     error->code_offset = inner.code_offset;
@@ -57,15 +47,15 @@ static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error
     size_t count = library->record->clause_count;
     uint32_t *functions = calloc(count + 1, sizeof *functions);
     library->clauses = calloc(count + 1, sizeof *library->clauses);
-    library->prunes = calloc(count + 1, sizeof *library->prunes);
-    if (!functions || !library->clauses || !library->prunes) {
+    library->applied = calloc(count + 1, sizeof *library->applied);
+    if (!functions || !library->clauses || !library->applied) {
         free(functions);
         return tn_fail_memory(error);
     }
     for (size_t i = 0; i < count; i++) {
-        functions[i] = clause_record(library, i)->holds;
-        if (is_prune(library, i) && !all_generated)
-            library->prunes[library->prune_count++] = i;
+        functions[i] = tn_library_clause(library, i)->holds;
+        library->required_count += !tn_library_prunes(library, i);
+        library->applied_count += !tn_library_prunes(library, i) || !all_generated;
     }
     tn_lowering *lowering = NULL;
     tn_status status = tn_classes_new(library->schema, functions, count, &library->classes, error);
@@ -99,7 +89,8 @@ tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_d
     return tn_sparse_apply(sparse, clause, operation, what, bounds, error);
 }
 
-void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)
+/* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
+static void blame(const tn_library *library, size_t worst, tn_error *error)
 {
     size_t most[2] = {worst, worst};
     if (!error)
@@ -114,23 +105,21 @@ void tn_library_blame(const tn_library *library, size_t worst, tn_error *error)
         }
     }
     const tn_module *module = library->schema->module;
-    if (error->code_offset == TN_NO_OFFSET)
-        error->code_offset = module->FUNCTION_records[clause_record(library, worst)->holds].code_begin;
     char others[200] = "";
     if (most[1] != worst)
         snprintf(others, sizeof others, ", `%.60s` or `%.60s`, which multiply the states most",
-                 tn_text(module, clause_record(library, most[0])->name),
-                 tn_text(module, clause_record(library, most[1])->name));
+                 tn_text(module, tn_library_clause(library, most[0])->name),
+                 tn_text(module, tn_library_clause(library, most[1])->name));
     tn_error_help(error, "leave out `%.60s`%s, give fewer trays with --trays, or raise the limit with --max-states",
-                  tn_text(module, clause_record(library, worst)->name), others);
+                  tn_text(module, tn_library_clause(library, worst)->name), others);
 }
 
 static tn_status apply_clause(tn_library *library, size_t i, tn_sparse **sparse, tn_error *error)
 {
-    const tn_clause_record *record = clause_record(library, i);
-    tn_dfa_operation operation = is_prune(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
+    const tn_clause_record *record = tn_library_clause(library, i);
     uint64_t before = (*sparse)->states;
-    tn_status status = tn_library_apply(library, library->clauses[i], operation, &library->bounds, sparse, error);
+    tn_status status =
+        tn_library_apply(library, library->clauses[i], tn_library_keeping(library, i), &library->bounds, sparse, error);
     if (status == TN_OK)
         library->growth[i] = (*sparse)->states * UINT64_C(1000) / (before + 1);
     if (status != TN_LIMIT)
@@ -138,14 +127,13 @@ static tn_status apply_clause(tn_library *library, size_t i, tn_sparse **sparse,
     if (error)
         error->code_offset = library->schema->module->FUNCTION_records[record->holds].code_begin;
     name_clause(library, i, error);
-    tn_library_blame(library, i, error);
+    blame(library, i, error);
     return TN_LIMIT;
 }
 
-/* Everything, to begin with: of the library's lengths, or of any. */
-static tn_status everything(const tn_library *library, tn_sparse **out, tn_error *error)
+tn_status tn_library_everything(const tn_library *library, bool within, tn_sparse **out, tn_error *error)
 {
-    if (library->within)
+    if (within)
         return tn_sparse_words(library->classes->count, library->min, library->max, out, error);
     tn_dfa *all = NULL;
     tn_status status = tn_dfa_constant(library->classes->count, true, &all, error);
@@ -167,53 +155,38 @@ static void insert(size_t *order, uint32_t *sizes, size_t count, size_t what, ui
     sizes[i] = size;
 }
 
-/* Applies the requirements, those with the fewest states first. */
-static tn_status require(tn_library *library, tn_error *error)
-{
-    size_t all = library->record->clause_count, count = 0;
-    size_t *order = malloc((all + 1) * sizeof *order);
-    uint32_t *sizes = malloc((all + 1) * sizeof *sizes);
-    tn_status status = order && sizes ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && i < all; i++)
-        if (!is_prune(library, i))
-            insert(order, sizes, count++, i, library->clauses[i]->states);
-    for (size_t i = 0; status == TN_OK && i < count; i++)
-        status = apply_clause(library, order[i], &library->generator, error);
-    free(order);
-    free(sizes);
-    return status;
-}
-
 /* How large a generator is without what one clause prunes: some clauses multiply states, others hardly add any. A
  * generator too large for so many trials: the clause's own size. */
-static tn_status try_prune(const tn_library *library, const tn_sparse *generator, size_t i, uint32_t *size,
-                           tn_error *error)
+static tn_status try_prune(const tn_library *library, size_t i, uint32_t *size, tn_error *error)
 {
-    const tn_dfa *clause = library->clauses[library->prunes[i]];
-    *size = clause->states;
-    if (generator->states > TRIAL_STATES)
+    if (library->generator->states > TRIAL_STATES)
         return TN_OK;
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_minimise(generator, &trial, error); /* a copy */
+    tn_status status = tn_sparse_minimise(library->generator, &trial, error); /* a copy */
     if (status == TN_OK)
-        status = tn_library_apply(library, clause, TN_DFA_MINUS, &bounds, &trial, error);
+        status = tn_library_apply(library, library->clauses[i], TN_DFA_MINUS, &bounds, &trial, error);
     if (status == TN_OK)
         *size = trial->states;
     tn_sparse_free(trial);
     return status == TN_LIMIT ? TN_OK : status;
 }
 
-tn_status tn_library_order(const tn_library *library, const tn_sparse *generator, size_t **order, tn_error *error)
+/* The order to apply the requirements in, those with the fewest states first; or the prunes: those that multiply the
+ * generator's states come last, when the automaton is as large as it gets anyway. */
+static tn_status order_clauses(tn_library *library, bool prunes, tn_error *error)
 {
-    size_t count = library->prune_count;
-    uint32_t *sizes = malloc((count + 1) * sizeof *sizes);
-    *order = malloc((count + 1) * sizeof **order);
-    tn_status status = sizes && *order ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && i < count; i++) {
-        uint32_t size;
-        status = try_prune(library, generator, i, &size, error);
-        insert(*order, sizes, i, i, size);
+    size_t first = prunes ? library->required_count : 0, count = 0;
+    size_t all = prunes ? library->applied_count - first : library->required_count;
+    uint32_t *sizes = malloc((all + 1) * sizeof *sizes);
+    tn_status status = sizes ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && count < all; i++) {
+        uint32_t size = library->clauses[i]->states;
+        if (tn_library_prunes(library, i) != prunes)
+            continue;
+        if (prunes)
+            status = try_prune(library, i, &size, error);
+        insert(library->applied + first, sizes, count++, i, size);
     }
     free(sizes);
     return status;
@@ -223,9 +196,7 @@ static void forget_combined(tn_library *library)
 {
     tn_sparse_free(library->generator);
     tn_sparse_free(library->live);
-    free(library->order);
     library->generator = library->live = NULL;
-    library->order = NULL;
 }
 
 /* Combines the clauses, within the library's lengths or not, in at most `work` steps. */
@@ -237,15 +208,17 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
     if (work < library->bounds.max_work)
         library->bounds.max_work = work;
     memset(library->growth, 0, library->record->clause_count * sizeof *library->growth);
-    tn_status status = everything(library, &library->generator, error);
+    tn_status status = tn_library_everything(library, within, &library->generator, error);
     if (status == TN_OK)
-        status = require(library, error);
+        status = order_clauses(library, false, error);
+    for (size_t i = 0; status == TN_OK && i < library->required_count; i++)
+        status = apply_clause(library, library->applied[i], &library->generator, error);
     if (status == TN_OK)
-        status = tn_library_order(library, library->generator, &library->order, error);
+        status = order_clauses(library, true, error);
     if (status == TN_OK)
         status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
-    for (size_t i = 0; status == TN_OK && i < library->prune_count; i++)
-        status = apply_clause(library, library->prunes[library->order[i]], &library->live, error);
+    for (size_t i = library->required_count; status == TN_OK && i < library->applied_count; i++)
+        status = apply_clause(library, library->applied[i], &library->live, error);
     return status;
 }
 
@@ -363,8 +336,7 @@ static void free_late(tn_library *library)
     tn_library_late *late = library->late;
     if (!late)
         return;
-    tn_integers_free(late->prunes, library->prune_count);
-    tn_integers_free(late->only, library->prune_count);
+    tn_effects_free(late->effects, library->record ? library->record->clause_count : 0);
     tn_integers_free(late->mirror, (size_t)library->max + 1);
     pthread_mutex_destroy(&late->lock);
     free(late);
@@ -385,7 +357,7 @@ void tn_library_free(tn_library *library)
     tn_integers_free(library->generated, (size_t)library->max + 1);
     tn_integers_free(library->before, (size_t)library->max + 2);
     free(library->clauses);
-    free(library->prunes);
+    free(library->applied);
     free(library->growth);
     free(library->hash_room);
     free(library->rows);
@@ -442,7 +414,7 @@ bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t leng
 uint32_t tn_library_failing(const tn_library *library, const tn_tray *trays, size_t length)
 {
     for (size_t i = 0; i < library->record->clause_count; i++)
-        if (accepts(library, library->clauses[i], trays, length) == is_prune(library, i))
+        if (accepts(library, library->clauses[i], trays, length) == tn_library_prunes(library, i))
             return (uint32_t)(library->record->clause_first + i);
     return UINT32_MAX;
 }

@@ -52,11 +52,12 @@ void tn_library_hash(const tn_library *library, char hex[33]);
 void tn_library_kept(const tn_library *library, uint32_t length, mpz_t count);
 tn_status tn_library_generated(const tn_library *library, uint32_t length, mpz_t count, tn_error *error);
 
-/* The pruning clauses, in file order: CLAUSE record index, how many generated plans it prunes, how many only it prunes,
- * states of its minimal automaton. */
-size_t tn_library_prune_count(const tn_library *library);
-tn_status tn_library_prune(const tn_library *library, size_t i, uint32_t *clause, mpz_t prunes, mpz_t only,
-                           uint32_t *states, tn_error *error);
+/* What clause i (of the LIBRARY record, in file order) does to the plans of the library's lengths. *out: how many it
+ * keeps out; a requirement, of all plans of legal trays; a prune, of those generated. *only: how many it keeps out that
+ * all other clauses keep. *states: of its minimal automaton. TN_LIMIT (E0802): what of these is negative is not
+ * counted; a clause alone, so the others may be. Not for a prune of a library that leaves pruning out. */
+tn_status tn_library_effect(const tn_library *library, uint32_t i, mpz_t out, mpz_t only, uint32_t *states,
+                            tn_error *error);
 
 /* One of each mirror pair: kept plans w such that the reversed plan is not kept, or has no lower rank. */
 tn_status tn_library_kept_mirror(const tn_library *library, uint32_t length, mpz_t count, tn_error *error);

@@ -15,11 +15,18 @@
 #define TN_LIBRARY_EAGER_DEFAULT 3000000u
 #define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
 
+/* What one clause does to a library. */
+typedef struct tn_effect {
+    mpz_t out;        /* as in tn_library_effect; negative: not counted */
+    mpz_t only;       /* where status is TN_OK */
+    tn_status status; /* TN_LIMIT: not counted, or not yet */
+    tn_error error;   /* why not */
+} tn_effect;
+
 /* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
 typedef struct tn_library_late {
     pthread_mutex_t lock;
-    bool prunes_found;
-    mpz_t *prunes, *only; /* [prune_count] */
+    tn_effect *effects; /* [record->clause_count], NULL: not found yet */
     bool mirror_found;
     mpz_t *mirror; /* [max + 1]: plans of a length less the second ones of mirror pairs */
 } tn_library_late;
@@ -33,9 +40,8 @@ struct tn_library {
     uint64_t max_table;
     uint32_t min, max; /* of trays; min > max: no plan at all */
     tn_dfa **clauses;  /* [record->clause_count], in file order */
-    size_t *prunes;    /* [prune_count]: which of the clauses */
-    size_t prune_count;
-    size_t *order;        /* [prune_count]: indices of `prunes`, as they are applied */
+    size_t *applied;   /* [applied_count]: which of the clauses, as they are applied: requirements, then prunes */
+    size_t applied_count, required_count;
     tn_sparse *generator; /* of what the requirements and totals leave */
     tn_sparse *live;      /* of the kept plans, without a dead state */
     tn_dfa *kept;         /* the same, complete: its last state is the dead one */
@@ -76,6 +82,22 @@ static inline double tn_nearly(const mpz_t count, size_t limbs)
     return ldexp(fraction, (int)(exponent - (long)(64 * limbs)));
 }
 
+static inline const tn_clause_record *tn_library_clause(const tn_library *library, size_t i)
+{
+    return &library->schema->module->CLAUSE_records[library->record->clause_first + i];
+}
+
+static inline bool tn_library_prunes(const tn_library *library, size_t i)
+{
+    return tn_library_clause(library, i)->kind == TN_CLAUSE_PRUNE;
+}
+
+/* What leaves of some plans those that clause i keeps; the other operation leaves those that it keeps out. */
+static inline tn_dfa_operation tn_library_keeping(const tn_library *library, size_t i)
+{
+    return tn_library_prunes(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
+}
+
 /* What combining automata may cost: in proportion to the states that they may have. */
 tn_bounds tn_library_bounds(const tn_library *library);
 
@@ -83,12 +105,8 @@ tn_bounds tn_library_bounds(const tn_library *library);
 tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
                            tn_bounds *bounds, tn_sparse **sparse, tn_error *error);
 
-/* The prunes (indices of library->prunes) in an order to apply them to a generator in: those that multiply states come
- * last, when the automaton is as large as it gets anyway. The caller frees *order, also after a failure. */
-tn_status tn_library_order(const tn_library *library, const tn_sparse *generator, size_t **order, tn_error *error);
-
-/* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
-void tn_library_blame(const tn_library *library, size_t worst, tn_error *error);
+/* Every plan, to begin with: of the library's lengths, or of any. */
+tn_status tn_library_everything(const tn_library *library, bool within, tn_sparse **out, tn_error *error);
 
 /* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
  * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
@@ -98,6 +116,9 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);
+
+/* Free `effects` of so many clauses; NULL is fine (effects.c). */
+void tn_effects_free(tn_effect *effects, size_t count);
 
 /* Fills rows, nearly, alive, before, generated and passed (tables.c). */
 tn_status tn_library_tables(tn_library *library, tn_error *error);

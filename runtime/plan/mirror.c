@@ -14,21 +14,14 @@
 #include "runtime/plan/library_data.h"
 #include "runtime/plan/lower.h"
 
-static tn_dfa_operation operation_of(const tn_library *library, size_t clause)
-{
-    const tn_clause_record *record = &library->schema->module->CLAUSE_records[library->record->clause_first + clause];
-    return record->kind == TN_CLAUSE_PRUNE ? TN_DFA_MINUS : TN_DFA_AND;
-}
-
 /* *both := *both of which the reverse meets a clause too. */
 static tn_status apply_turned(const tn_library *library, tn_lowering *lowering, size_t clause, tn_bounds *bounds,
                               tn_sparse **both, tn_error *error)
 {
-    const tn_clause_record *record = &library->schema->module->CLAUSE_records[library->record->clause_first + clause];
     tn_dfa *turned = NULL;
-    tn_status status = tn_lower_reversed(lowering, record->holds, &turned, error);
+    tn_status status = tn_lower_reversed(lowering, tn_library_clause(library, clause)->holds, &turned, error);
     if (status == TN_OK && !tn_dfa_equal(turned, library->clauses[clause]))
-        status = tn_library_apply(library, turned, operation_of(library, clause), bounds, both, error);
+        status = tn_library_apply(library, turned, tn_library_keeping(library, clause), bounds, both, error);
     tn_dfa_free(turned);
     return status;
 }
@@ -61,7 +54,7 @@ static tn_status make_halves(const tn_library *library, bool odd, uint32_t lengt
         tn_dfa *half = NULL;
         status = tn_half(library->clauses[i], odd, &bounds, &half, error);
         if (status == TN_OK)
-            status = tn_library_apply(library, half, operation_of(library, i), &joint, halves, error);
+            status = tn_library_apply(library, half, tn_library_keeping(library, i), &joint, halves, error);
         tn_dfa_free(half);
     }
     return status;

@@ -14,6 +14,8 @@ for library in blown joint; do
     golden "report_$library" "tartan report blow-up.plan --library $library $limit -o $scratch/report"
     golden "coverage_$library" "tartan test blow-up.plan --coverage --library $library $limit"
 done
+golden count_demanding 'tartan count blow-up.plan --library demanding --max-states 30'
+golden count_demanding_json 'tartan count blow-up.plan --library demanding --max-states 30 --json 2>/dev/null | sed -n "/requirements/,\$p"'
 golden check 'tartan check blow-up.plan'
 golden check_small 'tartan check blow-up.plan --max-states 3'
 golden relations 'tartan check blow-up.plan --relations --max-states 3'

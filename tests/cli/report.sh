@@ -10,8 +10,9 @@ golden no_library "printf 'schema s { w = 1m }' >$scratch/s.plan; tartan report 
 "$TARTAN" report "$files/rows.plan" -o "$scratch/b" --sample 5 --seed 2 --threads 1
 cmp -s "$scratch/a/index.html" "$scratch/b/index.html" || fail 'the same report has other bytes'
 is 'files in the folder' "$(ls -A "$scratch/a")" index.html
-python3 - "$scratch/a/index.html" require@18 twins <<'PYTHON' || fail 'the page is not as it should be'
-import html.parser, re, sys, xml.dom.minidom
+"$TARTAN" count "$files/rows.plan" --json >"$scratch/counts"
+python3 - "$scratch/a/index.html" "$scratch/counts" require@18 twins <<'PYTHON' || fail 'the page is not as it should be'
+import html.parser, json, re, sys, xml.dom.minidom
 
 page = open(sys.argv[1], encoding="utf-8").read()
 assert not re.search(r'(src|href)="(?!#)|url\((?!#)', page), "something comes from elsewhere"
@@ -40,9 +41,23 @@ for target in re.findall(r'href="#([^"]*)"', page) + re.findall(r"url\(#([^)]*)\
     assert target in ids, target
 assert page.count('<div class="plan kept"') == 5
 cards = re.findall(r'<section class="card" id="rule-([^"]*)">(.*?)</section>', page, re.S)
-assert [name for name, card in cards] == sys.argv[2:], cards
+assert [name for name, card in cards] == sys.argv[3:], cards
+counts = json.load(open(sys.argv[2]))
+counted = [("keeps out", c["keeps_out"], c["only"]) for c in counts["requirements"]]
+counted += [("prunes", c["prunes"], c["only"]) for c in counts["rules"]]
+for (name, card), (what, out, only) in zip(cards, counted, strict=True):
+    words = re.sub(r"</?b>", "", card)
+    assert f"{what} {int(out):,} (" in words and f"only it {int(only):,}<" in words, (name, out, only)
 for name, card in cards:
     assert "<svg" in card and "<pre>" in card and "coverage: tests notice" in card, name
 assert len(page) < 40000 * len(pictures)
 PYTHON
+
+# Clauses of one name, of a library and of the one that it is from, have a place each.
+{
+    cat "$files/rows.plan"
+    echo 'library short { trays 1..2 total <= 12m } library shorter from short { total <= 9m }'
+} >"$scratch/short.plan"
+"$TARTAN" report "$scratch/short.plan" --library shorter -o "$scratch/short"
+is 'cards' "$(grep -o 'id="rule-[^"]*"' "$scratch/short/index.html" | tr '\n' ' ')" 'id="rule-total" id="rule-total.2" '
 finish

@@ -71,9 +71,9 @@ static tn_status open_and_use(const test_library *made, uint64_t max_eager, tn_e
     mpz_inits(count, only, ranks[0], ranks[1], ranks[2], NULL);
     if (status == TN_OK)
         status = tn_library_kept_mirror(library, TN_ALL_LENGTHS, count, error);
-    uint32_t clause, states;
-    if (status == TN_OK && tn_library_prune_count(library) > 0)
-        status = tn_library_prune(library, 0, &clause, count, only, &states, error);
+    uint32_t states;
+    if (status == TN_OK && made->module->CLAUSE_count > 0)
+        status = tn_library_effect(library, 0, count, only, &states, error);
     size_t found;
     if (status == TN_OK)
         status = tn_library_sample(library, 1, TN_ALL_LENGTHS, 3, ranks, &found, error);
