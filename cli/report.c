@@ -90,9 +90,9 @@ const tn_command tn_command_report = {
     .usage = "FILE -o FOLDER",
     .description =
         "Writes one page that needs no server and no network: the library's counts by length as a chart; every rule "
-        "with its "
-        "picture, its text, how much it prunes and how much only it prunes, how it lies to the others, the plans that "
-        "show it, and which of its parts the tests notice; "
+        "with its picture, its text, how many plans it prunes or (required) keeps out and how many only it does, or "
+        "(neither) how many it matches, how it lies to the others, the plans that show it, and which of its parts the "
+        "tests notice; "
         "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
         "filtered.",
     .example = "$ tartan report lahave-houses -o report",

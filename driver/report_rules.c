@@ -1,30 +1,60 @@
-/* The rules of a report: a card for each clause of the library. */
+/* The rules of a report: a card for each clause of the library, and for each rule of the file that is none. */
 #include <stdlib.h>
 
 #include "driver/findings.h"
 #include "driver/report_data.h"
 #include "runtime/plan/draw_rule.h"
 
-/* A clause and what is known of it. */
+/* A clause or rule and what is known of it. */
 typedef struct card {
-    const tn_clause_record *clause;
-    uint32_t index; /* in the library */
+    uint32_t index; /* of the clause in the library; of a rule that is none, the number of clauses */
     uint32_t rule;  /* RULE record whose name the clause is, or UINT32_MAX */
-    const char *name, *doc;
+    uint32_t function;
+    const char *name, *doc, *kind;
     bool prunes;
+    uint32_t file, begin, end; /* its text */
 } card;
+
+static uint32_t clause_count(const tn_reporting *r)
+{
+    return r->ready->record->clause_count;
+}
+
+static const tn_clause_record *clause_record(const tn_reporting *r, uint32_t index)
+{
+    return &r->module->CLAUSE_records[r->ready->record->clause_first + index];
+}
+
+static card card_of_rule(const tn_reporting *r, uint32_t index)
+{
+    const tn_rule_record *rule = &r->module->RULE_records[index];
+    return (card){.index = clause_count(r),
+                  .rule = index,
+                  .function = rule->holds,
+                  .name = tn_text(r->module, rule->name),
+                  .doc = tn_text(r->module, rule->doc),
+                  .kind = "neither pruned nor required",
+                  .file = rule->file,
+                  .begin = rule->begin,
+                  .end = rule->end};
+}
 
 static card card_of(const tn_reporting *r, uint32_t index)
 {
-    const tn_clause_record *clause = &r->module->CLAUSE_records[r->ready->record->clause_first + index];
-    card c = {.clause = clause,
-              .index = index,
-              .rule = tn_function_rule(r->module, clause->holds),
-              .name = tn_text(r->module, clause->name),
-              .doc = tn_text(r->module, clause->doc),
-              .prunes = clause->kind == TN_CLAUSE_PRUNE};
-    if (!*c.doc && c.rule != UINT32_MAX)
-        c.doc = tn_text(r->module, r->module->RULE_records[c.rule].doc);
+    static const char *const kinds[] = {"required", "required", "prunes"};
+    const tn_clause_record *clause = clause_record(r, index);
+    const char *doc = tn_text(r->module, clause->doc);
+    uint32_t rule = tn_function_rule(r->module, clause->holds);
+    card c = {.rule = rule, .file = clause->file, .begin = clause->begin, .end = clause->end};
+    if (rule != UINT32_MAX)
+        c = card_of_rule(r, rule);
+    c.index = index;
+    c.function = clause->holds;
+    c.name = tn_text(r->module, clause->name);
+    if (*doc || rule == UINT32_MAX)
+        c.doc = doc;
+    c.kind = kinds[clause->kind];
+    c.prunes = clause->kind == TN_CLAUSE_PRUNE;
     return c;
 }
 
@@ -33,15 +63,14 @@ static bool put_id(const tn_reporting *r, const card *c)
 {
     uint32_t before = 0;
     for (uint32_t i = 0; i < c->index; i++)
-        before += strcmp(card_of(r, i).name, c->name) == 0;
+        before += strcmp(tn_text(r->module, clause_record(r, i)->name), c->name) == 0;
     return tn_report_text(r, c->name) && (!before || tn_buffer_printf(r->page, ".%u", before + 1));
 }
 
 static bool put_title(const tn_reporting *r, const card *c)
 {
-    static const char *const kinds[] = {"required", "required", "prunes"};
     return tn_report_html(r, "<section class=\"card\" id=\"rule-") && put_id(r, c) && tn_report_html(r, "\"><h3>") &&
-           tn_report_text(r, c->name) && tn_report_html(r, " <small>") && tn_report_html(r, kinds[c->clause->kind]) &&
+           tn_report_text(r, c->name) && tn_report_html(r, " <small>") && tn_report_html(r, c->kind) &&
            tn_report_html(r, "</small></h3>\n<p>") && tn_report_text(r, c->doc) && tn_report_html(r, "</p>\n");
 }
 
@@ -97,7 +126,7 @@ static tn_status put_counts(const tn_reporting *r, const card *c)
 
 static tn_status put_picture(tn_reporting *r, const card *c)
 {
-    tn_drawn_rule drawn = {"", "", c->clause->holds};
+    tn_drawn_rule drawn = {"", "", c->function};
     tn_picture picture = tn_report_next_picture(r);
     if (c->rule != UINT32_MAX)
         drawn.function = r->module->RULE_records[c->rule].whole;
@@ -107,11 +136,8 @@ static tn_status put_picture(tn_reporting *r, const card *c)
 
 static bool put_source(const tn_reporting *r, const card *c)
 {
-    const tn_rule_record *rule = c->rule != UINT32_MAX ? &r->module->RULE_records[c->rule] : NULL;
-    uint32_t file = rule ? rule->file : c->clause->file;
-    const char *text = tn_text(r->module, r->module->SOURCE_records[file].text);
-    uint32_t begin = rule ? rule->begin : c->clause->begin, end = rule ? rule->end : c->clause->end;
-    return tn_report_html(r, "<pre>") && tn_report_text_part(r, text + begin, end - begin) &&
+    const char *text = tn_text(r->module, r->module->SOURCE_records[c->file].text);
+    return tn_report_html(r, "<pre>") && tn_report_text_part(r, text + c->begin, c->end - c->begin) &&
            tn_report_html(r, "</pre>\n");
 }
 
@@ -243,7 +269,7 @@ static bool put_coverage(const tn_reporting *r, const card *c)
 {
     size_t parts = 0, noticed = 0;
     for (size_t i = 0; i < r->covered->count; i++)
-        if (r->covered->parts[i].function == c->clause->holds) {
+        if (r->covered->parts[i].function == c->function) {
             parts++;
             noticed += r->covered->parts[i].noticed;
         }
@@ -255,35 +281,106 @@ static bool put_coverage(const tn_reporting *r, const card *c)
                                  "otherwise</th><th>a test notices</th></tr>\n",
                                  noticed, parts);
     for (size_t i = 0; good && i < r->covered->count; i++)
-        if (r->covered->parts[i].function == c->clause->holds)
+        if (r->covered->parts[i].function == c->function)
             good = put_part(r, &r->covered->parts[i]);
     return good && tn_report_html(r, "</table></details>\n");
 }
 
 /* ---- all */
 
-static tn_status put_card(tn_reporting *r, const card *c)
+/* What of a card there is for clauses and other rules alike, its title and counts having been put. */
+static tn_status put_body(tn_reporting *r, const card *c)
 {
-    tn_status status = tn_report_written(r, put_title(r, c));
-    if (status == TN_OK)
-        status = put_counts(r, c);
-    if (status == TN_OK)
-        status = put_picture(r, c);
+    tn_status status = put_picture(r, c);
     if (status == TN_OK)
         status = tn_report_written(r, put_source(r, c));
     if (status == TN_OK)
         status = put_relations(r, c);
-    if (status == TN_OK)
+    if (status == TN_OK && c->index < clause_count(r))
         status = put_witness_alone(r, c);
     return status == TN_OK ? tn_report_written(r, put_coverage(r, c) && tn_report_html(r, "</section>\n")) : status;
 }
 
-tn_status tn_report_rules(tn_reporting *r)
+static tn_status put_clauses(tn_reporting *r)
 {
     tn_status status = tn_report_written(r, tn_report_html(r, "<h2 id=\"rules\">Rules</h2>\n"));
-    for (uint32_t i = 0; status == TN_OK && i < r->ready->record->clause_count; i++) {
+    for (uint32_t i = 0; status == TN_OK && i < clause_count(r); i++) {
         card c = card_of(r, i);
-        status = put_card(r, &c);
+        status = tn_report_written(r, put_title(r, &c));
+        if (status == TN_OK)
+            status = put_counts(r, &c);
+        if (status == TN_OK)
+            status = put_body(r, &c);
     }
     return status;
+}
+
+/* ---- rules that are no clauses */
+
+static bool is_other(const tn_reporting *r, uint32_t rule)
+{
+    const tn_rule_record *record = &r->module->RULE_records[rule];
+    for (uint32_t i = 0; i < clause_count(r); i++)
+        if (clause_record(r, i)->holds == record->holds || clause_record(r, i)->holds == record->whole)
+            return false;
+    return !(record->flags & TN_IMPORTED) && record->schema == r->ready->record->schema;
+}
+
+static tn_status put_other(tn_reporting *r, uint32_t rule, const mpz_t *matched, const mpz_t generated,
+                           const mpz_t kept)
+{
+    card c = card_of_rule(r, rule);
+    tn_status status = tn_report_written(
+        r, put_title(r, &c) && tn_report_html(r, "<p class=\"counts\">") &&
+               put_count(r, "matches", matched[0], generated, " of what is generated)") && tn_report_html(r, "<br>") &&
+               put_count(r, "of the plans kept", matched[1], kept, ")") && tn_report_html(r, "</p>\n"));
+    return status == TN_OK ? put_body(r, &c) : status;
+}
+
+static tn_status put_others(tn_reporting *r, const uint32_t *rules, size_t count, mpz_t *matched, mpz_t generated,
+                            mpz_t kept)
+{
+    uint32_t *functions = malloc((count + 1) * sizeof *functions);
+    if (!functions)
+        return tn_fail_memory(r->error);
+    for (size_t i = 0; i < count; i++)
+        functions[i] = r->module->RULE_records[rules[i]].holds;
+    tn_status status = tn_library_matches(r->ready->library, functions, count, matched, r->error);
+    free(functions);
+    if (status == TN_OK)
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, generated, r->error);
+    tn_library_kept(r->ready->library, TN_ALL_LENGTHS, kept);
+    if (status == TN_OK)
+        status = tn_report_written(r, tn_report_html(r, "<h2 id=\"others\">Other rules of the file</h2>\n"));
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = put_other(r, rules[i], (const mpz_t *)matched + 2 * i, generated, kept);
+    return status;
+}
+
+static tn_status find_others(tn_reporting *r)
+{
+    uint32_t *rules = malloc((r->module->RULE_count + 1) * sizeof *rules);
+    size_t count = 0;
+    if (!rules)
+        return tn_fail_memory(r->error);
+    for (uint32_t i = 0; i < r->module->RULE_count; i++)
+        if (is_other(r, i))
+            rules[count++] = i;
+    mpz_t *matched = malloc((2 * count + 2) * sizeof *matched);
+    tn_status status = matched ? TN_OK : tn_fail_memory(r->error);
+    for (size_t i = 0; matched && i < 2 * count + 2; i++)
+        mpz_init(matched[i]);
+    if (status == TN_OK && count)
+        status = put_others(r, rules, count, matched, matched[2 * count], matched[2 * count + 1]);
+    for (size_t i = 0; matched && i < 2 * count + 2; i++)
+        mpz_clear(matched[i]);
+    free(matched);
+    free(rules);
+    return status;
+}
+
+tn_status tn_report_rules(tn_reporting *r)
+{
+    tn_status status = put_clauses(r);
+    return status == TN_OK ? find_others(r) : status;
 }

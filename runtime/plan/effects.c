@@ -25,21 +25,13 @@ static tn_dfa_operation dropping(const tn_library *library, size_t clause)
     return tn_library_prunes(library, clause) ? TN_DFA_AND : TN_DFA_MINUS;
 }
 
-/* What `base` accepts and the clause matches (TN_DFA_AND) or does not (TN_DFA_MINUS). */
-static tn_status combine(const tn_sparse *base, const tn_dfa *clause, tn_dfa_operation operation, tn_bounds *bounds,
-                         tn_sparse **out, tn_error *error)
-{
-    return base->folded ? tn_sparse_fold(base, clause, operation, "library", bounds, out, error)
-                        : tn_sparse_product(base, clause, operation, "library", bounds, out, error);
-}
-
-/* How many of its plans of the library's lengths. */
+/* How many plans of the library's lengths `base` accepts and the clause matches (TN_DFA_AND) or does not. */
 static tn_status count_with(const tn_library *library, const tn_sparse *base, const tn_dfa *clause,
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *both = NULL;
-    tn_status status = combine(base, clause, operation, &bounds, &both, error);
+    tn_status status = tn_sparse_combine(base, clause, operation, "library", &bounds, &both, error);
     if (status == TN_OK)
         status = tn_count_range(both, library->classes, library->min, library->max, count, error);
     tn_sparse_free(both);

@@ -59,6 +59,12 @@ tn_status tn_library_generated(const tn_library *library, uint32_t length, mpz_t
 tn_status tn_library_effect(const tn_library *library, uint32_t i, mpz_t out, mpz_t only, uint32_t *states,
                             tn_error *error);
 
+/* How many plans rules match, that need not be clauses of the library: matched[2 i] of those generated and matched[2 i
+ * + 1] of those kept, for functions[i] (of H); negative where that passes a limit. matched: an initialised array of 2
+ * count. */
+tn_status tn_library_matches(const tn_library *library, const uint32_t *functions, size_t count, mpz_t *matched,
+                             tn_error *error);
+
 /* One of each mirror pair: kept plans w such that the reversed plan is not kept, or has no lower rank. */
 tn_status tn_library_kept_mirror(const tn_library *library, uint32_t length, mpz_t count, tn_error *error);
 

@@ -49,6 +49,13 @@ tn_status tn_sparse_words(uint32_t letters, uint32_t min, uint32_t max, tn_spars
 tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const char *what,
                          tn_bounds *bounds, tn_sparse **out, tn_error *error);
 
+/* By tn_sparse_fold where a is folded, else by tn_sparse_product. */
+static inline tn_status tn_sparse_combine(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation,
+                                          const char *what, tn_bounds *bounds, tn_sparse **out, tn_error *error)
+{
+    return (a->folded ? tn_sparse_fold : tn_sparse_product)(a, b, operation, what, bounds, out, error);
+}
+
 /* The same language with the fewest states, columns merged (sparse_minimise.c). Of what is folded: a copy. */
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error);
 

@@ -26,6 +26,8 @@ static bool make(test_library *made, uint64_t seed, const test_schema *schema, u
         clauses[i].holds = rule.holds;
         clauses[i].kind = test_random_below(&random, 4) ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
     }
+    made->rules[count] = test_rule_random(&random, schema, 2, true);
+    test_rule_add(builder, "beside", made->rules[count]);
     tn_library_record record = {.name = tn_builder_string(builder, "some"),
                                 .trays_min = min,
                                 .trays_max = max,
@@ -59,7 +61,7 @@ bool test_library_make_within(test_library *made, uint64_t seed, const test_sche
 
 void test_library_clear(test_library *made)
 {
-    for (size_t i = 0; i < TEST_CLAUSES_MAX; i++)
+    for (size_t i = 0; i <= TEST_CLAUSES_MAX; i++)
         test_rule_free(made->rules[i]);
     tn_library_free(made->library);
     tn_plan_vm_free(made->vm);
@@ -72,9 +74,9 @@ uint32_t test_library_clauses(const test_library *made, const tn_tray *trays, ui
     tn_error error;
     uint32_t bits = 0;
     test_ok(tn_plan_vm_plan(made->vm, trays, length, &error), &error);
-    for (uint32_t i = 0; i < made->module->CLAUSE_count; i++) {
+    for (uint32_t i = 0; i < made->module->RULE_count; i++) {
         bool holds;
-        test_ok(tn_plan_vm_holds(made->vm, made->module->CLAUSE_records[i].holds, &holds, &error), &error);
+        test_ok(tn_plan_vm_holds(made->vm, made->module->RULE_records[i].holds, &holds, &error), &error);
         bits |= (uint32_t)holds << i;
     }
     return bits;

@@ -9,22 +9,23 @@
 #define TEST_CLAUSES_MAX 6
 
 typedef struct test_library {
-    test_rule *rules[TEST_CLAUSES_MAX];
+    test_rule *rules[TEST_CLAUSES_MAX + 1]; /* of the clauses, and one that is beside them */
     tn_module *module;
     tn_schema *schema;
     tn_library *library;
     tn_plan_vm *vm;
 } test_library;
 
-/* A library of at most TEST_CLAUSES_MAX random clauses; free it with test_library_clear, whatever this returns. false
- * where a clause passes the limit of 2,000 states, as some random ones do. */
+/* A library of at most TEST_CLAUSES_MAX random clauses, and a rule (the last RULE record) that is no clause; free it
+ * with test_library_clear, whatever this returns. false where a clause passes the limit of 2,000 states, as some random
+ * ones do. */
 bool test_library_make(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
 
 /* The same library, built within its lengths. */
 bool test_library_make_within(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
 void test_library_clear(test_library *made);
 
-/* What the reference engine says of a plan: bit i for clause i. */
+/* What the reference engine says of a plan: bit i for clause i, and the next bit for the rule beside them. */
 uint32_t test_library_clauses(const test_library *made, const tn_tray *trays, uint32_t length);
 
 /* Is clause i a pruning one? */

@@ -13,6 +13,7 @@
 typedef struct brute_count {
     uint64_t generated, kept, mirror;
     uint64_t out[TEST_CLAUSES_MAX], only[TEST_CLAUSES_MAX];
+    uint64_t beside[2]; /* of those generated and kept, matched by the rule that is no clause */
 } brute_count;
 
 static void tally(const test_library *made, uint32_t bits, brute_count *count)
@@ -33,6 +34,9 @@ static void tally(const test_library *made, uint32_t bits, brute_count *count)
     }
     if (failing == 1)
         count->only[last]++;
+    bool beside = bits >> made->module->CLAUSE_count & 1;
+    count->beside[0] += beside && generated;
+    count->beside[1] += beside && failing == 0;
 }
 
 static bool next_plan(tn_tray *trays, uint32_t length, uint32_t count)
@@ -112,11 +116,37 @@ static void check_effects(const test_library *made, const brute_count *all)
     mpz_clears(out, only, NULL);
 }
 
+/* The rule that is no clause, and each that is one. */
+static void check_matches(const test_library *made, const brute_count *all)
+{
+    mpz_t matched[2 * (TEST_CLAUSES_MAX + 1)];
+    uint32_t functions[TEST_CLAUSES_MAX + 1], count = made->module->RULE_count;
+    tn_error error;
+    for (uint32_t i = 0; i < count; i++) {
+        functions[i] = made->module->RULE_records[i].holds;
+        mpz_inits(matched[2 * i], matched[2 * i + 1], NULL);
+    }
+    test_ok(tn_library_matches(made->library, functions, count, matched, &error), &error);
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        bool prunes = test_library_prunes(made, i);
+        assert_int_equal(mpz_cmp_ui(matched[2 * i], prunes ? all->out[i] : all->generated), 0);
+        assert_int_equal(mpz_cmp_ui(matched[2 * i + 1], prunes ? 0 : all->kept), 0);
+    }
+    if (mpz_sgn(matched[2 * count - 2]) >= 0) { /* not past the limit */
+        assert_int_equal(mpz_cmp_ui(matched[2 * count - 2], all->beside[0]), 0);
+        assert_int_equal(mpz_cmp_ui(matched[2 * count - 1], all->beside[1]), 0);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        mpz_clears(matched[2 * i], matched[2 * i + 1], NULL);
+}
+
 static void add_count(brute_count *sum, const brute_count *count)
 {
     sum->generated += count->generated;
     sum->kept += count->kept;
     sum->mirror += count->mirror;
+    for (size_t i = 0; i < 2; i++)
+        sum->beside[i] += count->beside[i];
     for (size_t i = 0; i < TEST_CLAUSES_MAX; i++) {
         sum->out[i] += count->out[i];
         sum->only[i] += count->only[i];
@@ -152,6 +182,7 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
     assert_false(tn_cursor_next(cursor, &trays, &length));
     check_counts(made, TN_ALL_LENGTHS, &all);
     check_effects(made, &all);
+    check_matches(made, &all);
     tn_cursor_free(cursor);
     mpz_clears(from, to, NULL);
     return all.kept;

@@ -74,6 +74,8 @@ static tn_status open_and_use(const test_library *made, uint64_t max_eager, tn_e
     uint32_t states;
     if (status == TN_OK && made->module->CLAUSE_count > 0)
         status = tn_library_effect(library, 0, count, only, &states, error);
+    if (status == TN_OK)
+        status = tn_library_matches(library, &made->module->RULE_records[0].holds, 1, ranks, error);
     size_t found;
     if (status == TN_OK)
         status = tn_library_sample(library, 1, TN_ALL_LENGTHS, 3, ranks, &found, error);
