@@ -1,6 +1,7 @@
 /* tartan match: which rules each plan matches. */
-#include <jansson.h>
+#include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/chosen_rules.h"
 #include "cli/library_job.h"
@@ -17,9 +18,6 @@ typedef struct matching {
     tn_schema *schema;
     tn_rules *compiled;
     tn_output output;
-    tn_buffer line;
-    char *digits; /* [count + 1]: a line of bits */
-    tn_sifting sifting;
 } matching;
 
 static const char *rule_name(const void *context, size_t i)
@@ -31,15 +29,8 @@ static const char *rule_name(const void *context, size_t i)
 
 static bool choose_rules(matching *m)
 {
-    tn_error error;
-    if (!tn_job_choose_rules(m->job, "name one of those it uses with --rule, or filter with `tartan prune`", &m->rules))
-        return false;
-    m->digits = malloc(m->rules.count + 1);
-    if (!m->digits) {
-        tn_fail_memory(&error);
-        tn_job_fail(m->job, &error);
-    }
-    return m->digits != NULL;
+    return tn_job_choose_rules(m->job, "name one of those it uses with --rule, or filter with `tartan prune`",
+                               &m->rules);
 }
 
 static bool compile_rules(matching *m)
@@ -69,59 +60,66 @@ static bool is_matched(const tn_sifted *plan, size_t i)
 }
 
 /* In one piece: a plan is matched in some nanoseconds, and a call a rule would take longer. */
-static void write_bits(const matching *m, const tn_sifted *plan)
+static bool append_bits(const matching *m, const tn_sifted *plan, tn_buffer *out)
 {
+    if (!tn_buffer_reserve(out, m->rules.count))
+        return false;
     for (size_t i = 0; i < m->rules.count; i++)
-        m->digits[i] = is_matched(plan, i) ? '1' : '0';
-    m->digits[m->rules.count] = '\n';
-    fwrite_unlocked(m->digits, 1, m->rules.count + 1, m->output.stream);
+        out->data[out->size++] = is_matched(plan, i) ? '1' : '0';
+    return true;
 }
 
-static void write_names(const matching *m, const tn_sifted *plan)
+static bool append_text(tn_buffer *out, const char *text)
 {
-    const char *between = "";
+    return tn_buffer_append(out, text, strlen(text));
+}
+
+/* The names of the rules that match, each between quotes. */
+static bool append_names(const matching *m, const tn_sifted *plan, const char *between, const char *quote,
+                         tn_buffer *out)
+{
+    const char *before = "";
     for (size_t i = 0; i < m->rules.count; i++) {
         if (!is_matched(plan, i))
             continue;
-        fprintf(m->output.stream, "%s%s", between, rule_name(m, i));
-        between = " ";
+        if (!append_text(out, before) || !append_text(out, quote) || !append_text(out, rule_name(m, i)) ||
+            !append_text(out, quote))
+            return false;
+        before = between;
     }
-    if (!*between)
-        fputc('-', m->output.stream);
+    return true;
 }
 
-static bool write_object(matching *m, const tn_sifted *plan)
+static bool append_names_or_dash(const matching *m, const tn_sifted *plan, tn_buffer *out)
 {
-    m->line.size = 0;
-    if (!tn_plan_write_line(m->schema, plan->trays, plan->length, &m->line))
-        return false;
-    json_t *object = json_object(), *names = json_array();
-    json_object_set_new(object, "line", json_integer((json_int_t)plan->line));
-    json_object_set_new(object, "plan", json_string(m->line.data ? m->line.data : ""));
-    for (size_t i = 0; i < m->rules.count; i++)
-        if (is_matched(plan, i))
-            json_array_append_new(names, json_string(rule_name(m, i)));
-    json_object_set_new(object, "rules", names);
-    bool written = json_dumpf(object, m->output.stream, JSON_COMPACT) == 0;
-    json_decref(object);
-    return written || ferror(m->output.stream);
+    size_t before = out->size;
+    return append_names(m, plan, " ", "", out) && (out->size > before || append_text(out, "-"));
 }
 
-static bool take(void *context, const tn_sifted *plan)
+/* Names of rules hold nothing that JSON would escape. */
+static bool append_object(const matching *m, const tn_sifted *plan, tn_buffer *out)
 {
-    matching *m = context;
-    int format = m->job->settings->format;
-    if (format == FORMAT_BITS) {
-        write_bits(m, plan);
-        return !ferror_unlocked(m->output.stream);
-    }
-    if (format == FORMAT_NAMES) {
-        write_names(m, plan);
-    } else if (!write_object(m, plan)) {
-        return tn_sifting_out_of_memory(&m->sifting);
-    }
-    fputc('\n', m->output.stream);
-    return !ferror(m->output.stream);
+    tn_buffer line = {0};
+    bool done = tn_plan_write_line(m->schema, plan->trays, plan->length, &line) &&
+                tn_buffer_printf(out, "{\"line\":%" PRIu64 ",\"plan\":", plan->line) &&
+                tn_buffer_append_json(out, line.data ? line.data : "") && append_text(out, ",\"rules\":[") &&
+                append_names(m, plan, ",", "\"", out) && append_text(out, "]}");
+    free(line.data);
+    return done;
+}
+
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
+{
+    const matching *m = context;
+    tn_buffer *out = &texts[0];
+    bool done;
+    if (m->job->settings->format == FORMAT_BITS)
+        done = append_bits(m, plan, out);
+    else if (m->job->settings->format == FORMAT_NAMES)
+        done = append_names_or_dash(m, plan, out);
+    else
+        done = append_object(m, plan, out);
+    return done && append_text(out, "\n");
 }
 
 static bool open_output(void *context)
@@ -132,16 +130,18 @@ static bool open_output(void *context)
 
 static void match_plans(matching *m)
 {
-    m->sifting = (tn_sifting){.job = m->job,
-                              .path = m->path,
-                              .schema = m->schema,
-                              .rules = m->compiled,
-                              .open = open_output,
-                              .take = take,
-                              .context = m};
+    tn_sifting sifting = {.job = m->job,
+                          .path = m->path,
+                          .schema = m->schema,
+                          .rules = m->compiled,
+                          .numbered = m->job->settings->format == FORMAT_JSON,
+                          .open = open_output,
+                          .plan = describe,
+                          .streams = {&m->output.stream},
+                          .context = m};
     tn_job_fallbacks(m->job, m->compiled, rule_name, m);
-    if (tn_job_sift(&m->sifting))
-        tn_job_close(m->job, &m->output, !m->sifting.stopped);
+    if (tn_job_sift(&sifting))
+        tn_job_close(m->job, &m->output, !sifting.stopped);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -156,8 +156,6 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_rules_free(m.compiled);
     tn_schema_free(m.schema);
     tn_chosen_rules_clear(&m.rules);
-    free(m.line.data);
-    free(m.digits);
     return tn_job_end(&job);
 }
 

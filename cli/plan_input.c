@@ -35,10 +35,19 @@ bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const
     return job->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
 }
 
-static bool take(void *context, const tn_sifted *plan)
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
 {
-    tn_sifting *s = context;
-    return s->take(s->context, plan);
+    const tn_sifting *s = context;
+    return s->plan(s->context, plan, texts);
+}
+
+static bool write_texts(void *context, const tn_buffer texts[TN_RELAY_TEXTS])
+{
+    const tn_sifting *s = context;
+    bool written = true;
+    for (size_t t = 0; t < TN_RELAY_TEXTS && written; t++)
+        written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
+    return written;
 }
 
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
@@ -55,22 +64,13 @@ bool tn_job_sift(tn_sifting *s)
     if (!tn_job_reader(s->job, s->schema, s->path, &reader))
         return false;
     bool opened = s->open(s->context);
-    tn_sift_calls calls = {s, take, complain};
+    tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
     if (opened && tn_sift(reader, s->rules, tn_job_threads(s->job->settings), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }
     tn_plan_reader_free(reader);
     return opened;
-}
-
-bool tn_sifting_out_of_memory(tn_sifting *s)
-{
-    tn_error error;
-    tn_fail_memory(&error);
-    tn_job_fail(s->job, &error);
-    s->stopped = true;
-    return false;
 }
 
 void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),

@@ -22,14 +22,17 @@ bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_pl
 /* Records a bad plan; true where the options say to go on. */
 bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size);
 
-/* Plans to be matched against rules and handed to `take`, which returns false to end early. */
+/* Plans to be matched against rules, and what is to be written of each. */
 typedef struct tn_sifting {
     tn_job *job;
     const char *path; /* of the plans */
     const tn_schema *schema;
     const tn_rules *rules;
+    bool numbered;               /* the plans' lines are needed */
     bool (*open)(void *context); /* called when the plans could be opened; false (and recorded why) ends it there */
-    bool (*take)(void *context, const tn_sifted *plan);
+    /* As in tn_sift_calls: appends to the texts, in several threads at once; false where out of memory. */
+    bool (*plan)(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS]);
+    FILE **streams[TN_RELAY_TEXTS]; /* where the texts go; NULL where nothing is appended to one */
     void *context;
     bool stopped; /* before the end of the plans, by a plan that cannot be read or a failure */
 } tn_sifting;
@@ -37,9 +40,6 @@ typedef struct tn_sifting {
 /* Reads the plans as the options say, and reports the bad ones. True where the outputs were opened: then they are to be
  * closed. */
 bool tn_job_sift(tn_sifting *sifting);
-
-/* Records a failure of `take`, for it to return: false. */
-bool tn_sifting_out_of_memory(tn_sifting *sifting);
 
 /* Notes the rules that fell back to the interpreter. `name` gives the name of rule i. */
 void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),

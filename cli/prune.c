@@ -17,8 +17,6 @@ typedef struct pruning {
     uint32_t trays_min, trays_max;
     tn_output kept, dropped;
     FILE *dropped_stream; /* NULL where nobody asked */
-    tn_buffer line;
-    tn_sifting sifting;
 } pruning;
 
 static const char *clause_name(const void *context, size_t i)
@@ -48,62 +46,56 @@ static bool is_kept(const pruning *p, const tn_sifted *plan)
     return true;
 }
 
-/* Writes the names of what drops the plan, each between `before` and `after`. */
-static bool write_reasons(pruning *p, const tn_sifted *plan, const char *quote)
+/* The names of what drops the plan, each between quotes. */
+static bool append_reasons(const pruning *p, const tn_sifted *plan, const char *quote, tn_buffer *out)
 {
     const char *between = "";
-    bool written = true;
+    bool done = true;
     if (length_drops(p, plan)) {
-        written = tn_buffer_printf(&p->line, "%strays%s", quote, quote);
+        done = tn_buffer_printf(out, "%strays%s", quote, quote);
         between = ", ";
     }
-    for (size_t i = 0; written && i < p->ready.record->clause_count; i++) {
+    for (size_t i = 0; done && i < p->ready.record->clause_count; i++) {
         if (!drops(p, plan, i))
             continue;
-        written = tn_buffer_printf(&p->line, "%s%s%s%s", between, quote, clause_name(p, i), quote);
+        done = tn_buffer_printf(out, "%s%s%s%s", between, quote, clause_name(p, i), quote);
         between = ", ";
     }
-    return written;
+    return done;
 }
 
 /* A dropped plan: as plan lines, a comment with the reasons before it, so that the file can be read again; as JSON, the
  * object
  * {"trays": [...], "dropped_by": [...]}. Names hold nothing that JSON would escape. */
-static bool write_dropped(pruning *p, const tn_sifted *plan)
+static bool append_dropped(const pruning *p, const tn_sifted *plan, tn_buffer *out)
 {
     const tn_schema *schema = p->ready.schema;
     if (p->job->settings->format == FORMAT_LINES)
-        return tn_buffer_printf(&p->line, "# dropped by ") && write_reasons(p, plan, "") &&
-               tn_buffer_append(&p->line, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, &p->line) &&
-               tn_buffer_append(&p->line, "\n", 1);
-    if (!tn_plan_write_json(schema, plan->trays, plan->length, &p->line))
+        return tn_buffer_printf(out, "# dropped by ") && append_reasons(p, plan, "", out) &&
+               tn_buffer_append(out, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, out);
+    if (!tn_plan_write_json(schema, plan->trays, plan->length, out))
         return false;
-    p->line.size -= p->line.data[p->line.size - 1] == '}';
-    return tn_buffer_printf(&p->line, ",\"dropped_by\":[") && write_reasons(p, plan, "\"") &&
-           tn_buffer_printf(&p->line, "]}\n");
+    out->size -= out->data[out->size - 1] == '}';
+    return tn_buffer_printf(out, ",\"dropped_by\":[") && append_reasons(p, plan, "\"", out) &&
+           tn_buffer_printf(out, "]}");
 }
 
-static bool write_kept(pruning *p, const tn_sifted *plan)
+static bool append_kept(const pruning *p, const tn_sifted *plan, tn_buffer *out)
 {
     const tn_schema *schema = p->ready.schema;
-    bool written = p->job->settings->format == FORMAT_JSON
-                       ? tn_plan_write_json(schema, plan->trays, plan->length, &p->line)
-                       : tn_plan_write_line(schema, plan->trays, plan->length, &p->line);
-    return written && tn_buffer_append(&p->line, "\n", 1);
+    return p->job->settings->format == FORMAT_JSON ? tn_plan_write_json(schema, plan->trays, plan->length, out)
+                                                   : tn_plan_write_line(schema, plan->trays, plan->length, out);
 }
 
-static bool take(void *context, const tn_sifted *plan)
+/* Plans that go to the same stream are in the same text, in the order they came. */
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
 {
-    pruning *p = context;
+    const pruning *p = context;
     bool kept = is_kept(p, plan);
-    FILE *stream = kept ? p->kept.stream : p->dropped_stream;
-    if (!stream)
+    if (!kept && !p->dropped_stream)
         return true;
-    p->line.size = 0;
-    if (!(kept ? write_kept(p, plan) : write_dropped(p, plan)))
-        return tn_sifting_out_of_memory(&p->sifting);
-    fwrite(p->line.data, 1, p->line.size, stream);
-    return !ferror(stream);
+    tn_buffer *out = &texts[!kept && p->dropped_stream != p->kept.stream];
+    return (kept ? append_kept(p, plan, out) : append_dropped(p, plan, out)) && tn_buffer_append(out, "\n", 1);
 }
 
 static bool compile_clauses(pruning *p)
@@ -146,18 +138,19 @@ static bool open_outputs(void *context)
 
 static void prune_plans(pruning *p)
 {
-    p->sifting = (tn_sifting){.job = p->job,
-                              .path = p->path,
-                              .schema = p->ready.schema,
-                              .rules = p->rules,
-                              .open = open_outputs,
-                              .take = take,
-                              .context = p};
-    if (!tn_job_sift(&p->sifting))
+    tn_sifting sifting = {.job = p->job,
+                          .path = p->path,
+                          .schema = p->ready.schema,
+                          .rules = p->rules,
+                          .open = open_outputs,
+                          .plan = describe,
+                          .streams = {&p->kept.stream, &p->dropped_stream},
+                          .context = p};
+    if (!tn_job_sift(&sifting))
         return;
-    tn_job_close(p->job, &p->kept, !p->sifting.stopped);
+    tn_job_close(p->job, &p->kept, !sifting.stopped);
     if (p->dropped.stream)
-        tn_job_close(p->job, &p->dropped, !p->sifting.stopped);
+        tn_job_close(p->job, &p->dropped, !sifting.stopped);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -170,7 +163,6 @@ static int run(const tn_command *command, const tn_settings *settings)
         prune_plans(&p);
     tn_rules_free(p.rules);
     tn_library_close(&p.ready);
-    free(p.line.data);
     return tn_job_end(&job);
 }
 

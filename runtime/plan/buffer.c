@@ -5,17 +5,17 @@
 
 #include "runtime/plan/text.h"
 
-/* Room for `more` bytes and the zero byte after them. */
-static bool reserve(tn_buffer *buffer, size_t more)
+/* There is room for the zero byte too. */
+bool tn_buffer_reserve(tn_buffer *buffer, size_t more)
 {
     if (buffer->data && more < buffer->capacity - buffer->size)
         return true;
-    if (more > SIZE_MAX / 4 - buffer->size)
+    size_t capacity = more <= SIZE_MAX / 4 - buffer->size ? (buffer->size + more) * 2 + 64 : SIZE_MAX;
+    char *data = capacity < SIZE_MAX ? realloc(buffer->data, capacity) : NULL;
+    if (!data) {
+        buffer->failed = true;
         return false;
-    size_t capacity = (buffer->size + more) * 2 + 64;
-    char *data = realloc(buffer->data, capacity);
-    if (!data)
-        return false;
+    }
     buffer->data = data;
     buffer->capacity = capacity;
     return true;
@@ -23,10 +23,8 @@ static bool reserve(tn_buffer *buffer, size_t more)
 
 bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length)
 {
-    if (!reserve(buffer, length)) {
-        buffer->failed = true;
+    if (!tn_buffer_reserve(buffer, length))
         return false;
-    }
     memcpy(buffer->data + buffer->size, text, length);
     buffer->size += length;
     buffer->data[buffer->size] = '\0';
@@ -39,7 +37,7 @@ bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
     va_start(args, format);
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
-    bool done = length >= 0 && reserve(buffer, (size_t)length);
+    bool done = length >= 0 && tn_buffer_reserve(buffer, (size_t)length);
     if (done) {
         vsnprintf(buffer->data + buffer->size, (size_t)length + 1, format, again);
         buffer->size += (size_t)length;
@@ -48,4 +46,24 @@ bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
     va_end(again);
     va_end(args);
     return done;
+}
+
+bool tn_buffer_append_json(tn_buffer *buffer, const char *text)
+{
+    bool done = tn_buffer_append(buffer, "\"", 1);
+    while (done && *text) {
+        size_t plain = 0;
+        while ((unsigned char)text[plain] >= 0x20 && text[plain] != '"' && text[plain] != '\\')
+            plain++;
+        done = tn_buffer_append(buffer, text, plain);
+        text += plain;
+        if (!done || !*text)
+            break;
+        if ((unsigned char)*text < 0x20)
+            done = tn_buffer_printf(buffer, "\\u%04x", (unsigned)*text);
+        else
+            done = tn_buffer_append(buffer, "\\", 1) && tn_buffer_append(buffer, text, 1);
+        text++;
+    }
+    return done && tn_buffer_append(buffer, "\"", 1);
 }

@@ -90,14 +90,11 @@ static tn_status skip_line(tn_plan_reader *reader, tn_error *error)
     }
 }
 
-static tn_status line_too_long(tn_plan_reader *reader, tn_error *error)
+tn_status tn_reader_line_too_long(size_t max_line, uint64_t line, tn_error *error)
 {
-    tn_status status = skip_line(reader, error);
-    if (status != TN_OK)
-        return status;
-    tn_fail(error, TN_LIMIT, 605, "the line is longer than the limit of %zu bytes", reader->max_line);
+    tn_fail(error, TN_LIMIT, 605, "the line is longer than the limit of %zu bytes", max_line);
     tn_error_help(error, "write one plan a line");
-    tn_error_place(error, reader->line, 1, 1);
+    tn_error_place(error, line, 1, 1);
     return TN_LIMIT;
 }
 
@@ -110,8 +107,10 @@ tn_status tn_reader_line(tn_plan_reader *reader, bool *found, tn_error *error)
         const char *newline =
             size > searched ? memchr(reader->data + reader->begin + searched, '\n', size - searched) : NULL;
         size_t length = newline ? (size_t)(newline - (reader->data + reader->begin)) : size;
-        if (length > reader->max_line)
-            return line_too_long(reader, error);
+        if (length > reader->max_line) {
+            tn_status status = skip_line(reader, error);
+            return status == TN_OK ? tn_reader_line_too_long(reader->max_line, reader->line, error) : status;
+        }
         if (newline || reader->input_ended) {
             *found = newline || length > 0;
             reader->text = reader->data + reader->begin;

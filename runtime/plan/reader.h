@@ -21,6 +21,7 @@ struct tn_plan_reader {
     /* Input of every format but SQLite: data[begin, end) is read and not yet used. */
     int file; /* descriptor, or -1 */
     bool input_ended;
+    uint64_t shared, shared_end; /* bytes of the file that were given up to tn_plan_lines_read */
     char *data;
     size_t begin, end, capacity;
     const char *text; /* the line of the plan read last */
@@ -43,6 +44,9 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
 /* The next line, without its end, into reader->text; *found is false at the end. E0605 (and the line is skipped) where
  * it is too long. */
 tn_status tn_reader_line(tn_plan_reader *reader, bool *found, tn_error *error);
+
+/* E0605 for that, at a line. */
+tn_status tn_reader_line_too_long(size_t max_line, uint64_t line, tn_error *error);
 
 /* The first character of a line that is no blank, or 0. */
 char tn_reader_first(const char *text, size_t size);

@@ -61,8 +61,8 @@ tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
 
 /* ---- reading by several threads */
 
-/* Lines taken from a reader of plan lines or JSON lines. Taking is quick and is done by one thread at a time; what was
- * taken is then read apart from the reader, by the thread that owns these lines. */
+/* Lines of a file of plan lines or JSON lines, of which each thread has its own. What they hold is either taken from
+ * the reader, by one thread at a time, or read from the file itself, by all of them side by side. */
 typedef struct tn_plan_lines tn_plan_lines;
 tn_status tn_plan_lines_new(const tn_plan_reader *reader, tn_plan_lines **lines, tn_error *error);
 void tn_plan_lines_free(tn_plan_lines *lines);
@@ -71,7 +71,19 @@ void tn_plan_lines_free(tn_plan_lines *lines);
  * are none to take so: another format, a very long line, the end. tn_plan_reader_next goes on from there. */
 tn_status tn_plan_lines_take(tn_plan_lines *lines, tn_plan_reader *reader, size_t bytes, bool *taken, tn_error *error);
 
-/* The next plan of the lines taken, as tn_plan_reader_next gives it; `error` must not be NULL. */
+/* Gives up what is left of a regular file to tn_plan_lines_read: the bytes that this is, as long as the file is now
+ * (what is appended later is not read; where it becomes shorter, it ends there). The reader is then at its end. 0, and
+ * nothing given up, where nothing is left or the input cannot be read so: another format, a pipe. */
+uint64_t tn_plan_reader_share(tn_plan_reader *reader);
+
+/* Reads the lines that begin in bytes (begin, begin + size] of what was shared, and with the first bytes (begin 0) the
+ * first line, in place of those that `lines` holds. So stretches that follow one another have each line once, with
+ * lines longer than a stretch in the one where they begin. *count: of lines. Memory: `size` and the longest line. */
+tn_status tn_plan_lines_read(tn_plan_lines *lines, const tn_plan_reader *reader, uint64_t begin, size_t size,
+                             uint64_t *count, tn_error *error);
+
+/* The next plan of the lines held, as tn_plan_reader_next gives it; `error` must not be NULL. Lines are numbered as in
+ * the file where they were taken, and from 1 where they were read. */
 tn_status tn_plan_lines_next(tn_plan_lines *lines, const tn_plan **plan, tn_error *error);
 uint64_t tn_plan_lines_line(const tn_plan_lines *lines);
 const char *tn_plan_lines_text(const tn_plan_lines *lines, size_t *size);

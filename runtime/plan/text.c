@@ -23,21 +23,6 @@ bool tn_plan_write_line(const tn_schema *schema, const tn_tray *trays, size_t le
     return true;
 }
 
-/* A JSON string: quotes, backslashes and control characters are escaped. */
-static bool append_string(tn_buffer *out, const char *text)
-{
-    bool done = append_text(out, "\"");
-    for (const char *c = text; done && *c; c++) {
-        if (*c == '"' || *c == '\\')
-            done = tn_buffer_append(out, "\\", 1) && tn_buffer_append(out, c, 1);
-        else if ((unsigned char)*c < 0x20)
-            done = tn_buffer_printf(out, "\\u%04x", (unsigned)*c);
-        else
-            done = tn_buffer_append(out, c, 1);
-    }
-    return done && append_text(out, "\"");
-}
-
 static bool append_value(const tn_schema *schema, uint32_t field, tn_tray tray, tn_buffer *out)
 {
     const tn_value_record *value = tn_tray_value_record(schema, tray, field);
@@ -46,10 +31,11 @@ static bool append_value(const tn_schema *schema, uint32_t field, tn_tray tray, 
     case TN_FIELD_FLAG:
         return append_text(out, tn_tray_value(schema, tray, field) ? "true" : "false");
     case TN_FIELD_ZONE:
-        return append_text(out, "{\"fill\":") && append_string(out, name) &&
-               (!*measure || (append_text(out, ",\"depth\":") && append_string(out, measure))) && append_text(out, "}");
+        return append_text(out, "{\"fill\":") && tn_buffer_append_json(out, name) &&
+               (!*measure || (append_text(out, ",\"depth\":") && tn_buffer_append_json(out, measure))) &&
+               append_text(out, "}");
     default:
-        return append_string(out, tn_text(schema->module, value->spelling));
+        return tn_buffer_append_json(out, tn_text(schema->module, value->spelling));
     }
 }
 
@@ -59,8 +45,8 @@ static bool append_tray(const tn_schema *schema, tn_tray tray, tn_buffer *out)
         return false;
     for (uint32_t field = 0; field < schema->field_count; field++) {
         bool done = (field == 0 || append_text(out, ",")) &&
-                    append_string(out, tn_text(schema->module, schema->fields[field].name)) && append_text(out, ":") &&
-                    append_value(schema, field, tray, out);
+                    tn_buffer_append_json(out, tn_text(schema->module, schema->fields[field].name)) &&
+                    append_text(out, ":") && append_value(schema, field, tray, out);
         if (!done)
             return false;
     }

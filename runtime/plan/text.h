@@ -26,6 +26,12 @@ typedef struct tn_buffer {
 } tn_buffer;
 
 bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length);
+
+/* Room for `more` bytes, to be written to data + size by the caller, who adds them to `size`. */
+bool tn_buffer_reserve(tn_buffer *buffer, size_t more);
+/* A JSON string: in quotes, with quotes, backslashes and control characters escaped. */
+bool tn_buffer_append_json(tn_buffer *buffer, const char *text);
+
 bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Parses one plan line (no newline in it) of at most max_trays trays. An error has its columns; its line is the

@@ -33,6 +33,28 @@ same "$TARTAN" match "$files/sheds.plan" "$scratch/flawed" --format bits --on-er
 same "$TARTAN" prune "$files/sheds.plan" "$scratch/flawed" --library sheds --dropped - --on-error skip
 same "$TARTAN" count "$shapes"
 
+# A file is read by all threads side by side, a pipe by one after another: the same answers, and the same lines are
+# complained about. Lines longer than what a thread takes at a time, and one past the limit, at its own place.
+{
+    cat "$scratch/flawed"
+    head -c 700000 /dev/zero | tr '\0' '#' && echo
+    cat "$scratch/flawed"
+    head -c 1500000 /dev/zero | tr '\0' '#' && echo
+    head -c 600000 "$scratch/flawed"
+} >"$scratch/long"
+same "$TARTAN" match "$files/sheds.plan" "$scratch/long" --format json --on-error skip
+grep -q "long:$(($(wc -l <"$scratch/flawed") * 2 + 2)):.*E0605" "$scratch/err.1" || fail 'the longest line is not named'
+for threads in 1 2 5; do
+    "$TARTAN" match "$files/sheds.plan" <"$scratch/long" --format json --on-error skip --threads $threads >"$scratch/redirected" 2>"$scratch/redirected.err" || true
+    cat "$scratch/long" | "$TARTAN" match "$files/sheds.plan" --format json --on-error skip --threads $threads >"$scratch/piped" 2>"$scratch/piped.err" || true
+    grep -v '^exit' "$scratch/out.1" | cmp -s - "$scratch/redirected" || fail "redirected, $threads threads answer differently"
+    cmp -s "$scratch/redirected" "$scratch/piped" || fail "from a pipe, $threads threads answer differently"
+    cmp -s "$scratch/redirected.err" "$scratch/piped.err" || fail "from a pipe, $threads threads complain differently"
+done
+{ head -n 1 >/dev/null && "$TARTAN" match "$files/sheds.plan" --format bits --threads 3 && cat; } <"$scratch/sheds" >"$scratch/rest"
+"$TARTAN" match "$files/sheds.plan" "$scratch/sheds" --format bits | tail -c "$(wc -c <"$scratch/rest")" | cmp -s - "$scratch/rest" ||
+    fail 'from the middle of a redirected file'
+
 # Other formats are read by one thread, and matched by several.
 for format in json csv bin; do
     "$TARTAN" sample "$files/sheds.plan" -l any-sheds 20000 --trays 0..9 --seed 5 --format "$format" -o "$scratch/sheds.$format"

@@ -104,6 +104,28 @@ static tn_status read_plans(const context *c, tn_error *error)
     return status;
 }
 
+/* The same, as threads read a file side by side; other formats are not read so. */
+static tn_status read_stretches(const context *c, tn_error *error)
+{
+    tn_plan_reader *reader = NULL;
+    tn_plan_lines *lines = NULL;
+    tn_status status = tn_plan_reader_open(c->schema, c->path, NULL, &reader, error);
+    if (status == TN_OK)
+        status = tn_plan_lines_new(reader, &lines, error);
+    uint64_t total = status == TN_OK ? tn_plan_reader_share(reader) : 0, count;
+    for (uint64_t begin = 0; status == TN_OK && begin < total; begin += 100) {
+        const tn_plan *plan;
+        status = tn_plan_lines_read(lines, reader, begin, 100, &count, error);
+        while (status == TN_OK && (status = tn_plan_lines_next(lines, &plan, error)) == TN_OK && plan)
+            count--;
+        if (status == TN_OK)
+            assert_int_equal(count, 0);
+    }
+    tn_plan_lines_free(lines);
+    tn_plan_reader_free(reader);
+    return status;
+}
+
 /* Texts with escapes and doubled quotes take memory that others do not. */
 static tn_status read_escapes(const context *c, tn_error *error)
 {
@@ -144,6 +166,7 @@ static void test_out_of_memory(void **state)
         remove(c.path);
         expect_robust(write_plans, &c);
         expect_robust(read_plans, &c);
+        expect_robust(read_stretches, &c);
     }
     remove(c.path);
     tn_schema_free(c.schema);
