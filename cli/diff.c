@@ -173,7 +173,7 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", sample, 0, SHOWN_MAX, "show the first plan of each and N at random (default 3)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which random ones (default 0)"),
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    TEXT("output", 'o', "FILE", output, "also draw the removed and added plans shown: .svg, .png or .pdf"),
+    TEXT("output", 'o', "FILE", output, "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", title, "the picture's title"),
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,

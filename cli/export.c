@@ -1,5 +1,4 @@
 /* tartan export: rules in other notations. */
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,34 +18,6 @@ typedef struct exporting {
 
 /* ---- patterns */
 
-/* The value of each field that all trays of a class share; what differs within the class is left out. */
-static bool write_class(exporting *e, const tn_classes *classes, uint32_t class)
-{
-    const tn_schema *schema = e->schema;
-    bool ok = tn_buffer_printf(&e->text, "# %c  %" PRIu32 " tray%s, such as ", tn_regex_letter(class),
-                               classes->size[class], classes->size[class] == 1 ? "" : "s");
-    ok = ok && tn_plan_write_line(schema, &classes->representative[class], 1, &e->text);
-    const char *between = "; all with ";
-    for (uint32_t f = 0; ok && f < schema->field_count; f++) {
-        uint64_t values[4] = {0};
-        for (tn_tray t = 0; t < schema->tray_count; t++)
-            if (classes->of_tray[t] == class)
-                values[tn_tray_value(schema, t, f) / 64] |= UINT64_C(1) << (tn_tray_value(schema, t, f) % 64);
-        uint32_t count = 0;
-        for (int i = 0; i < 4; i++)
-            count += (uint32_t)__builtin_popcountll(values[i]);
-        if (count == schema->fields[f].value_count)
-            continue;
-        ok = tn_buffer_printf(&e->text, "%s%s", between, tn_text(e->module, schema->fields[f].name));
-        for (uint32_t v = 0; ok && v < schema->fields[f].value_count; v++)
-            if (values[v / 64] >> (v % 64) & 1)
-                ok = tn_buffer_printf(&e->text, " %s",
-                                      tn_text(e->module, schema->values[schema->value_start[f] + v].spelling));
-        between = ", ";
-    }
-    return ok && tn_buffer_append(&e->text, "\n", 1);
-}
-
 static tn_status export_regex(exporting *e, tn_error *error)
 {
     uint32_t function = e->module->RULE_records[e->rule].holds;
@@ -58,18 +29,17 @@ static tn_status export_regex(exporting *e, tn_error *error)
         status = tn_lowering_new(classes, (uint32_t)e->job->settings->max_states.value, &lowering, error);
     if (status == TN_OK)
         status = tn_lower(lowering, function, &dfa, error);
-    if (status == TN_OK && dfa->letters <= TN_REGEX_LETTERS_MAX) {
-        bool ok = tn_buffer_printf(&e->text, "# %s, a letter for each tray:\n",
-                                   tn_text(e->module, e->module->RULE_records[e->rule].name));
-        for (uint32_t c = 0; ok && c < classes->count; c++)
-            ok = write_class(e, classes, c);
-        status = ok ? TN_OK : tn_fail_memory(error);
-    }
-    size_t before = e->text.size;
+    tn_buffer pattern = {0};
     if (status == TN_OK)
-        status = tn_export_regex(dfa, &e->text, error);
-    if (status == TN_OK && !tn_buffer_printf(&e->text, e->text.size == before ? "# matches no plan\n" : "\n"))
+        status = tn_export_regex(dfa, &pattern, error);
+    if (status == TN_OK && !tn_buffer_printf(&e->text, "# %s, a letter for each tray:\n",
+                                             tn_text(e->module, e->module->RULE_records[e->rule].name)))
         status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_regex_legend(dfa, classes, &e->text, error);
+    if (status == TN_OK && !tn_buffer_printf(&e->text, "%s\n", pattern.size ? pattern.data : "# matches no plan"))
+        status = tn_fail_memory(error);
+    free(pattern.data);
     tn_dfa_free(dfa);
     tn_lowering_free(lowering);
     tn_classes_free(classes);

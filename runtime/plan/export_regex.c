@@ -24,10 +24,10 @@ typedef struct elimination {
     bool failed, long_; /* out of memory; too long */
 } elimination;
 
-char tn_regex_letter(uint32_t class)
+char tn_regex_letter(uint32_t column)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-    return letters[class];
+    return letters[column];
 }
 
 static words *at(const elimination *e, uint32_t from, uint32_t to)
@@ -165,10 +165,10 @@ static size_t weight(const elimination *e, uint32_t state)
     return in_length * (out ? out - 1 : 0) + out_length * (in ? in - 1 : 0) + loop * (in && out ? in * out - 1 : 0);
 }
 
-static words letter(elimination *e, uint32_t class)
+static words letter(elimination *e, uint32_t column)
 {
     tn_buffer made = {0};
-    tn_buffer_printf(&made, "%c", tn_regex_letter(class));
+    tn_buffer_printf(&made, "%c", tn_regex_letter(column));
     return (words){take(e, &made), FORM_ATOM, false};
 }
 
@@ -187,10 +187,10 @@ static void set_up(elimination *e, const tn_dfa *dfa)
     for (uint32_t s = 0; s < dfa->states; s++) {
         if (dfa->accept[s])
             *at(e, s, e->count + 1) = nothing(e);
-        for (uint32_t l = 0; l < dfa->letters; l++) {
-            uint32_t to = tn_dfa_read(dfa, s, l);
+        for (uint32_t c = 0; c < dfa->columns; c++) {
+            uint32_t to = dfa->delta[(size_t)s * dfa->columns + c];
             if (s != dead && to != dead)
-                unite(e, at(e, s, to), letter(e, l));
+                unite(e, at(e, s, to), letter(e, c));
         }
     }
 }
@@ -218,10 +218,10 @@ static void eliminate_all(elimination *e)
 tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
 {
     elimination e = {.count = dfa->states};
-    if (dfa->letters > TN_REGEX_LETTERS_MAX || dfa->states > TN_REGEX_LENGTH_MAX)
+    if (dfa->columns > TN_REGEX_LETTERS_MAX || dfa->states > TN_REGEX_LENGTH_MAX)
         return tn_fail(error, TN_LIMIT, 802,
                        "the automaton has %u classes of trays and %u states; a pattern has at most %u letters",
-                       dfa->letters, dfa->states, TN_REGEX_LETTERS_MAX);
+                       dfa->columns, dfa->states, TN_REGEX_LETTERS_MAX);
     size_t all = (size_t)e.count + 2;
     e.between = calloc(all * all, sizeof *e.between);
     if (!e.between)
@@ -251,11 +251,11 @@ tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
     return status;
 }
 
-bool tn_regex_plan(const tn_classes *classes, const tn_tray *trays, size_t length, tn_buffer *out)
+bool tn_regex_plan(const tn_dfa *dfa, const tn_classes *classes, const tn_tray *trays, size_t length, tn_buffer *out)
 {
     bool ok = tn_buffer_append(out, "", 0);
     for (size_t i = 0; ok && i < length; i++) {
-        char c = tn_regex_letter(classes->of_tray[trays[i]]);
+        char c = tn_regex_letter(dfa->column[classes->of_tray[trays[i]]]);
         ok = tn_buffer_append(out, &c, 1);
     }
     return ok;

@@ -54,6 +54,16 @@ static tn_status too_many(const tn_schema *schema, const tn_word *word, tn_error
     return tn_word_refuse(word, error);
 }
 
+/* The plan of a test was taken over as it is written there. */
+static tn_status in_brackets(const tn_schema *schema, const tn_word *word, tn_error *error)
+{
+    char fields[200];
+    tn_fail(error, TN_INVALID, 601, "a plan line has no brackets: those are of the plans in a rule file's tests");
+    tn_error_help(error, "write every value of each tray, in the schema's order: %s",
+                  tn_value_fields(schema, fields, sizeof fields));
+    return tn_word_refuse(word, error);
+}
+
 static tn_status read_tray(tn_plan_scanner *scanner, const tn_word *text, tn_tray *tray, tn_error *error)
 {
     const tn_schema *schema = scanner->schema;
@@ -64,6 +74,8 @@ static tn_status read_tray(tn_plan_scanner *scanner, const tn_word *text, tn_tra
         if (field == schema->field_count)
             return too_many(schema, &word, error);
         uint32_t value = tn_value_find(schema, field, &word);
+        if (value == TN_NO_VALUE && word.text[0] == '[')
+            return in_brackets(schema, &word, error);
         if (value == TN_NO_VALUE)
             return tn_value_unknown(schema, field, &word, error);
         scanner->values[field++] = (uint8_t)value;

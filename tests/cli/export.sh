@@ -4,6 +4,7 @@ name=export
 . "$(dirname "$0")/golden.bash"
 
 golden regex 'tartan export sheds.plan --regex --rule wide-end'
+golden regex_several 'tartan export parts.plan --regex --rule far-sum'
 golden regex_never 'tartan export never.plan --regex --rule never'
 golden regex_long 'tartan export never.plan --regex --rule long'
 golden prolog 'tartan export never.plan --prolog | sed -n "/length_of/,\$p"'

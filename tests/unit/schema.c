@@ -1,11 +1,13 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
-#include "tests/support/test_schema.h"
+#include "runtime/plan/boxes.h"
+#include "tests/support/test_rule.h"
 
 static tn_module *module_of(const test_schema *schema)
 {
@@ -132,6 +134,49 @@ static void test_huge_schema_is_refused(void **state)
     tn_module_free(module);
 }
 
+/* Boxes have just the trays asked for, and none could have one value more. */
+static void check_boxes(const tn_schema *schema, const bool *in)
+{
+    uint64_t *boxes;
+    size_t count;
+    tn_error error;
+    test_ok(tn_tray_boxes(schema, in, &boxes, &count, &error), &error);
+    for (tn_tray t = 0; t < schema->tray_count; t++) {
+        bool has = false;
+        for (size_t i = 0; i < count; i++)
+            has = has || tn_box_has(schema, boxes + i * schema->mask_words, t);
+        assert_int_equal(has, in[t]);
+    }
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t v = 0; v < schema->value_count; v++) {
+            uint64_t *box = boxes + i * schema->mask_words, before = box[v / 64];
+            bool others = tn_box_has_value(box, v);
+            box[v / 64] |= UINT64_C(1) << (v % 64);
+            for (tn_tray t = 0; t < schema->tray_count; t++)
+                others = others || (tn_box_has(schema, box, t) && !in[t]);
+            assert_true(others);
+            box[v / 64] = before;
+        }
+    free(boxes);
+}
+
+static void test_boxes(void **state)
+{
+    (void)state;
+    test_random random = {.seed = 3};
+    for (uint32_t n = 0; n < 200; n++) {
+        tn_module *module = module_of(n % 4 ? &test_schema_house : &test_schema_tiny);
+        tn_schema *schema = test_schema_open(module, 0);
+        bool in[64];
+        assert_true(schema->tray_count <= 64);
+        for (tn_tray t = 0; t < schema->tray_count; t++)
+            in[t] = test_random_below(&random, 8) <= n % 10;
+        check_boxes(schema, in);
+        tn_schema_free(schema);
+        tn_module_free(module);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +186,7 @@ int main(void)
         cmocka_unit_test(test_fields),
         cmocka_unit_test(test_too_many_combinations),
         cmocka_unit_test(test_huge_schema_is_refused),
+        cmocka_unit_test(test_boxes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
