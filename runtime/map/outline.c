@@ -54,50 +54,68 @@ static bool any_pair_crosses(const tn_outline *o)
     return false;
 }
 
-/* ---- a grid */
+/* ---- a grid, its cells as long as a side is on the mean, so that sides pass few; cells share places at times */
 
 typedef struct grid {
-    double low[2], cell[2]; /* corner, and the size of a cell */
+    double low[2], cell; /* corner, and the size of a cell */
     uint32_t size[2];
+    uint32_t places; /* a power of two */
     size_t links;
 } grid;
 
+static double length_of_sides(const tn_outline *o)
+{
+    double length = 0;
+    for (uint32_t i = 0; i < o->count; i++) {
+        const double *a = o->points[i], *b = o->points[i + 1 == o->count ? 0 : i + 1];
+        length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
+    }
+    return length;
+}
+
 static bool lay_grid(tn_outline *o, grid *g)
 {
-    double high[2];
-    uint32_t fine = (uint32_t)sqrt(o->count) + 1;
+    double length = length_of_sides(o);
+    g->cell = length > 0 ? length / o->count : 1;
     for (int k = 0; k < 2; k++) {
-        g->low[k] = high[k] = o->points[0][k];
+        double high = o->points[0][k];
+        g->low[k] = high;
         for (uint32_t i = 1; i < o->count; i++) {
             g->low[k] = fmin(g->low[k], o->points[i][k]);
-            high[k] = fmax(high[k], o->points[i][k]);
+            high = fmax(high, o->points[i][k]);
         }
-        g->size[k] = high[k] > g->low[k] ? fine : 1;
-        g->cell[k] = high[k] > g->low[k] ? (high[k] - g->low[k]) / fine : 1;
+        double cells = (high - g->low[k]) / g->cell; /* no number where the extent is beyond all numbers */
+        g->size[k] = cells < o->count ? (uint32_t)cells + 1 : 1;
     }
-    size_t cells = (size_t)g->size[0] * g->size[1];
-    if (cells > o->cell_room) {
+    for (g->places = 64; g->places < o->count && g->places <= UINT32_MAX / 2; g->places *= 2)
+        continue;
+    if (g->places > o->cell_room) {
         free(o->cells);
-        o->cells = malloc(cells * sizeof *o->cells);
-        o->cell_room = o->cells ? cells : 0;
+        o->cells = malloc(g->places * sizeof *o->cells);
+        o->cell_room = o->cells ? g->places : 0;
     }
     if (!o->cells)
         return false;
-    memset(o->cells, 0xff, cells * sizeof *o->cells);
+    memset(o->cells, 0xff, g->places * sizeof *o->cells);
     g->links = 0;
     return true;
 }
 
 static uint32_t cell_of(const grid *g, int k, double at)
 {
-    double cell = (at - g->low[k]) / g->cell[k];
+    double cell = (at - g->low[k]) / g->cell;
     return cell >= g->size[k] ? g->size[k] - 1 : cell > 0 ? (uint32_t)cell : 0;
 }
 
-/* Compares a side with those in a cell, and puts it there. */
-static bool enter_cell(tn_outline *o, grid *g, size_t cell, uint32_t side, bool *crossed)
+static size_t place_of(const grid *g, uint32_t row, uint32_t column)
 {
-    for (uint32_t link = o->cells[cell]; link != NONE; link = o->next[link])
+    return ((row * 0x9e3779b97f4a7c15u + column) * 0xd1342543de82ef95u >> 32) & (g->places - 1);
+}
+
+/* Compares a side with those in a cell, and puts it there. */
+static bool enter_cell(tn_outline *o, grid *g, size_t place, uint32_t side, bool *crossed)
+{
+    for (uint32_t link = o->cells[place]; link != NONE; link = o->next[link])
         *crossed |= o->side[link] + 1 < side && sides_cross(o, o->side[link], side);
     if (g->links == o->link_room) {
         size_t room = 2 * o->link_room + 1024;
@@ -109,9 +127,9 @@ static bool enter_cell(tn_outline *o, grid *g, size_t cell, uint32_t side, bool 
         o->side = sides;
         o->link_room = room;
     }
-    o->next[g->links] = o->cells[cell];
+    o->next[g->links] = o->cells[place];
     o->side[g->links] = side;
-    o->cells[cell] = (uint32_t)g->links++;
+    o->cells[place] = (uint32_t)g->links++;
     return true;
 }
 
@@ -127,7 +145,7 @@ static bool enter_side(tn_outline *o, grid *g, uint32_t side, bool *crossed)
     }
     uint32_t last = cell_of(g, 1, b[1]);
     for (uint32_t row = cell_of(g, 1, a[1]); row <= last; row++) {
-        double rise = b[1] - a[1], bottom = g->low[1] + row * g->cell[1], top = bottom + g->cell[1];
+        double rise = b[1] - a[1], bottom = g->low[1] + row * g->cell, top = bottom + g->cell;
         double from = rise > 0 ? fmin(fmax((bottom - a[1]) / rise, 0), 1) : 0;
         double to = rise > 0 ? fmin(fmax((top - a[1]) / rise, 0), 1) : 1;
         double x = a[0] + from * (b[0] - a[0]), y = a[0] + to * (b[0] - a[0]);
@@ -135,7 +153,7 @@ static bool enter_side(tn_outline *o, grid *g, uint32_t side, bool *crossed)
         left -= left > 0;
         right += right + 1 < g->size[0];
         for (uint32_t column = left; column <= right; column++)
-            if (!enter_cell(o, g, (size_t)row * g->size[0] + column, side, crossed))
+            if (!enter_cell(o, g, place_of(g, row, column), side, crossed))
                 return false;
     }
     return true;

@@ -16,7 +16,7 @@ typedef struct tn_outline {
 bool tn_outline_reserve(tn_outline *outline, uint32_t count);
 
 /* Do two sides cross, in their insides? *crossed says. Sides are compared with those that a grid has near them, so that
- * the time is linear in the corners where sides are about as long as the outline is fine. False without memory. */
+ * the time is linear in the corners where the outline does not lie upon itself. False without memory. */
 bool tn_outline_crosses(tn_outline *outline, bool *crossed);
 
 void tn_outline_clear(tn_outline *outline);
