@@ -1,7 +1,9 @@
 /* How long growing takes: growth SCENE STEPS THREADS RUNS
  *
  * Scenes: square, triangle, forces (20 attractors), boundary (inside a ball of 10,368 triangles), and curve (square,
- * each step's time by itself). Prints the median of the runs and the most memory that the process had. */
+ * each step's time by itself); and of branches in one huge face: ring (STEPS edges of the seed, a branch each) and koch
+ * (one branch for each edge of the quadratic Koch curve of that many steps). Prints the median of the runs and the most
+ * memory that the process had. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +33,32 @@ static const char square[] =
 static const char triangle[] =
     "A + B + C; A -> A [ [ [ [ + C ] + + B ] - B ] - - C ] A; B -> B [ [ [ [ + A ] + + C ] - C ] - - A ] B;"
     "C -> C [ [ [ [ + B ] + + A ] - A ] - - B ] C; Angle 60; Sync";
+
+static const char koch[] = "A + A + A + A; A -> A [ + B ] A If i > %d\n"
+                           "-> A_i+1 + A_i+1 - A_i+1 - A_i+1 + A_i+1; Angle 90; BranchAngle 30";
+
+/* The text of a scene, which the caller frees; `steps` becomes those to take. */
+static char *text_of(const char *scene, int *steps)
+{
+    static const char ring[] = "; A -> A [ + B ] A; Angle 90; BranchAngle 90";
+    if (strcmp(scene, "koch") == 0) {
+        char *text = malloc(sizeof koch + 16);
+        if (text)
+            snprintf(text, sizeof koch + 16, koch, *steps - 1);
+        *steps += 1;
+        return text;
+    }
+    if (strcmp(scene, "ring") != 0)
+        return strdup(strcmp(scene, "triangle") == 0 ? triangle : square);
+    size_t edges = (size_t)*steps;
+    char *text = malloc(2 * edges + sizeof ring);
+    for (size_t i = 0; text && i < edges; i++)
+        memcpy(text + 2 * i, "A+", 2);
+    if (text)
+        memcpy(text + 2 * edges - 1, ring, sizeof ring);
+    *steps = 1;
+    return text;
+}
 
 enum { ATTRACTORS = 20, BANDS = 72 };
 
@@ -97,8 +125,11 @@ int main(int count, char **words)
         fputs("growth SCENE STEPS THREADS RUNS\n", stderr);
         return 2;
     }
-    const char *scene = words[1], *text = strcmp(scene, "triangle") == 0 ? triangle : square;
+    const char *scene = words[1];
     int steps = atoi(words[2]), runs = atoi(words[4]);
+    char *text = text_of(scene, &steps);
+    if (!text)
+        return 1;
     tn_compilation compilation;
     tn_module *module;
     tn_growth_system *system;
@@ -133,5 +164,6 @@ int main(int count, char **words)
     tn_growth_system_free(system);
     tn_module_free(module);
     tn_compilation_clear(&compilation);
+    free(text);
     return 0;
 }

@@ -75,14 +75,16 @@ static void take_cut(const decision *d, uint32_t face, const tn_cuts *cuts, uint
     tally(d, face, cut->dart_count, cut->loop_count, cut->join_count);
 }
 
-static void note_failures(const tn_pass *pass, const tn_loop *loop)
+static bool note_failures(const tn_pass *pass, const tn_loop *loop)
 {
     uint64_t failures[TN_JOIN_FAILURE_COUNT] = {0};
-    tn_loop_explain(loop, pass, failures);
+    if (!tn_loop_explain(loop, pass, failures))
+        return false;
     for (int i = 0; i < TN_JOIN_FAILURE_COUNT; i++) {
 #pragma omp atomic
         pass->growth->counts.failures[i] += failures[i];
     }
+    return true;
 }
 
 static tn_pending *add_pending(tn_decider *decider, size_t count)
@@ -161,8 +163,8 @@ static bool decide_alone(const decision *d, uint32_t face, tn_pair_set *taken)
     default:
         break;
     }
-    if (pass->growth->options.explain && pass->joins_last)
-        note_failures(pass, loop);
+    if (pass->growth->options.explain && pass->joins_last && !note_failures(pass, loop))
+        return false;
     for (uint32_t i = 0; i < loop->join_count; i++) {
         const tn_loop_branch *low = &loop->branches[loop->joins[i].low], *high = &loop->branches[low->partner];
         pass->joints[low->id] = tn_state(low->label, low->age > high->age ? low->age : high->age, false);
@@ -291,7 +293,7 @@ static bool decide_later(tn_pass *pass)
         decision d = {pass, &space->deciders[chunk->decider], chunk};
         fine = decide_alone(&d, faces[i], &taken);
     }
-    free(taken.slots);
+    tn_pair_set_clear(&taken);
     free(faces);
     return fine;
 }

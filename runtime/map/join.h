@@ -2,6 +2,7 @@
 #ifndef TARTAN_MAP_JOIN_H
 #define TARTAN_MAP_JOIN_H
 
+#include "runtime/map/pair_set.h"
 #include "runtime/map/pass.h"
 
 /* Something on a face's loop: a dart, or a branch that hangs into the face at a corner. */
@@ -21,6 +22,7 @@ typedef struct tn_loop_branch {
     uint32_t record; /* of the edge it comes from; TN_NONE: from an earlier pass */
     uint32_t point;  /* the path's point it leaves from */
     uint32_t beyond; /* the face on the other side of its edge, where its vertex is new; TN_NONE: an old vertex */
+    uint32_t corner; /* a dart of the old face: it starts at the old vertex, or is the edge that the new one divides */
     uint32_t dart;   /* of the cut: the joined edge's dart that leaves here */
     bool reversed;
 } tn_loop_branch;
@@ -44,15 +46,10 @@ typedef struct tn_loop {
     size_t item_room, branch_room, candidate_room, join_room;
 } tn_loop;
 
-/* Pairs of vertices that joined although two faces share them, so that the other face may not join them again. */
-typedef struct tn_pair_set {
-    uint64_t *slots; /* low vertex << 32 | high vertex; 0 is free (no pair has two equal vertices) */
-    size_t count, capacity;
-} tn_pair_set;
-
 typedef enum tn_join_outcome {
     TN_JOINED,
-    TN_JOIN_LATER, /* needs to know what lower faces joined: ask again in order, with `taken` */
+    TN_JOIN_REFUSED, /* a pair: its vertices are linked already */
+    TN_JOIN_LATER,   /* needs to know what lower faces joined: ask again in order, with `taken` */
     TN_JOIN_MEMORY
 } tn_join_outcome;
 
@@ -68,19 +65,62 @@ static inline bool tn_branches_oppose(const tn_growth *growth, tn_vector a, tn_v
     return !(tn_dot(a, b) > growth->branch_cosine);
 }
 
+/* A distance in whole 2^-20 of the current length, so that equal ones are equal in spite of rounding. */
+static inline double tn_quantised(const tn_growth *growth, double length)
+{
+    double quanta = length / growth->length * 0x1p20 + 0.5;
+    return quanta < 0x1p62 ? (double)(int64_t)quanta : quanta;
+}
+
+/* How far branches may be from each other. */
+static inline double tn_branch_reach(const tn_growth *growth)
+{
+    double multiples = growth->options.branch_length;
+    return multiples >= 0 ? multiples * growth->length * (1 + 1e-9) : INFINITY;
+}
+
 /* TN_JOIN_FAILURE_COUNT where they lie so that they may join; then their distance, quantised. */
 tn_join_failure tn_branches_measure(const tn_growth *growth, tn_vector a_direction, tn_vector a_at,
                                     tn_vector b_direction, tn_vector b_at, double *distance);
+
+/* How far two branches of one label at different vertices come: TN_JOIN_FAILURE_COUNT where nothing but the topology
+ * could stand against it. */
+tn_join_failure tn_branches_compare(const tn_growth *growth, const tn_loop_branch *a, const tn_loop_branch *b,
+                                    double *distance);
+
+/* Nearest first, then by the branches' numbers. */
+static inline bool tn_candidate_before(const tn_loop *loop, const tn_candidate *a, const tn_candidate *b)
+{
+    if (a->distance != b->distance)
+        return a->distance < b->distance;
+    uint32_t x = loop->branches[a->low].id, y = loop->branches[b->low].id;
+    if (x != y)
+        return x < y;
+    return loop->branches[a->high].id < loop->branches[b->high].id;
+}
 
 void tn_loop_clear(tn_loop *loop);
 
 /* The loop of a face: what its darts become, and (where `branches`) the branches on its side. False: out of memory. */
 bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool branches);
 
-/* Joins its branches, nearest pairs first. `taken` NULL: give up where another face might matter. */
+/* Joins its branches, nearest pairs first. `taken` (vertices that joined although two faces share them) NULL: give up
+ * where another face might matter. */
 tn_join_outcome tn_loop_join_branches(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 
-/* Adds to failures why the branches that remain did not join. */
-void tn_loop_explain(const tn_loop *loop, const tn_pass *pass, uint64_t failures[TN_JOIN_FAILURE_COUNT]);
+/* The two ways to do that: looking at all pairs, which is quick where there are few branches, and asking each branch
+ * for its nearest (join_many.c). */
+tn_join_outcome tn_loop_join_few(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
+tn_join_outcome tn_loop_join_many(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
+
+/* May these two join, whose vertices no join of this face links yet? */
+tn_join_outcome tn_loop_may_join(const tn_loop *loop, const tn_pass *pass, uint32_t face, const tn_candidate *pair,
+                                 tn_pair_set *taken);
+
+/* Notes that two branches join; the regions are the caller's to cut. False: out of memory. */
+bool tn_loop_add_join(tn_loop *loop, uint32_t low, uint32_t high);
+
+/* Adds to failures why the branches that remain did not join. False: out of memory. */
+bool tn_loop_explain(const tn_loop *loop, const tn_pass *pass, uint64_t failures[TN_JOIN_FAILURE_COUNT]);
 
 #endif

@@ -27,7 +27,7 @@ static void add_dart(tn_loop *loop, uint32_t vertex, uint32_t side)
 
 /* A branch of a record; its direction is filled in by the caller. */
 static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32_t index, uint32_t vertex,
-                       uint32_t beyond)
+                       uint32_t beyond, uint32_t corner)
 {
     const tn_record *record = &pass->records[slot];
     const tn_template *template = pass->growth->shapes[record->template].template;
@@ -42,6 +42,7 @@ static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32
                                                           .record = slot,
                                                           .point = b->at,
                                                           .beyond = old ? TN_NONE : beyond,
+                                                          .corner = corner,
                                                           .reversed = b->reversed};
     loop->items[loop->item_count++] = (tn_loop_item){vertex, loop->branch_count++, 0, true, false};
 }
@@ -75,14 +76,16 @@ static void add_pending(tn_loop *loop, const tn_pass *pass, const tn_pending *pe
                                .partner = -1,
                                .record = TN_NONE,
                                .beyond = TN_NONE,
+                               .corner = pending->dart,
                                .reversed = pending->reversed};
     loop->items[loop->item_count++] = (tn_loop_item){vertex, loop->branch_count++, 0, true, false};
 }
 
-/* The pieces of a replaced edge along one side; `start` and `end` are the loop's vertices before and after them. */
-static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool against, uint32_t start, uint32_t end,
+/* The pieces of a replaced edge along one side, from the old dart `here` on; `next` is the one after them. */
+static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool against, uint32_t here, uint32_t next,
                        bool branches)
 {
+    uint32_t start = pass->old->origin[here], end = pass->old->origin[next];
     const tn_record *record = &pass->records[slot];
     const tn_shape *shape = &pass->growth->shapes[record->template];
     const tn_walk *walk = against ? shape->right : shape->left;
@@ -92,12 +95,13 @@ static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool a
         if (walk[i].branch && !branches)
             continue;
         uint32_t at = walk[i].at, vertex = record->vertex + at - 1;
-        if (at == 0)
-            vertex = against ? end : start;
-        else if (at == points)
-            vertex = against ? start : end;
+        bool leaves_end = at == (against ? 0 : points);
+        if (leaves_end)
+            vertex = end;
+        else if (at == 0 || at == points)
+            vertex = start;
         if (walk[i].branch)
-            add_branch(loop, pass, slot, walk[i].index, vertex, beyond);
+            add_branch(loop, pass, slot, walk[i].index, vertex, beyond, leaves_end ? next : here);
         else
             add_dart(loop, vertex, 2 * (record->child + walk[i].index) + (walk[i].reversed != against));
     }
@@ -133,7 +137,7 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
             add_pending(loop, pass, pending++, origins[i]);
         uint32_t before = loop->branch_count;
         if (shape)
-            add_pieces(loop, pass, slot, against, origins[i], origins[next % size], branches);
+            add_pieces(loop, pass, slot, against, first + i, first + next % size, branches);
         else
             add_dart(loop, origins[i], 2 * (slot & ~TN_KEPT) | against);
         turn_branches(loop, pass, slot, sides[i], before);
