@@ -245,15 +245,20 @@ tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_as
     return NULL;
 }
 
+/* Among the names of the kind that is wanted; where an expression may stand, also the words that are one. */
 static const char *nearest_name(tn_check *check, const char *word, tn_want want)
 {
+    static const char *const leaves[] = {"any", "beginning", "end"};
+    enum { LEAVES = sizeof leaves / sizeof *leaves };
     const tn_checked *result = check->result;
-    const char **names = TN_NEW_ARRAY(check->arena, const char *, result->library_count + result->rule_count);
+    const char **names = TN_NEW_ARRAY(check->arena, const char *, result->library_count + result->rule_count + LEAVES);
     size_t count = 0;
     for (size_t i = 0; names && want != TN_WANT_LIBRARY && i < result->rule_count; i++)
         names[count++] = result->rules[i]->name;
     for (size_t i = 0; names && want != TN_WANT_RULE && i < result->library_count; i++)
         names[count++] = result->libraries[i]->name;
+    for (size_t i = 0; names && want == TN_WANT_RULE && i < LEAVES; i++)
+        names[count++] = leaves[i];
     return names ? tn_nearest(word, names, count) : NULL;
 }
 

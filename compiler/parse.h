@@ -26,6 +26,7 @@ typedef struct tn_parse {
     uint32_t offset;      /* of the next byte */
     uint32_t token_start; /* of a token that is read in pieces */
     int last_token, token_before;
+    tn_span last_span, span_before; /* of those two */
     tn_lex_mode mode, outer_mode; /* outer_mode: what the tray specifier or plan stands in */
     uint32_t parens;              /* open inside the tray specifier */
     bool schema_head;             /* a `schema` was read, and its { not yet */

@@ -156,15 +156,22 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     return NULL;
 }
 
+/* The word among these that what stands at `span` is nearest to, or NULL. */
+static const char *nearest(const tn_parse *parse, tn_span span, const char *const *words, size_t count)
+{
+    char word[40];
+    if (span.end <= span.begin || span.end - span.begin >= sizeof word)
+        return NULL;
+    snprintf(word, sizeof word, "%.*s", (int)(span.end - span.begin), parse->text + span.begin);
+    return tn_nearest(word, words, count);
+}
+
 /* The word of the language that a misspelled one is nearest to, among those that could stand here. */
 static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected *e, char *meant, size_t size)
 {
-    char word[40], texts[96][24];
+    char texts[96][24];
     const char *words[96];
     size_t count = 0;
-    if (span.end - span.begin < 3 || span.end - span.begin >= sizeof word)
-        return false;
-    snprintf(word, sizeof word, "%.*s", (int)(span.end - span.begin), parse->text + span.begin);
     for (size_t i = 0; i < e->count; i++) {
         if (!is_word(e->tokens[i]))
             continue;
@@ -172,32 +179,65 @@ static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected 
         words[count] = texts[count];
         count++;
     }
-    const char *near = tn_nearest(word, words, count);
+    const char *near = nearest(parse, span, words, count);
     snprintf(meant, size, "%s", near ? near : "");
     return near != NULL;
 }
 
-void tn_syntax_error(tn_parse *parse, tn_span span, const char *found, const char *const *expected, size_t count)
+/* A misspelled word of the language is a name to the parser, which then stumbles over what follows: `trai(4')`. */
+static bool report_misspelled(tn_parse *parse, const tn_found *found, const tn_expected *e)
 {
+    static const char *const words[] = {"not",      "symmetric",   "tray",     "neighbour", "many", "optional",
+                                        "quantity", "occurrences", "distance", "sum",       "of"};
+    enum { WORDS = sizeof words / sizeof *words, PREFIXES = 2, CALLS = 10 };
+    bool expression = expects(e, "`and`"), call = expression && strcmp(found->name, "`(`") == 0;
+    const char *near = NULL;
+    if (found->after.end == found->after.begin || parse->mode != TN_LEX_TOP)
+        return false;
+    if (call)
+        near = nearest(parse, found->after, words, CALLS);
+    else if (expects(e, "`of`"))
+        near = nearest(parse, found->after, words + CALLS, WORDS - CALLS);
+    else if (expression || expects(e, "`in`"))
+        near = nearest(parse, found->after, words, PREFIXES);
+    if (!near && !call)
+        return false;
+    int size = (int)(found->after.end - found->after.begin);
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_UNEXPECTED, found->after,
+                  call ? "`%.*s` is no word of the language that `(` follows" : "`%.*s` is no word of the language",
+                  size, parse->text + found->after.begin);
+    if (near)
+        tn_suggest(parse->diagnostics, d, "%s", near);
+    else
+        tn_help(parse->diagnostics, d,
+                "a rule is named without parentheses; `(` follows `tray`, `neighbour`, `many`, `optional`, `quantity`, "
+                "`occurrences`, `sum` and `distance`");
+    return true;
+}
+
+void tn_syntax_error(tn_parse *parse, const tn_found *found, const char *const *expected, size_t count)
+{
+    tn_span span = found->span;
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
+    if (report_misspelled(parse, found, &e))
+        return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
     join(list, words, sizeof words);
     size_t size = span.end > span.begin ? span.end - span.begin : 0;
-    if (size == 0)
-        snprintf(here, sizeof here, "%s", found);
-    else if (strcmp(found, "a text in quotes") == 0 || size > 40)
-        snprintf(here, sizeof here, "%s", found);
+    if (size == 0 || size > 40 || strcmp(found->name, "a text in quotes") == 0)
+        snprintf(here, sizeof here, "%s", found->name);
     else
         snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
     tn_diagnostic *d = words[0]
                            ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
                            : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
     char meant[40];
-    const char *help = likely_fix(parse, found, &e);
-    bool misspelled = strcmp(found, "a name") == 0 || (is_word(found) && size > 3);
+    const char *help = likely_fix(parse, found->name, &e);
+    bool misspelled = strcmp(found->name, "a name") == 0 || (is_word(found->name) && size > 3);
     if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
         tn_suggest(parse->diagnostics, d, "%s", meant);
     else
