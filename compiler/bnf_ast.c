@@ -247,20 +247,28 @@ static void bad_value(tn_bnf_reader *reader, tn_span span, const char *directive
     tn_help(reader->diagnostics, diagnostic, "write %s %s", directive, expected);
 }
 
+enum { DIRECTIVES = 5 };
+static const char *const directives[DIRECTIVES] = {"%dialect", "%single-choice", "%repair", "%max-depth", "%wraps"};
+
+bool tn_bnf_names_directive(tn_bnf_text line)
+{
+    words said = split(line.text, line.length);
+    return said.count > 0 && choice(said.items[0], directives, DIRECTIVES) >= 0;
+}
+
 void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
 {
-    static const char *const names[] = {"%dialect", "%single-choice", "%repair", "%max-depth", "%wraps"};
     static const char *const dialects[] = {"ge", "genr8"}, *const singles[] = {"consume", "skip"},
                              *const repairs[] = {"genome", "identity", "off"};
     tn_bnf_file *ast = &reader->ast;
     words said = split(line.text, line.length);
     tn_bnf_text value = said.count == 2 ? said.items[1] : (tn_bnf_text){"", 0};
     int chosen;
-    switch (choice(said.items[0], names, 5)) {
+    switch (choice(said.items[0], directives, DIRECTIVES)) {
     case 0:
         chosen = choice(value, dialects, 2);
         if (chosen < 0)
-            bad_value(reader, span, names[0], "ge or genr8");
+            bad_value(reader, span, directives[0], "ge or genr8");
         else if (ast->says_dialect)
             tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "the dialect is said twice");
         else
@@ -270,7 +278,7 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
     case 1:
         chosen = choice(value, singles, 2);
         if (chosen < 0)
-            bad_value(reader, span, names[1], "consume or skip");
+            bad_value(reader, span, directives[1], "consume or skip");
         ast->skip_single = chosen == 1;
         if (ast->skip_single && reader->genr8)
             tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span,
@@ -279,7 +287,7 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
     case 2:
         chosen = choice(value, repairs, 3);
         if (chosen < 0)
-            bad_value(reader, span, names[2], "genome, identity or off");
+            bad_value(reader, span, directives[2], "genome, identity or off");
         else
             ast->repair = (tn_repair)chosen;
         ast->says_repair = true;
@@ -287,19 +295,19 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
         break;
     case 3:
         if (!number(value, &ast->max_depth))
-            bad_value(reader, span, names[3], "a whole number, 0 for no limit");
+            bad_value(reader, span, directives[3], "a whole number, 0 for no limit");
         ast->says_max_depth = true;
         break;
     case 4:
         if (!number(value, &ast->wraps))
-            bad_value(reader, span, names[4], "a whole number");
+            bad_value(reader, span, directives[4], "a whole number");
         ast->says_wraps = true;
         break;
     default: {
         tn_diagnostic *diagnostic =
             tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "there is no such directive");
         char *word = tn_arena_copy(reader->arena, said.items[0].text, said.count ? said.items[0].length : 0);
-        const char *near = word ? tn_nearest(word, names, 5) : NULL;
+        const char *near = word ? tn_nearest(word, directives, DIRECTIVES) : NULL;
         if (near)
             tn_help(reader->diagnostics, diagnostic, "did you mean %s?", near);
         else

@@ -94,6 +94,9 @@ typedef struct tn_bnf_reader {
  * were. What is wrong is in the diagnostics. */
 void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size);
 
+/* Does the text start with the name of a directive? */
+bool tn_bnf_names_directive(tn_bnf_text line);
+
 /* ---- for the grammar */
 
 bool tn_bnf_says_genr8(const char *line, size_t length);

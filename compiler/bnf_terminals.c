@@ -259,8 +259,27 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     return true;
 }
 
+/* Text that was surely meant as something else. Quoted, it is text without a doubt. */
+static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, bool begins_line)
+{
+    const char *looks = memmem(item->text.text, item->text.length, "::=", 3) ? "rule"
+                        : begins_line && tn_bnf_names_directive(item->text)  ? "directive"
+                                                                             : NULL;
+    if (!looks || item->kind != TN_BNF_PLAIN)
+        return;
+    tn_diagnostic *diagnostic = tn_report(reader->diagnostics, W_GRAMMAR_TEXT, item->span,
+                                          "this looks like a %s, but is text of the rule above", looks);
+    tn_help(reader->diagnostics, diagnostic,
+            *looks == 'r'
+                ? "a rule is written `<name> ::= one | other`, no blanks in its name; quote what is to be text"
+                : "directives stand above the first rule; quote what is to be text");
+}
+
 static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative, bool *reported)
 {
+    const tn_bnf_item *before = NULL;
+    for (tn_bnf_item *item = alternative->items.first; item; before = item, item = item->next)
+        warn_of_text(reader, item, before && before->kind == TN_BNF_NEWLINE);
     for (tn_bnf_item *item = alternative->items.first; item; item = item->next) {
         check_braces(reader, item, reported);
         if (is_piece(item))
@@ -303,6 +322,7 @@ static void make_genr8(tn_bnf_reader *reader, tn_bnf_items items)
     for (tn_bnf_item *item = items.first; item; item = item->next) {
         if (item->kind == TN_BNF_PLAIN)
             check_token(reader, item);
+        warn_of_text(reader, item, true);
         if (is_piece(item)) {
             check_edge(reader, item);
             item->kind = TN_BNF_TERMINAL;

@@ -13,14 +13,6 @@ typedef struct check {
     const tn_evolution_setting *seen[TN_SETTING_COUNT];
 } check;
 
-static tn_setting setting_named(const char *name)
-{
-    tn_setting setting = 0;
-    while (setting < TN_SETTING_COUNT && strcasecmp(tn_setting_rows[setting].name, name) != 0)
-        setting++;
-    return setting;
-}
-
 static const char *nearest_setting(const char *name)
 {
     const char *names[TN_SETTING_COUNT];
@@ -118,7 +110,8 @@ static void count_as_written(check *c, tn_setting setting, tn_span span)
 static void extra_value(check *c, tn_setting setting, const tn_evolution_value *extra)
 {
     tn_diagnostics *list = c->reader->diagnostics;
-    tn_setting meant = extra->kind == TN_EVOLUTION_WORD ? setting_named(extra->text) : TN_SETTING_COUNT;
+    tn_setting meant =
+        extra->kind == TN_EVOLUTION_WORD ? tn_setting_named(extra->text, strlen(extra->text)) : TN_SETTING_COUNT;
     bool another = meant < TN_SETTING_COUNT;
     tn_diagnostic *diagnostic =
         tn_report(list, E_EVOLUTION_VALUE, extra->span,
@@ -223,7 +216,7 @@ static void unknown(check *c, const tn_evolution_setting *item)
 
 static void check_setting(check *c, const tn_evolution_setting *item)
 {
-    tn_setting setting = setting_named(item->name);
+    tn_setting setting = tn_setting_named(item->name, strlen(item->name));
     if (setting == TN_SETTING_COUNT) {
         unknown(c, item);
         return;

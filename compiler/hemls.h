@@ -100,7 +100,8 @@ typedef struct tn_growth_parse {
     uint32_t stray_end;   /* where the last stray character ended: a run of them is reported once */
     int last_token, token_before;
     const char *meant; /* what an unknown word was probably meant to be, or NULL */
-    bool reported;     /* the token at hand was complained of already */
+    bool evolves;      /* the last unknown word is a setting of an evolution */
+    bool reported;     /* the line at hand was complained of already */
     void *result;      /* tn_hemls_file or tn_study_file */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
 } tn_growth_parse;
@@ -137,7 +138,7 @@ void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size);
 tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span);
 
 /* Reports a character that no token starts with. */
-void tn_growth_stray(tn_growth_parse *parse, tn_span span);
+void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);
 
 /* Reports E0001: what was found, what could have stood there. */
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,

@@ -88,7 +88,7 @@ tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span)
     return (tn_decimal){value, span};
 }
 
-void tn_growth_stray(tn_growth_parse *parse, tn_span span)
+void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help)
 {
     bool again = parse->stray_end > 0 && span.begin == parse->stray_end;
     parse->stray_end = span.end;
@@ -102,7 +102,7 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span)
         visible ? tn_report(parse->diagnostics, E_STRAY_CHARACTER, span, "`%.*s` means nothing here", (int)size, text)
                 : tn_report(parse->diagnostics, E_STRAY_CHARACTER, span,
                             "the control character 0x%02x means nothing here", (unsigned char)text[0]);
-    tn_help(parse->diagnostics, d, "leave it out");
+    tn_help(parse->diagnostics, d, "%s", help);
 }
 
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,

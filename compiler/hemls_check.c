@@ -203,10 +203,17 @@ static void read_seed(check *c)
     }
 }
 
+/* A word that is no edge, alone on its line: that was reported, and what it is meant to be is no seed. */
+static bool is_unknown_word(const tn_hemls_line *line)
+{
+    const tn_hemls_symbol *only = line->symbols.first;
+    return only && !only->next && only->broken;
+}
+
 static void find_seed(check *c)
 {
     for (const tn_hemls_line *line = c->file->first; line; line = line->next) {
-        if (line->kind != TN_HEMLS_AXIOM)
+        if (line->kind != TN_HEMLS_AXIOM || is_unknown_word(line))
             continue;
         if (c->seed || line != c->file->first) {
             tn_diagnostic *d = tn_report(c->diagnostics, c->seed ? E_TWO_SEEDS : E_BAD_SEED, line->span,

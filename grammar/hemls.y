@@ -156,6 +156,8 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
         return "a weight is a number: `-> A A Weight 3`";
     if (before == YYSYMBOL_IF || before == YYSYMBOL_AGE)
         return "a condition compares the age: `If i < 3`";
+    if (found == YYSYMBOL_EQUAL && before == YYSYMBOL_EDGE)
+        return "what replaces an edge stands after `->`: `A -> A A`";
     if (found == YYSYMBOL_EQUAL)
         return "a condition compares the age with `<`, `>` or `=`: `If i < 3`";
     if (before == YYSYMBOL_ANGLE || before == YYSYMBOL_BRANCH_ANGLE)

@@ -254,7 +254,8 @@ static tn_study_vector same(tn_decimal n)
     return (tn_study_vector){n.value, n.value, n.value, n.span};
 }
 
-static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, yysymbol_kind_t first_expected)
+static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t found, yysymbol_kind_t before,
+                              yysymbol_kind_t first_expected)
 {
     switch (before) {
     case YYSYMBOL_USE:
@@ -278,6 +279,8 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, yys
         return "three numbers stand here: x, y and z";
     if (first_expected == YYSYMBOL_NUMBER)
         return "a number stands here, or three for a place";
+    if (found == YYSYMBOL_NAME && parse->evolves)
+        return "this is a setting of an evolution: it goes between the braces of `evolution { ... }`, in a study of its own";
     if (found == YYSYMBOL_NAME)
         return "this is no word of studies; see the list in docs/growth.md";
     if (found == YYSYMBOL_NUMBER)
@@ -297,7 +300,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before), count == 1 || count == 2 ? kinds[0] : YYSYMBOL_YYEMPTY));
+                           (size_t)count, likely_fix(parse, found, YYTRANSLATE(parse->token_before), count == 1 || count == 2 ? kinds[0] : YYSYMBOL_YYEMPTY));
     return 0;
 }
 

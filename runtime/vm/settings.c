@@ -14,6 +14,15 @@ const tn_setting_row tn_setting_rows[TN_SETTING_COUNT] = {
 #undef SETTING
 };
 
+tn_setting tn_setting_named(const char *text, size_t size)
+{
+    tn_setting setting = 0;
+    while (setting < TN_SETTING_COUNT && (strlen(tn_setting_rows[setting].name) != size ||
+                                          strncasecmp(tn_setting_rows[setting].name, text, size) != 0))
+        setting++;
+    return setting;
+}
+
 void tn_evolution_study_default(tn_evolution_study *study)
 {
     *study = (tn_evolution_study){0};

@@ -49,6 +49,9 @@ typedef struct tn_evolution_study {
 
 void tn_evolution_study_default(tn_evolution_study *study);
 
+/* The setting that a text of `size` bytes names, case aside; TN_SETTING_COUNT where it is none. */
+tn_setting tn_setting_named(const char *text, size_t size);
+
 /* Is this value one that the setting's row allows? */
 bool tn_setting_fits(tn_setting setting, const tn_setting_value *value);
 
