@@ -225,8 +225,12 @@ static void draw_file(tn_job *job, const char *path)
         sheet s = {.job = job, .schema = schema};
         if (library != UINT32_MAX)
             s.library = &job->opened.module->LIBRARY_records[library];
-        if (read_plans(&s, path))
+        if (read_plans(&s, path)) {
+            if (s.count == 0 && job->exit_code == TN_EXIT_DONE)
+                tn_job_note(job, "no plans came from %.200s: the sheet is empty",
+                            strcmp(path, "-") == 0 ? "standard input" : path);
             draw_sheet(&s);
+        }
         sheet_clear(&s);
     } else {
         tn_job_fail(job, &error);

@@ -247,6 +247,12 @@ static bool check_options(tn_job *job)
     }
     tn_error error;
     tn_canvas_format format;
+    const char *dot = s->output ? strrchr(s->output, '.') : NULL;
+    if (dot && tn_canvas_format_of(s->output, &format, &error) == TN_OK) {
+        tn_diagnostic *d = tn_job_usage(job, "-o is where the text goes, and %.200s is a picture's name", s->output);
+        tn_help(tn_job_diagnostics(job), d, "--tree %.200s draws the derivation there", s->output);
+        return false;
+    }
     bool picture = s->tree && strcmp(s->tree, "text") != 0 && strcmp(s->tree, "json") != 0;
     if (picture && tn_canvas_format_of(s->tree, &format, &error) != TN_OK) {
         tn_job_fail(job, &error);

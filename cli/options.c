@@ -273,6 +273,24 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
     return tn_fail(p->error, TN_INTERNAL, 0, "option --%s has a kind that is not known", option->name);
 }
 
+/* Is this word one of the command's options: "-o", "--output" or "--output=FILE"? */
+static bool is_option(const tn_command *command, const char *word)
+{
+    if (word[0] != '-' || !word[1])
+        return false;
+    return word[1] == '-' ? find_long(command, word + 2, strcspn(word + 2, "=")) != NULL
+                          : !word[2] && find_letter(command, word[1]);
+}
+
+static tn_status lacks_argument(parse *p, const tn_option *option, const char *next)
+{
+    tn_status status =
+        tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s%s%.60s%s", option->name, option->argument,
+                next ? ", but the option " : "", next ? next : "", next ? " follows" : "");
+    tn_error_help(p->error, "--%s %s: %s", option->name, option->argument, option->help);
+    return status;
+}
+
 /* The option's argument: `inline_text` if there was one, otherwise the next word. */
 static tn_status set_from_words(parse *p, const tn_option *option, const char *inline_text)
 {
@@ -283,8 +301,9 @@ static tn_status set_from_words(parse *p, const tn_option *option, const char *i
         if (p->next < p->count && choice_index(option->choices, p->words[p->next]) >= 0)
             inline_text = p->words[p->next++];
     } else if (option->argument && !inline_text) {
-        if (p->next >= p->count)
-            return tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s", option->name, option->argument);
+        const char *next = p->next < p->count ? p->words[p->next] : NULL;
+        if (!next || is_option(p->command, next))
+            return lacks_argument(p, option, next);
         inline_text = p->words[p->next++];
     }
     return set_option(p, option, inline_text);

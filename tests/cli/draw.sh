@@ -46,6 +46,7 @@ golden does_not_fit "tartan draw rows.plan --sample 6 --paper a4 --scale 2 -o $s
 golden no_scale_for_tables "tartan draw sheds.plan --library sheds --sample 5 --scale 100 -o $scratch/x.svg"
 golden bad_plan "printf '9m -\n' | tartan draw sheds.plan - -o $scratch/x.svg"
 golden bad_plan_skipped "printf '9m -\n3m -\n' | tartan draw sheds.plan - --on-error skip -o $scratch/x.svg"
+golden no_plans "tartan draw sheds.plan -o $scratch/x.svg"
 # Rules as pictures: of every rule of the stdlib, of every kind of part, in each format, the same each time.
 for file in stdlib/lahave.plan stdlib/lahave-houses.plan stdlib/terrace.plan "$files/parts.plan"; do
     rules=$(sed -n 's/^rule \([^ ]*\).*/--rule \1/p' "$file")
