@@ -54,13 +54,25 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+static bool is_empty(const tn_module *module)
+{
+    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count + module->GROWTH_count +
+               module->GRAMMAR_count ==
+           0;
+}
+
 static void check(tn_job *job, const char *path)
 {
     const tn_settings *settings = job->settings;
-    if (job->opened.module->GRAMMAR_count)
-        report_grammar(job);
-    else if (settings->figures)
+    const tn_module *module = job->opened.module;
+    if (settings->figures && module->GRAMMAR_count == 0)
         tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
+    else if (settings->relations && module->RULE_count == 0)
+        tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
+    else if (module->GRAMMAR_count)
+        report_grammar(job);
+    else if (is_empty(module))
+        tn_job_note(job, "there is nothing in %.200s", path);
     else if (!settings->no_analysis)
         analyse(job);
 }

@@ -66,8 +66,8 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
     if (e->run.generations == 0)
         return;
-    fprintf(out, "%u generations, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation, s.evaluations,
-            s.births);
+    fprintf(out, "%u generation%s, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation,
+            s.generation == 1 ? "" : "s", s.evaluations, s.births);
     if (s.scored)
         fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct", s.best[0], s.mean, s.distinct);
     else

@@ -181,11 +181,8 @@ static void explain_rank(explaining *e, const char *digits)
         fail_memory(e->job);
     else if (tn_library_unrank(e->library, rank, trays, &length))
         explain_plan(e, trays, length);
-    else {
-        tn_report_bare(tn_job_diagnostics(e->job), TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
-                       tn_text(e->job->opened.module, e->record->name), digits);
-        tn_job_status(e->job, TN_INVALID);
-    }
+    else
+        tn_job_no_rank(e->job, e->library, e->record, digits);
     mpz_clear(rank);
     free(trays);
 }

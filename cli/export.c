@@ -92,7 +92,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job job;
     tn_job_begin(&job, settings);
     if (settings->prolog == settings->regex)
-        tn_job_usage(&job, "say what to write: --prolog or --regex");
+        tn_job_usage(&job, settings->prolog ? "--prolog and --regex are one or the other: leave one out"
+                                            : "say what to write: --prolog or --regex");
     else if (settings->regex && settings->rules.count != 1)
         tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
     else if (settings->prolog && settings->rules.count)

@@ -268,9 +268,17 @@ static uint64_t memory_limit(const tn_settings *settings)
 
 static tn_status prepare(run_state *run, tn_error *error)
 {
-    tn_status status = tn_growth_system_read(run->job->opened.module, &run->system, error);
+    const tn_opened *opened = &run->job->opened;
+    if (opened->module->GROWTH_count == 0) {
+        tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rewrite system", opened->path);
+        tn_error_help(
+            error, "%s",
+            tn_opened_help(opened, "a surface grows from a .hemls file, or from a .study file that names one"));
+        return TN_INVALID;
+    }
+    tn_status status = tn_growth_system_read(opened->module, &run->system, error);
     if (status == TN_OK)
-        status = tn_study_read(run->job->opened.module, run->job->opened.path, &run->study, error);
+        status = tn_study_read(opened->module, opened->path, &run->study, error);
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;

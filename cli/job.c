@@ -5,6 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "runtime/draw/canvas.h"
+
 int tn_exit_code(tn_status status)
 {
     switch (status) {
@@ -133,8 +135,21 @@ int tn_job_end(tn_job *job)
     return job->exit_code;
 }
 
+bool tn_job_takes_text(tn_job *job, const char *path)
+{
+    tn_canvas_format format;
+    tn_error error;
+    if (!path || !strrchr(path, '.') || tn_canvas_format_of(path, &format, &error) != TN_OK)
+        return true;
+    tn_diagnostic *d = tn_job_usage(job, "%.200s is a picture's name, and what goes there is text", path);
+    tn_help(tn_job_diagnostics(job), d, "end its name otherwise; plans and rules are drawn by `tartan draw`");
+    return false;
+}
+
 bool tn_job_output(tn_job *job, const char *path, tn_output *output)
 {
+    if (!tn_job_takes_text(job, path))
+        return false;
     tn_error error;
     if (tn_output_open(path ? path : "-", output, &error) == TN_OK)
         return true;

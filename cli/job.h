@@ -65,7 +65,10 @@ int tn_job_end(tn_job *job);
 /* The exit code for a status. */
 int tn_exit_code(tn_status status);
 
-/* An output by option: NULL is standard output. */
+/* Is the path of a text output (NULL: standard output) not the name of a picture? Otherwise wrong usage is recorded. */
+bool tn_job_takes_text(tn_job *job, const char *path);
+
+/* An output by option: NULL is standard output. False where it cannot be opened, or has the name of a picture. */
 bool tn_job_output(tn_job *job, const char *path, tn_output *output);
 
 /* Puts the output in place. A failure is recorded. */

@@ -20,4 +20,7 @@ size_t tn_job_max_length(const tn_settings *settings);
 /* A rank of the options ("" or NULL: `otherwise`). `number` is initialised. */
 void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number);
 
+/* Records that the library has no plan of that rank, and how many it has. */
+void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank);
+
 #endif

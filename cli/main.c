@@ -1,7 +1,9 @@
 /* tartan: picks the command, reads its options, runs it. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/completion.h"
 #include "cli/help.h"
@@ -38,9 +40,15 @@ static int unknown_command(const char *name, int count, char **words)
     tn_error error;
     tn_fail(&error, TN_INVALID, E_USAGE,
             name[0] == '-' ? "`tartan` has no option %.60s" : "there is no command `%.60s`", name);
-    const char *near = tn_nearest(name, names, tn_commands_count);
+    const char *near = tn_nearest(name, names, tn_commands_count), *later = NULL;
+    for (int i = 0; i < count && !later; i++)
+        later = tn_command_find(words[i]) ? words[i] : NULL;
     if (near)
         tn_error_help(&error, "did you mean `tartan %s`?", near);
+    else if (later)
+        tn_error_help(&error, "the command comes first: tartan %s %.60s", later, name);
+    else if (access(name, F_OK) == 0)
+        tn_error_help(&error, "the command comes before the file: tartan check %.200s", name);
     else
         tn_error_help(&error, "`tartan help` lists the commands");
     return refuse(&settings, &error);
@@ -96,8 +104,18 @@ static int run(const tn_command *command, int count, char **words)
     return exit_code;
 }
 
+/* Standard input, output and error, where they are closed, are not to be the next files that are opened: they become
+ * ones that reading and writing fails on. */
+static void keep_standard_descriptors(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            return;
+}
+
 int main(int argc, char **argv)
 {
+    keep_standard_descriptors();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as EPIPE, which commands end on quietly */
     if (argc < 2) {
         tn_help_overview(stderr);

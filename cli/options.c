@@ -90,6 +90,8 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
     char word[81];
     snprintf(word, sizeof word, "%.*s", (int)(length < 80 ? length : 80), name);
     const char *near = tn_nearest(word, names, count);
+    for (size_t i = 0; i < count && !near && length > 0; i++) /* shortened: --lib */
+        near = strncmp(names[i], word, length) == 0 ? names[i] : NULL;
     if (near)
         tn_error_help(p->error, "did you mean --%s?", near);
     return see_help(p, status);
@@ -227,7 +229,7 @@ static tn_status set_real(parse *p, const tn_option *option, const char *text)
 /* A file's name, and any other text but that: empty ones are what a variable of a script without a value gives. */
 static tn_status set_text(parse *p, const tn_option *option, const char *text)
 {
-    static const char *const names[] = {"FILE", "FOLDER", "DIR", "NAME"};
+    static const char *const names[] = {"FILE", "FOLDER", "DIR", "NAME", "HOW"};
     for (size_t i = 0; i < OPTION_COUNT(names) && !*text; i++)
         if (strcmp(option->argument, names[i]) == 0)
             return tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s, which is empty here", option->name,

@@ -6,6 +6,8 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *
 {
     const tn_settings *settings = job->settings;
     const tn_module *module = job->opened.module;
+    if (!tn_job_takes_text(job, settings->output))
+        return false;
     char library_hash[33], rules_hash[20] = "";
     tn_library_hash(ready->library, library_hash);
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;

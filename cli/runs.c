@@ -137,9 +137,16 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&job, settings);
     bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0,
          replays = strcmp(what, "replay") == 0;
-    if (!shows && !compares && !replays)
-        tn_job_usage(&job, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
-    else if (replays && words->count != 3)
+    if (!shows && !compares && !replays) {
+        static const char *const known[] = {"show", "compare", "replay"};
+        const char *near = tn_nearest(what, known, sizeof known / sizeof *known);
+        tn_diagnostic *d =
+            tn_job_usage(&job, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
+        if (near)
+            tn_help(tn_job_diagnostics(&job), d, "did you mean `tartan runs %s`?", near);
+        else
+            tn_help(tn_job_diagnostics(&job), d, "write `tartan runs show %.60s` if that is the run's folder", what);
+    } else if (replays && words->count != 3)
         tn_job_usage(&job, "`tartan runs replay` takes a run's folder and the number of an individual");
     else if (shows && words->count != 2)
         tn_job_usage(&job, "`tartan runs show` takes one run's folder");

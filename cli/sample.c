@@ -65,8 +65,9 @@ static bool read_wanted(tn_job *job, size_t *wanted)
     }
     if (settings->operands.count > 1 &&
         (!tn_number_read(settings->operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
-        tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
-                     settings->operands.items[1]);
+        tn_diagnostic *d = tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
+                                        settings->operands.items[1]);
+        tn_help(tn_job_diagnostics(job), d, "the file comes first: tartan sample FILE N");
         return false;
     }
     *wanted = (size_t)number;

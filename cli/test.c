@@ -80,7 +80,7 @@ static int run(const tn_command *command, const tn_settings *settings)
         if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
             continue;
         tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->max_states.value, &report.counts));
-        if (settings->coverage && job.opened.compiled)
+        if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }
     tn_job_show(&job);

@@ -23,24 +23,6 @@ static void write_plan(tn_job *job, const tn_ready_library *ready, const tn_tray
     free(line.data);
 }
 
-static void refuse_rank(tn_job *job, const tn_ready_library *ready, const char *text)
-{
-    mpz_t kept;
-    mpz_init(kept);
-    tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
-    char *digits = mpz_get_str(NULL, 10, kept);
-    tn_diagnostics *list = tn_job_diagnostics(job);
-    tn_diagnostic *past = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
-                                         tn_text(job->opened.module, ready->record->name), text);
-    if (mpz_sgn(kept) == 0)
-        tn_help(list, past, "it holds no plans");
-    else
-        tn_help(list, past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
-    tn_job_status(job, TN_INVALID);
-    free(digits);
-    mpz_clear(kept);
-}
-
 static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
@@ -56,7 +38,7 @@ static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
     if (tn_library_unrank(ready->library, rank, trays, &length))
         write_plan(job, ready, trays, length);
     else
-        refuse_rank(job, ready, text);
+        tn_job_no_rank(job, ready->library, ready->record, text);
     mpz_clear(rank);
     free(trays);
 }
@@ -68,9 +50,10 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_ready_library ready = {0};
     const char *text = settings->operands.items[1];
     tn_job_begin(&job, settings);
-    if (!*text || strspn(text, "0123456789") != strlen(text))
-        tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
-    else if (tn_job_library(&job, settings->operands.items[0], &ready))
+    if (!*text || strspn(text, "0123456789") != strlen(text)) {
+        tn_diagnostic *d = tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
+        tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan unrank FILE RANK");
+    } else if (tn_job_library(&job, settings->operands.items[0], &ready))
         unrank(&job, &ready, text);
     tn_library_close(&ready);
     return tn_job_end(&job);

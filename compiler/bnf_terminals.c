@@ -262,10 +262,12 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
 /* Text that was surely meant as something else. Quoted, it is text without a doubt. */
 static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, bool begins_line)
 {
+    if (item->kind != TN_BNF_PLAIN)
+        return;
     const char *looks = memmem(item->text.text, item->text.length, "::=", 3) ? "rule"
                         : begins_line && tn_bnf_names_directive(item->text)  ? "directive"
                                                                              : NULL;
-    if (!looks || item->kind != TN_BNF_PLAIN)
+    if (!looks)
         return;
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, W_GRAMMAR_TEXT, item->span,
                                           "this looks like a %s, but is text of the rule above", looks);

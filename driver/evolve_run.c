@@ -414,7 +414,9 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
     for (size_t i = 0; i < born; i++)
         if (newest[i]->id == id)
             *individual = newest[i];
-    if (status == TN_OK && !*individual)
+    if (status == TN_OK && !*individual) {
         status = tn_fail(error, TN_INVALID, 1241, "the run has no individual %" PRIu64, id);
+        tn_error_help(error, "its folder has the best (best/scores.csv), its run.sqlite all");
+    }
     return status;
 }

@@ -99,6 +99,18 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
     return status;
 }
 
+const char *tn_opened_help(const tn_opened *opened, const char *otherwise)
+{
+    const tn_module *module = opened->module;
+    if (module->SETTING_count)
+        return "it is a study to be evolved: `tartan evolve` and `tartan breed` take it";
+    if (module->GRAMMAR_count)
+        return "it is a grammar that genomes are mapped through: `tartan map` takes it";
+    if (module->GROWTH_count)
+        return "it says how a surface grows: `tartan grow` takes it";
+    return otherwise;
+}
+
 const char *tn_first_error(const tn_opened *opened)
 {
     const tn_diagnostics *list = &opened->compilation.diagnostics;

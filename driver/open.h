@@ -26,6 +26,10 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
+/* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
+ * holds nothing of another kind than plan rules. */
+const char *tn_opened_help(const tn_opened *opened, const char *otherwise);
+
 /* What is wrong in a file that could not be opened, the first of it, in a sentence. */
 const char *tn_first_error(const tn_opened *opened);
 

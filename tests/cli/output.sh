@@ -23,6 +23,19 @@ for command in "${commands[@]}"; do
     rm -f "$scratch/code"
     [ ! -s "$scratch/err" ] || fail "closed pipe, $command: $(head -n 1 "$scratch/err")"
 done
+# Closed descriptors are not those of the next file that is opened.
+for command in "${commands[@]}"; do
+    # shellcheck disable=SC2086
+    code=0 && "$TARTAN" $command >&- 2>"$scratch/err" || code=$?
+    is "closed output, $command" "$code" 3
+    grep -q 'it is closed' "$scratch/err" || fail "closed output, $command: $(head -n 1 "$scratch/err")"
+done
+"$TARTAN" enumerate "$sheds" -l sheds -o "$scratch/open.plans"
+"$TARTAN" enumerate "$sheds" -l sheds -o "$scratch/closed.plans" <&- >&- 2>&-
+cmp "$scratch/open.plans" "$scratch/closed.plans" || fail 'with all descriptors closed, a file is written otherwise'
+code=0 && timeout 60 "$TARTAN" lsp <&- 2>"$scratch/err" || code=$?
+is 'a language server without input' "$code" 1
+
 # A reader that goes away in the middle of much output.
 "$TARTAN" enumerate "$sheds" -l any-sheds --trays 0..9 2>"$scratch/err" | head -n 3 >/dev/null
 is 'closed pipe in the middle' "${PIPESTATUS[0]}" 0
