@@ -136,6 +136,16 @@ static const char *other_field(const tn_checked_schema *schema, uint32_t field, 
     return NULL;
 }
 
+static const char *nearest_value(tn_check *check, const tn_checked_field *field, const char *word)
+{
+    const char **names = TN_NEW_ARRAY(check->arena, const char *, field->value_count + 1);
+    if (!names)
+        return NULL;
+    for (uint32_t v = 0; v < field->value_count; v++)
+        names[v] = field->values[v].name;
+    return tn_nearest(word, names, field->value_count);
+}
+
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word)
 {
     if (schema->broken || word->broken)
@@ -147,8 +157,13 @@ void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t 
         tn_report(check->diagnostics, E_ILLEGAL_VALUE, word->node.span, "`%s` cannot be %s", f->name, word->text);
     tn_note(check->diagnostics, d, &f->ast->name->node.span, "`%s` is declared here", f->name);
     const char *other = word->kind == TN_WORD_LENGTH ? other_field(schema, field, word->value) : NULL;
-    if (other)
+    const char *near = word->kind == TN_WORD_LENGTH ? NULL : nearest_value(check, f, word->text);
+    if (other) {
         tn_help(check->diagnostics, d, "it can be %s; did you mean `%s %s`?", legal, other, word->text);
-    else
+    } else if (near) {
+        tn_help(check->diagnostics, d, "it can be %s; did you mean `%s`?", legal, near);
+        tn_replace_with(check->diagnostics, d, "%s", near);
+    } else {
         tn_help(check->diagnostics, d, "it can be %s", legal);
+    }
 }

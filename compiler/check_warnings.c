@@ -1,4 +1,6 @@
 /* Rules that are legal, but hardly say what was meant. */
+#include <string.h>
+
 #include "compiler/check.h"
 
 /* Could one tray meet both? And does each leave trays out that the other lets in? (If not, one of them says nothing
@@ -22,6 +24,57 @@ static bool both_and_neither(const tn_checked_spec *a, const tn_checked_spec *b)
     return narrows_a && narrows_b;
 }
 
+/* ---- the author's own words, for fixes */
+
+typedef struct words {
+    const char *text;
+    size_t size;
+} words;
+
+/* The source from one place to another, without the blanks at its ends. */
+static words words_between(const tn_check *check, uint32_t file, uint32_t begin, uint32_t end)
+{
+    const char *text = check->diagnostics->sources->files[file].text;
+    while (begin < end && strchr(" \t\r\n", text[begin]))
+        begin++;
+    while (end > begin && strchr(" \t\r\n", text[end - 1]))
+        end--;
+    return (words){text + begin, end - begin};
+}
+
+/* What stands inside `tray(...)`; nothing where it does not fit into a line. */
+static words inside_tray(const tn_check *check, const tn_ast_expr *tray)
+{
+    tn_span span = tray->node.span;
+    words all = words_between(check, span.file, span.begin, span.end);
+    const char *open = memchr(all.text, '(', all.size);
+    if (!open || all.text[all.size - 1] != ')' || memchr(all.text, '\n', all.size))
+        return (words){0};
+    uint32_t begin = span.begin + (uint32_t)(open + 1 - all.text);
+    return words_between(check, span.file, begin, span.begin + (uint32_t)all.size - 1);
+}
+
+static bool is_word(words w, const char *word)
+{
+    return w.size == strlen(word) && strncmp(w.text, word, w.size) == 0;
+}
+
+/* ---- warnings */
+
+/* `tray(a) and tray(b)`: one specifier for both, where the two stand side by side. */
+static void help_two_trays(tn_check *check, tn_diagnostic *d, const tn_ast_expr *first, const tn_ast_expr *second)
+{
+    words between = words_between(check, first->node.span.file, first->node.span.end, second->node.span.begin);
+    words a = inside_tray(check, first), b = inside_tray(check, second);
+    if (!is_word(between, "and") || !a.size || !b.size) {
+        tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(..., ...)`");
+        return;
+    }
+    tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(%.*s, %.*s)`", (int)a.size,
+            a.text, (int)b.size, b.text);
+    tn_replace_with(check->diagnostics, d, "tray(%.*s, %.*s)", (int)a.size, a.text, (int)b.size, b.text);
+}
+
 static void warn_two_trays(tn_check *check, const tn_ast_expr *conjunction)
 {
     const tn_ast_expr *first = NULL;
@@ -36,7 +89,7 @@ static void warn_two_trays(tn_check *check, const tn_ast_expr *conjunction)
             return;
         tn_diagnostic *d = tn_report(check->diagnostics, W_TWO_TRAYS, tn_span_join(first->node.span, part->node.span),
                                      "these two may be met by two different trays of the plan");
-        tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(..., ...)`");
+        help_two_trays(check, d, first, part);
         return;
     }
 }
@@ -47,7 +100,17 @@ static void warn_not_tray(tn_check *check, const tn_ast_expr *part)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span,
                                  "this part fits any number of trays, of which none is so");
-    tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not 8')`");
+    const tn_ast_expr *tray = (const tn_ast_expr *)part->parts.first;
+    words inside = inside_tray(check, tray);
+    words before = words_between(check, part->node.span.file, part->node.span.begin, tray->node.span.begin);
+    bool one = inside.size && !memchr(inside.text, ' ', inside.size) && !memchr(inside.text, ',', inside.size);
+    if (!one || !is_word(before, "not") || part->node.span.end != tray->node.span.end) {
+        tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not 8')`");
+        return;
+    }
+    tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not %.*s)`",
+            (int)inside.size, inside.text);
+    tn_replace_with(check->diagnostics, d, "tray(not %.*s)", (int)inside.size, inside.text);
 }
 
 static void warn_neighbour(tn_check *check, const tn_ast_expr *neighbour)
@@ -67,12 +130,16 @@ static void warn_counted(tn_check *check, const tn_ast_expr *expr)
     if (trays < 2 || !tn_check_wanted(check, W_NEVER_ONE_TRAY))
         return;
     const char *what = expr->kind == TN_EXPR_QUANTITY ? "quantity" : expr->kind == TN_EXPR_SUM ? "sum" : "many";
-    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, part->node.span,
-                                 "`%s` looks at single trays, and this takes %u or more", what, (unsigned)trays);
-    if (expr->kind == TN_EXPR_QUANTITY)
+    tn_span keyword = expr->node.span;
+    keyword.end = keyword.begin + (uint32_t)strlen(what);
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, keyword,
+                                 "`%s` looks at single trays, and its part takes %u or more", what, (unsigned)trays);
+    if (expr->kind == TN_EXPR_QUANTITY) {
         tn_help(check->diagnostics, d, "did you mean `occurrences`, which counts the places where it starts?");
-    else
+        tn_replace_with(check->diagnostics, d, "occurrences");
+    } else {
         tn_help(check->diagnostics, d, "name what a single tray has to be");
+    }
 }
 
 /* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one

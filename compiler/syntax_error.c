@@ -104,6 +104,17 @@ static bool is_word(const char *token)
     return token[0] == '`' && token[1] >= 'a' && token[1] <= 'z';
 }
 
+static bool starts_expression(const char *found)
+{
+    static const char *const words[] = {"`tray`",        "`neighbour`", "`any`",     "`not`",
+                                        "`symmetric`",   "`quantity`",  "`sum`",     "`many`",
+                                        "`occurrences`", "`optional`",  "`distance`"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(found, words[i]) == 0)
+            return true;
+    return false;
+}
+
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
 static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -121,6 +132,10 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a "
                "forbidden tray "
                "`forbid tray(...)`";
+    if (expects(e, "`)`") && expects(e, "`,`") && starts_expression(found))
+        return "a `,` is missing before this, or `and` or `or`";
+    if (strcmp(found, "`)`") == 0 && expects(e, "`and`") && !expects(e, "`)`") && !expects(e, "`,`"))
+        return "no `(` is open that this could close: leave it out";
     if (expects(e, "`)`") && (strcmp(found, "the end of the file") == 0 || (is_word(found) && !expects(e, "a name"))))
         return "close the `(` before this";
     if (expects(e, "`[`"))
