@@ -1,4 +1,5 @@
 /* The compiling half of the C interface (include/tartan/tartan.h). */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,8 +47,10 @@ static tartan_status failed(const tn_diagnostics *diagnostics, tn_status status,
         if (item->severity != TN_ERROR || !item->message)
             continue;
         tn_api_refuse(error, (tartan_status)status, "%s", item->message);
-        if (error)
+        if (error) {
             error->code = item->code;
+            snprintf(error->help, sizeof error->help, "%s", item->help ? item->help : "");
+        }
         return (tartan_status)status;
     }
     return tn_api_refuse(error, (tartan_status)status, "the rules could not be compiled");

@@ -22,8 +22,12 @@ tartan_status tn_api_fail(const tn_error *found, tartan_error *error);
 tartan_status tn_api_refuse(tartan_error *error, tartan_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Are these tray numbers of the schema? Fails with TARTAN_INVALID where not. */
-tartan_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tartan_error *error);
+/* TARTAN_INVALID for a name that none of the `count` names is: "the module has no rule `x`", and the nearest as help.
+ * Takes over `names` (malloc; NULL where out of memory). */
+tartan_status tn_api_unknown(tartan_error *error, const char *what, const char *name, const char **names, size_t count);
+
+/* Are these tray numbers of the schema? TN_INVALID where not. */
+tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tn_error *error);
 
 /* tartan_schema is tn_schema under its public name. */
 static inline const tn_schema *tn_api_schema(const tartan_schema *schema)

@@ -28,6 +28,14 @@ static tartan_status out_of_memory(tartan_error *error)
     return tn_api_fail(&found, error);
 }
 
+static tartan_status unknown(const tn_module *module, const char *name, tartan_error *error)
+{
+    const char **names = malloc((module->LIBRARY_count + 1) * sizeof *names);
+    for (size_t i = 0; names && i < module->LIBRARY_count; i++)
+        names[i] = tn_text(module, module->LIBRARY_records[i].name);
+    return tn_api_unknown(error, "library", name, names, module->LIBRARY_count);
+}
+
 static tartan_status find(const tn_module *module, const char *name, uint32_t *index, tartan_error *error)
 {
     size_t found = 0;
@@ -39,8 +47,10 @@ static tartan_status find(const tn_module *module, const char *name, uint32_t *i
         }
     }
     if (found == 0 && name)
-        return tn_api_refuse(error, TARTAN_INVALID, "the module has no library `%s`", name);
-    if (found != 1)
+        return unknown(module, name, error);
+    if (found == 0)
+        return tn_api_refuse(error, TARTAN_INVALID, "the module has no library of its own");
+    if (found > 1)
         return tn_api_refuse(error, TARTAN_INVALID, "the module has %zu libraries: say which by its name", found);
     return TARTAN_OK;
 }
@@ -137,11 +147,12 @@ tartan_status tartan_library_count(const tartan_library *library, uint32_t lengt
 tartan_status tartan_library_rank(const tartan_library *library, const uint32_t *trays, size_t length, char **rank,
                                   tartan_error *error)
 {
-    tartan_status status = tn_api_trays(library->schema, trays, length, error);
-    if (status != TARTAN_OK)
-        return status;
+    tn_error found;
+    if (tn_api_trays(library->schema, trays, length, &found) != TN_OK)
+        return tn_api_fail(&found, error);
     mpz_t number;
     mpz_init(number);
+    tartan_status status;
     if (tn_library_rank(library->library, trays, length, number))
         status = decimal(number, rank, error);
     else
@@ -197,6 +208,18 @@ tartan_status tartan_library_plans(const tartan_library *library, const char *fr
     return status;
 }
 
+/* No more than the plans that there are: memory is asked for by this. */
+static size_t at_most_kept(const tn_library *library, uint32_t length, size_t count)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, length, kept);
+    if (mpz_cmp_ui(kept, count) < 0)
+        count = mpz_get_ui(kept);
+    mpz_clear(kept);
+    return count;
+}
+
 tartan_status tartan_library_sample(const tartan_library *library, uint64_t seed, uint32_t length, size_t count,
                                     tartan_plans **plans, tartan_error *error)
 {
@@ -204,6 +227,7 @@ tartan_status tartan_library_sample(const tartan_library *library, uint64_t seed
     if (!made)
         return out_of_memory(error);
     made->library = library->library;
+    count = at_most_kept(library->library, length, count);
     made->ranks = calloc(count ? count : 1, sizeof *made->ranks);
     made->trays = calloc((size_t)tn_library_max(library->library) + 1, sizeof *made->trays);
     if (!made->ranks || !made->trays) {

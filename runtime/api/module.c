@@ -4,6 +4,7 @@
 
 #include "runtime/api/api.h"
 #include "runtime/vm/file.h"
+#include "runtime/vm/nearest.h"
 
 _Static_assert((int)TARTAN_OK == (int)TN_OK && (int)TARTAN_INTERNAL == (int)TN_INTERNAL,
                "statuses are the same numbers");
@@ -35,6 +36,16 @@ tartan_status tn_api_refuse(tartan_error *error, tartan_status status, const cha
     vsnprintf(error->message, sizeof error->message, format, args);
     va_end(args);
     return status;
+}
+
+tartan_status tn_api_unknown(tartan_error *error, const char *what, const char *name, const char **names, size_t count)
+{
+    const char *near = names ? tn_nearest(name, names, count) : NULL;
+    tn_api_refuse(error, TARTAN_INVALID, "the module has no %s `%.200s`", what, name);
+    if (near && error)
+        snprintf(error->help, sizeof error->help, "did you mean `%.200s`?", near);
+    free(names);
+    return TARTAN_INVALID;
 }
 
 tartan_status tn_api_module(tn_module *loaded, uint8_t *bytes, size_t size, tartan_module **module, tartan_error *error)

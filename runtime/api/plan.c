@@ -15,14 +15,14 @@ uint32_t tartan_schema_tray_count(const tartan_schema *schema)
     return tn_api_schema(schema)->tray_count;
 }
 
-tartan_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tartan_error *error)
+tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tn_error *error)
 {
     for (size_t i = 0; i < length; i++)
         if (trays[i] >= schema->tray_count)
-            return tn_api_refuse(
-                error, TARTAN_INVALID, "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
+            return tn_fail(
+                error, TN_INVALID, 0, "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
                 (unsigned)trays[i], tn_text(schema->module, schema->record->name), (unsigned)schema->tray_count - 1);
-    return TARTAN_OK;
+    return TN_OK;
 }
 
 tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, size_t size, uint32_t *trays,
@@ -37,21 +37,22 @@ tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, si
         *length = plan.length;
     }
     free(plan.trays);
+    if (status == TN_LIMIT)
+        tn_error_help(&found, "give it room for more than %zu trays", capacity);
     return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
 tartan_status tartan_plan_write(const tartan_schema *schema, const uint32_t *trays, size_t length, char **line,
                                 tartan_error *error)
 {
-    tartan_status status = tn_api_trays(tn_api_schema(schema), trays, length, error);
-    if (status != TARTAN_OK)
-        return status;
+    tn_error found;
+    if (tn_api_trays(tn_api_schema(schema), trays, length, &found) != TN_OK)
+        return tn_api_fail(&found, error);
     tn_buffer text = {0};
     /* The empty plan writes nothing, and is still a text. */
     if (!tn_buffer_append(&text, "", 0) || !tn_plan_write_line(tn_api_schema(schema), trays, length, &text) ||
         !text.data) {
         free(text.data);
-        tn_error found;
         tn_fail_memory(&found);
         return tn_api_fail(&found, error);
     }

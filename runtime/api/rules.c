@@ -1,11 +1,11 @@
 #include "runtime/plan/rules.h"
 
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/api/api.h"
+#include "runtime/vm/crew.h"
 
 struct tartan_rules {
     const tn_module *module;
@@ -38,6 +38,14 @@ static bool find(const tn_module *module, const char *name, uint32_t *record)
     return false;
 }
 
+static tartan_status unknown(const tn_module *module, const char *name, tartan_error *error)
+{
+    const char **names = malloc((module->RULE_count + 1) * sizeof *names);
+    for (size_t i = 0; names && i < module->RULE_count; i++)
+        names[i] = tn_text(module, module->RULE_records[i].name);
+    return tn_api_unknown(error, "rule", name, names, module->RULE_count);
+}
+
 /* Fills records with the rules asked for. */
 static tartan_status choose(tartan_rules *rules, const char *const *names, size_t count, tartan_error *error)
 {
@@ -47,12 +55,12 @@ static tartan_status choose(tartan_rules *rules, const char *const *names, size_
         return out_of_memory(error);
     for (size_t i = 0; i < count; i++)
         if (!find(module, names[i], &rules->records[rules->count++]))
-            return tn_api_refuse(error, TARTAN_INVALID, "the module has no rule `%s`", names[i]);
+            return unknown(module, names[i], error);
     for (size_t i = 0; count == 0 && i < module->RULE_count; i++)
         if (!(module->RULE_records[i].flags & TN_IMPORTED))
             rules->records[rules->count++] = (uint32_t)i;
     if (rules->count == 0)
-        return tn_api_refuse(error, TARTAN_INVALID, "the module has no rules");
+        return tn_api_refuse(error, TARTAN_INVALID, "the module has no rules of its own");
     return TARTAN_OK;
 }
 
@@ -156,97 +164,107 @@ tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *trays, size_
                            tartan_error *error)
 {
     tn_error found;
-    tartan_status status = tn_api_trays(matcher->rules->schema, trays, length, error);
-    if (status != TARTAN_OK)
-        return status;
-    return tn_match(matcher->matcher, trays, length, bits, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+    tn_status status = tn_api_trays(matcher->rules->schema, trays, length, &found);
+    if (status == TN_OK)
+        status = tn_match(matcher->matcher, trays, length, bits, &found);
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
-/* Says which plan an error is about. */
-static void name_plan(size_t plan, tartan_error *error)
-{
-    char message[sizeof error->message];
-    memcpy(message, error->message, sizeof message);
-    snprintf(error->message, sizeof error->message, "plan %zu: %s", plan + 1, message);
-}
+/* Plans that a thread takes at a time, so that it decides for some tens of microseconds. What comes of a share is the
+ * same whoever takes it. */
+enum { SHARE = 4096 };
 
 /* Many plans to be matched. */
 typedef struct request {
     const tartan_rules *rules;
     const uint32_t *trays;
     const size_t *ends;
-    uint64_t *bits;   /* which rules; NULL: asked whether any does */
-    uint8_t *matches; /* whether any does */
+    size_t count;
+    tn_matcher **matchers; /* of each thread, once it has something to do */
+    uint64_t *bits;        /* which rules; NULL: asked whether any does */
+    uint8_t *matches;      /* whether any does */
 } request;
 
-static tn_status match_array(tn_matcher *matcher, const request *asked, size_t begin, const tn_plan_array *plans,
-                             size_t *done, tn_error *error)
+/* Says which plan an error is about. */
+static void name_plan(size_t plan, tn_error *error)
 {
-    if (asked->bits)
-        return tn_match_all(matcher, plans, asked->bits + begin * tartan_rules_words(asked->rules), done, error);
-    return tn_match_any(matcher, plans, asked->matches + begin, done, error);
+    char message[sizeof error->message];
+    memcpy(message, error->message, sizeof message);
+    snprintf(error->message, sizeof error->message, "plan %zu: %s", plan + 1, message);
 }
 
-/* The plans [begin, end), in one thread; fills `error` where one fails. */
-static void match_some(const request *asked, size_t begin, size_t end, tartan_error *error)
+/* How many of the plans have trays of the schema, up to the first that has not, which is the error's. */
+static size_t valid_plans(const tn_schema *schema, const tn_plan_array *plans, tn_error *error)
 {
-    const size_t *ends = asked->ends;
-    const tn_plan_array plans = {asked->trays, begin ? ends[begin - 1] : 0, ends + begin, end - begin};
-    for (size_t i = begin, start = plans.begin; i < end; start = ends[i++]) {
-        if (tn_api_trays(asked->rules->schema, asked->trays + start, ends[i] - start, error) != TARTAN_OK) {
-            name_plan(i, error);
-            return;
-        }
-    }
-    tn_matcher *matcher;
+    size_t start = plans->begin;
+    for (size_t i = 0; i < plans->count; start = plans->ends[i++])
+        if (tn_api_trays(schema, plans->trays + start, plans->ends[i] - start, error) != TN_OK)
+            return i;
+    return plans->count;
+}
+
+static tn_status match_share(void *context, unsigned thread, size_t share, tn_error *error)
+{
+    const request *asked = context;
+    size_t begin = share * SHARE, left = asked->count - begin, done = 0;
+    tn_plan_array plans = {asked->trays, begin ? asked->ends[begin - 1] : 0, asked->ends + begin,
+                           left < SHARE ? left : SHARE};
+    tn_matcher **matcher = &asked->matchers[thread];
+    tn_status status = *matcher ? TN_OK : tn_matcher_new(asked->rules->rules, matcher, error);
+    if (status != TN_OK)
+        return status;
+    size_t asked_count = plans.count;
+    plans.count = valid_plans(asked->rules->schema, &plans, error);
+    status = plans.count < asked_count ? TN_INVALID : TN_OK;
     tn_error found;
-    size_t done = 0;
-    if (tn_matcher_new(asked->rules->rules, &matcher, &found) != TN_OK) {
-        tn_api_fail(&found, error);
-        return;
-    }
-    if (match_array(matcher, asked, begin, &plans, &done, &found) != TN_OK) {
-        tn_api_fail(&found, error);
+    tn_status matched =
+        asked->bits
+            ? tn_match_all(*matcher, &plans, asked->bits + begin * tartan_rules_words(asked->rules), &done, &found)
+            : tn_match_any(*matcher, &plans, asked->matches + begin, &done, &found);
+    if (matched != TN_OK)
+        *error = found;
+    if (matched != TN_OK || status != TN_OK)
         name_plan(begin + done, error);
-    }
-    tn_matcher_free(matcher);
+    return matched != TN_OK ? matched : status;
 }
 
-static tartan_status match_plans(const request *asked, size_t count, unsigned threads, tartan_error *error)
+static tn_status match_shares(request *asked, unsigned threads, tn_error *error)
 {
-    for (size_t i = 1; i < count; i++)
+    size_t shares = asked->count / SHARE + (asked->count % SHARE > 0);
+    unsigned workers = threads ? threads : tn_crew_default();
+    if (workers > TARTAN_THREADS_MAX)
+        workers = TARTAN_THREADS_MAX;
+    if (workers > shares)
+        workers = shares ? (unsigned)shares : 1;
+    asked->matchers = calloc(workers, sizeof *asked->matchers);
+    tn_crew *crew = asked->matchers ? tn_crew_new(workers) : NULL;
+    tn_status status = crew ? tn_crew_run(crew, shares, 1, match_share, asked, error) : tn_fail_memory(error);
+    tn_crew_free(crew);
+    for (unsigned i = 0; asked->matchers && i < workers; i++)
+        tn_matcher_free(asked->matchers[i]);
+    free(asked->matchers);
+    return status;
+}
+
+static tartan_status match_plans(request *asked, unsigned threads, tartan_error *error)
+{
+    for (size_t i = 1; i < asked->count; i++)
         if (asked->ends[i] < asked->ends[i - 1])
             return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
-    size_t workers = threads ? threads : (size_t)omp_get_num_procs();
-    if (workers > count)
-        workers = count ? count : 1;
-    tartan_error *errors = calloc(workers, sizeof *errors); /* each share's own */
-    if (!errors)
-        return out_of_memory(error);
-#pragma omp parallel for num_threads((int)workers) schedule(static, 1)
-    for (size_t share = 0; share < workers; share++)
-        match_some(asked, count * share / workers, count * (share + 1) / workers, &errors[share]);
-    /* the first that failed: the same error however many threads there are */
-    size_t failed = 0;
-    while (failed < workers && errors[failed].status == TARTAN_OK)
-        failed++;
-    tartan_status result = failed < workers ? errors[failed].status : TARTAN_OK;
-    if (error && failed < workers)
-        *error = errors[failed];
-    free(errors);
-    return result;
+    tn_error found;
+    return match_shares(asked, threads, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
 tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
                                unsigned threads, uint64_t *bits, tartan_error *error)
 {
-    const request asked = {.rules = rules, .trays = trays, .ends = ends, .bits = bits};
-    return match_plans(&asked, count, threads, error);
+    request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .bits = bits};
+    return match_plans(&asked, threads, error);
 }
 
 tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
                                unsigned threads, uint8_t *matches, tartan_error *error)
 {
-    const request asked = {.rules = rules, .trays = trays, .ends = ends, .matches = matches};
-    return match_plans(&asked, count, threads, error);
+    request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .matches = matches};
+    return match_plans(&asked, threads, error);
 }
