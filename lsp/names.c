@@ -4,6 +4,7 @@
 
 #include "compiler/parse.h"
 #include "lsp/features.h"
+#include "lsp/occurrences.h"
 
 json_t *tn_lsp_definition(tn_document *document, tn_analysis *analysis, size_t offset)
 {
@@ -32,70 +33,7 @@ json_t *tn_lsp_definition(tn_document *document, tn_analysis *analysis, size_t o
     return json_null();
 }
 
-/* ---- the same name in other documents that are open */
-
-typedef bool visit_occurrence(void *context, tn_document *document, tn_span span);
-
-static const char *path_of(const tn_analysis *analysis, uint32_t file)
-{
-    return analysis->compilation.sources.files[file].path;
-}
-
-static bool same_file(const char *a, const char *b)
-{
-    if (strcmp(a, b) == 0)
-        return true;
-    char *real_a = realpath(a, NULL), *real_b = realpath(b, NULL);
-    bool same = real_a && real_b && strcmp(real_a, real_b) == 0;
-    free(real_a);
-    free(real_b);
-    return same;
-}
-
-/* The symbol of another document's analysis that is defined at the same place. */
-static const tn_symbol *same_symbol(const tn_analysis *analysis, const tn_symbol *symbol, const tn_analysis *other)
-{
-    if (other == analysis)
-        return symbol;
-    for (const tn_symbol *s = other->index.first; s; s = s->next)
-        if (s->kind == symbol->kind && s->name_span.begin == symbol->name_span.begin &&
-            strcmp(s->name, symbol->name) == 0 &&
-            same_file(path_of(analysis, symbol->name_span.file), path_of(other, s->name_span.file)))
-            return s;
-    return NULL;
-}
-
-/* Is the file of an occurrence open as a document? Then that document's own analysis has it. */
-static bool is_open(const tn_workspace *workspace, const char *path)
-{
-    for (const tn_document *document = workspace->documents; document; document = document->next)
-        if (same_file(document->path, path))
-            return true;
-    return false;
-}
-
-/* Visits every occurrence once: those of a document in its own analysis, those of files that are not open in the
- * analysis of the document asked. */
-static bool each_occurrence(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol,
-                            visit_occurrence *visit, void *context)
-{
-    tn_analysis *analysis = asked->analysis;
-    for (tn_document *document = workspace->documents; document; document = document->next) {
-        tn_analysis *other = tn_workspace_analyse(workspace, document);
-        const tn_symbol *same = other ? same_symbol(analysis, symbol, other) : NULL;
-        for (size_t i = 0; same && i < other->index.count; i++) {
-            const tn_occurrence *occurrence = &other->index.occurrences[i];
-            bool own = occurrence->span.file == 0;
-            if (occurrence->symbol != same || (!own && document != asked))
-                continue;
-            if (!own && is_open(workspace, path_of(other, occurrence->span.file)))
-                continue;
-            if (!visit(context, document, occurrence->span))
-                return false;
-        }
-    }
-    return true;
-}
+/* ---- references */
 
 typedef struct collected {
     json_t *list;
@@ -108,7 +46,8 @@ static bool collect(void *context, tn_document *document, tn_span span)
 {
     collected *c = context;
     bool definition = span.begin == c->skip.begin && span.end == c->skip.end &&
-                      same_file(path_of(document->analysis, span.file), path_of(c->asked->analysis, c->skip.file));
+                      tn_same_file(tn_analysis_path(document->analysis, span.file),
+                                   tn_analysis_path(c->asked->analysis, c->skip.file));
     if (!c->skips || !definition)
         json_array_append_new(c->list, tn_analysis_location(document, span));
     return true;
@@ -122,7 +61,7 @@ json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_ana
     if (!found)
         return c.list;
     c.skip = found->symbol->name_span;
-    each_occurrence(workspace, document, found->symbol, collect, &c);
+    tn_each_occurrence(workspace, document, found->symbol, collect, &c);
     return c.list;
 }
 
@@ -145,7 +84,7 @@ json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn
 {
     (void)document;
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
-    if (!found || tn_workspace_is_stdlib(workspace, path_of(analysis, found->symbol->name_span.file)))
+    if (!found || tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
         return json_null();
     return tn_analysis_range(analysis, found->span);
 }
@@ -175,27 +114,42 @@ static bool is_name(const char *text)
     return good;
 }
 
+/* Another one than `but`. */
+static bool is_rule_or_library(const tn_index *index, const tn_symbol *but, const char *name)
+{
+    for (const tn_symbol *s = index->first; s; s = s->next)
+        if ((s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY) && s != but && strcmp(s->name, name) == 0)
+            return true;
+    return false;
+}
+
 /* Has something of the same kind that name already? */
 static bool is_taken(const tn_index *index, const tn_symbol *symbol, const char *name)
 {
-    bool named = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_LIBRARY;
-    for (const tn_symbol *s = index->first; s; s = s->next) {
-        bool rival = named ? s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY
-                           : s->kind == symbol->kind && s->parent == symbol->parent;
-        if (rival && s != symbol && strcmp(s->name, name) == 0)
+    if (symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_LIBRARY)
+        return is_rule_or_library(index, symbol, name);
+    for (const tn_symbol *s = index->first; s; s = s->next)
+        if (s->kind == symbol->kind && s->parent == symbol->parent && s != symbol && strcmp(s->name, name) == 0)
             return true;
-    }
     return false;
 }
 
 typedef struct renaming {
     json_t *changes;
+    const tn_symbol *symbol;
     const char *name;
+    const char *reason; /* why it cannot be; or NULL */
 } renaming;
 
 static bool add_edit(void *context, tn_document *document, tn_span span)
 {
     renaming *r = context;
+    bool named = r->symbol->kind == TN_SYMBOL_RULE || r->symbol->kind == TN_SYMBOL_LIBRARY;
+    if (named && strcmp(r->name, r->symbol->name) != 0 &&
+        is_rule_or_library(&document->analysis->index, NULL, r->name)) {
+        r->reason = "a file that uses this one has something else of this name";
+        return false;
+    }
     char *uri = tn_document_source_uri(document, span.file);
     if (!uri)
         return false;
@@ -217,7 +171,7 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysi
     *reason = NULL;
     if (!found)
         *reason = "there is no name here";
-    else if (tn_workspace_is_stdlib(workspace, path_of(analysis, found->symbol->name_span.file)))
+    else if (tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
         *reason = "the name is the standard library's";
     else if (!is_name(name))
         *reason = "a name is letters, digits, _ and, inside, -, and no word of the language";
@@ -225,7 +179,13 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysi
         *reason = "something else has this name already";
     if (*reason)
         return NULL;
-    renaming r = {json_object(), name};
-    each_occurrence(workspace, document, found->symbol, add_edit, &r);
-    return json_pack("{s:o}", "changes", r.changes);
+    renaming r = {json_object(), found->symbol, name, NULL};
+    tn_visited visited = tn_each_occurrence(workspace, document, found->symbol, add_edit, &r);
+    if (visited == TN_VISITED_CUT_OFF)
+        r.reason = "the open folders hold too many files to look for the name in all of them";
+    *reason = r.reason;
+    if (visited == TN_VISITED_ALL)
+        return json_pack("{s:o}", "changes", r.changes);
+    json_decref(r.changes);
+    return NULL;
 }

@@ -104,9 +104,27 @@ static bool find_place(server *s, const json_t *params, question *asked)
 
 typedef json_t *answer(server *s, const json_t *params);
 
+/* The folders that the editor has open, as new editors say it or as old ones did. */
+static bool take_roots(server *s, const json_t *params)
+{
+    const json_t *folders = json_object_get(params, "workspaceFolders"), *folder;
+    const char *root = json_string_value(json_object_get(params, "rootUri"));
+    size_t i;
+    bool good = true;
+    if (!json_is_array(folders))
+        return !root || tn_workspace_add_root(&s->workspace, root);
+    json_array_foreach(folders, i, folder)
+    {
+        const char *uri = json_string_value(json_object_get(folder, "uri"));
+        good = good && (!uri || tn_workspace_add_root(&s->workspace, uri));
+    }
+    return good;
+}
+
 static json_t *initialize(server *s, const json_t *params)
 {
-    (void)params;
+    if (!s->initialized && !take_roots(s, params))
+        return NULL;
     s->initialized = true;
     return json_pack("{s:{s:{s:b,s:i},s:b,s:{s:[s,s,s,s]},s:b,s:b,s:b,s:{s:b},s:b,s:b,s:{s:[s]}},s:{s:s,s:s}}",
                      "capabilities", "textDocumentSync", "openClose", 1, "change", 2, "hoverProvider", 1,

@@ -36,6 +36,11 @@ void tn_workspace_clear(tn_workspace *workspace)
         free_document(document);
     }
     workspace->documents = NULL;
+    for (size_t i = 0; i < workspace->root_count; i++)
+        free(workspace->roots[i]);
+    free(workspace->roots);
+    workspace->roots = NULL;
+    workspace->root_count = 0;
     tn_stdlib_dirs_clear(&workspace->stdlib);
 }
 
@@ -45,6 +50,20 @@ tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri)
     while (document && strcmp(document->uri, uri) != 0)
         document = document->next;
     return document;
+}
+
+bool tn_workspace_add_root(tn_workspace *workspace, const char *uri)
+{
+    char *path = tn_uri_path(uri);
+    char **grown = realloc(workspace->roots, (workspace->root_count + 1) * sizeof *grown);
+    if (grown)
+        workspace->roots = grown;
+    if (!path || !grown) {
+        free(path);
+        return false;
+    }
+    workspace->roots[workspace->root_count++] = path;
+    return true;
 }
 
 bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path)

@@ -19,6 +19,8 @@ typedef struct tn_document {
 
 typedef struct tn_workspace {
     tn_document *documents;
+    char **roots; /* the folders that the editor has open */
+    size_t root_count;
     tn_stdlib_dirs stdlib;
 } tn_workspace;
 
@@ -26,6 +28,9 @@ tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error);
 void tn_workspace_clear(tn_workspace *workspace);
 
 tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri);
+
+/* Adds a folder that the editor has open, by its URI. False where out of memory. */
+bool tn_workspace_add_root(tn_workspace *workspace, const char *uri);
 
 /* Adds or replaces a document, takes one out. `language`: what the editor calls its notation, for texts whose name does
  * not say. False where out of memory. */

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -392,6 +393,82 @@ static void test_rename_across_documents(void **state)
     rmdir(folder);
 }
 
+static void write_file(const char *folder, const char *name, const char *text, bool there)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (!there) {
+        assert_int_equal(remove(path), 0);
+        return;
+    }
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static const char base_text[] = "schema s { w = 1m | 2m }\nrule thin = tray(1m)\n";
+
+/* Files that are written, or taken away, for the test below. */
+static void set_files(const char *folder, bool there)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/sub", folder);
+    if (there)
+        assert_int_equal(mkdir(path, 0777), 0);
+    write_file(folder, "base.plan", base_text, there);
+    write_file(folder, "user.plan", "use \"base.plan\"\nrule two = neighbour(thin, thin)\n", there);
+    write_file(folder, "sub/deep.plan", "use \"../user.plan\"\nrule three = thin and two\n", there);
+    write_file(folder, "other.plan", "schema s { w = 1m | 2m }\nrule thin = tray(2m)\n", there);
+    if (!there)
+        assert_int_equal(rmdir(path), 0);
+}
+
+/* Renames in base.plan, which alone is open; the edits of each file, or why not. `root`: the editor has the folder
+ * open. */
+static void rename_in(const char *folder, bool root, const char *name, int user, int deep, const char *why)
+{
+    char uri[200], folder_uri[200], other[200];
+    session s = {.input = tmpfile(), .output = tmpfile()};
+    snprintf(folder_uri, sizeof folder_uri, "file://%s", folder);
+    snprintf(uri, sizeof uri, "%s/base.plan", folder_uri);
+    json_t *folders = root ? json_pack("{s:[{s:s,s:s}]}", "workspaceFolders", "uri", folder_uri, "name", "x")
+                           : json_pack("{s:n,s:n}", "workspaceFolders", "rootUri");
+    ask(&s, "initialize", folders);
+    tell(&s, "initialized", json_object());
+    open_document(&s, uri, base_text);
+    json_t *params = at(uri, base_text, (size_t)(strstr(base_text, "thin") - base_text));
+    json_object_set_new(params, "newName", json_string(name));
+    int id = ask(&s, "textDocument/rename", params);
+    serve(&s);
+    const json_t *changes = json_object_get(answer(&s, id, "result"), "changes");
+    assert_int_equal(json_array_size(json_object_get(changes, uri)), why ? 0 : 1);
+    snprintf(other, sizeof other, "%s/user.plan", folder_uri);
+    assert_int_equal(json_array_size(json_object_get(changes, other)), user);
+    snprintf(other, sizeof other, "%s/sub/deep.plan", folder_uri);
+    assert_int_equal(json_array_size(json_object_get(changes, other)), deep);
+    snprintf(other, sizeof other, "%s/other.plan", folder_uri);
+    assert_null(json_object_get(changes, other));
+    const char *said = json_string_value(json_object_get(answer(&s, id, "error"), "message"));
+    assert_true(why ? said && strstr(said, why) : !said);
+    finish(&s);
+}
+
+/* Files that use the one at hand are found though they are not open; one that only has the name too is left alone. */
+static void test_rename_in_files_that_are_not_open(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/tartan-lsp-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    set_files(folder, true);
+    rename_in(folder, true, "narrow", 2, 1, NULL);
+    rename_in(folder, false, "narrow", 2, 0, NULL); /* what is beside it */
+    rename_in(folder, true, "three", 0, 0, "a file that uses this one has something else of this name");
+    rename_in(folder, false, "two", 0, 0, "a file that uses this one has something else of this name");
+    set_files(folder, false);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 static void test_wrong_messages(void **state)
 {
     (void)state;
@@ -644,6 +721,7 @@ int main(void)
         cmocka_unit_test(test_random_edits),
         cmocka_unit_test(test_positions_are_utf16),
         cmocka_unit_test(test_rename_across_documents),
+        cmocka_unit_test(test_rename_in_files_that_are_not_open),
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
         cmocka_unit_test(test_meaning_given_up),
