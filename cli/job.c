@@ -99,10 +99,10 @@ static void show(tn_job *job)
     tn_diagnostics_sort(list);
     job->errors += list->error_count;
     job->warnings += list->warning_count;
-    if (list->count || options.json)
+    if (list->count || list->failed || options.json)
         tn_diagnostics_show(list, &options, stderr);
     if (list->failed)
-        fputs("tartan: out of memory while collecting diagnostics\n", stderr);
+        worsen(job, TN_EXIT_LIMIT);
     tn_diagnostics_clear(list);
     tn_diagnostics_init(list, &job->opened.compilation.sources);
 }

@@ -8,6 +8,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/lexical.h"
 #include "compiler/token.h"
 #include "runtime/vm/module.h"
 
@@ -88,6 +89,7 @@ typedef struct tn_bnf_reader {
     bool prelude_reported, failed;
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL: a rule's name is a NAME, its ::= a SIGN */
     tn_bnf_file ast;
+    tn_lexer_pool pool;
 } tn_bnf_reader;
 
 /* Parses a text, `size` bytes followed by two zero bytes, which the lexer writes to while it works but leaves as they

@@ -15,6 +15,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/compile.h"
+#include "compiler/lexical.h"
 #include "compiler/token.h"
 #include "runtime/vm/settings.h"
 
@@ -58,6 +59,7 @@ typedef struct tn_evolution_reader {
     bool failed;
     tn_span outside;   /* the first that stands outside the blocks; empty: nothing does */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
+    tn_lexer_pool pool;
 } tn_evolution_reader;
 
 /* Parses the blocks of a text, `size` bytes followed by two zero bytes. */

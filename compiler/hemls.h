@@ -9,6 +9,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/lexical.h"
 #include "compiler/token.h"
 #include "runtime/vm/builder.h"
 #include "runtime/vm/growth.h"
@@ -104,6 +105,7 @@ typedef struct tn_growth_parse {
     bool reported;     /* the line at hand was complained of already */
     void *result;      /* tn_hemls_file or tn_study_file */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
+    tn_lexer_pool pool;
 } tn_growth_parse;
 
 /* The lexers, for their parsers: NULL where out of memory. */

@@ -5,6 +5,16 @@
 #include "runtime/vm/length.h"
 #include "runtime/vm/utf8.h"
 
+void *tn_lexer_pool_take(tn_lexer_pool *pool, size_t size)
+{
+    size_t unit = _Alignof(max_align_t), rounded = (size + unit - 1) / unit * unit;
+    if (rounded > sizeof pool->bytes - pool->used)
+        return NULL;
+    void *memory = pool->bytes + pool->used;
+    pool->used += rounded;
+    return memory;
+}
+
 bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file)
 {
     const tn_source *source = &diagnostics->sources->files[file];

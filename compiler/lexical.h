@@ -2,8 +2,37 @@
 #ifndef TARTAN_COMPILER_LEXICAL_H
 #define TARTAN_COMPILER_LEXICAL_H
 
+#include <stddef.h>
+
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+
+/* What flex cannot get from the system it exits for: each lexer gets the few bytes of its state from a pool that is
+ * there already, and scans a text that lies in memory. */
+typedef struct tn_lexer_pool {
+    size_t used;
+    _Alignas(max_align_t) unsigned char bytes[1024];
+} tn_lexer_pool;
+
+/* NULL where the pool is used up. */
+void *tn_lexer_pool_take(tn_lexer_pool *pool, size_t size);
+
+/* The allocator of a lexer whose extra data have a `pool`. Growing is only for buffers, which hold all of the text. */
+#define TN_LEXER_MEMORY(PREFIX)                                                                                        \
+    void *PREFIX##alloc(yy_size_t size, yyscan_t scanner)                                                              \
+    {                                                                                                                  \
+        return tn_lexer_pool_take(&PREFIX##get_extra(scanner)->pool, size);                                            \
+    }                                                                                                                  \
+    void *PREFIX##realloc(void *memory, yy_size_t size, yyscan_t scanner)                                              \
+    {                                                                                                                  \
+        (void)memory;                                                                                                  \
+        return PREFIX##alloc(size, scanner);                                                                           \
+    }                                                                                                                  \
+    void PREFIX##free(void *memory, yyscan_t scanner)                                                                  \
+    {                                                                                                                  \
+        (void)memory;                                                                                                  \
+        (void)scanner;                                                                                                 \
+    }
 
 /* Is the source UTF-8 text without zero bytes? Where it is not, reports the first wrong byte (E0004). */
 bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file);

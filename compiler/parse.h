@@ -5,6 +5,7 @@
 
 #include "compiler/arena.h"
 #include "compiler/diagnostic.h"
+#include "compiler/lexical.h"
 #include "compiler/token.h"
 
 struct tn_ast_file;
@@ -41,8 +42,7 @@ typedef struct tn_parse {
 
     bool too_deep; /* nesting was reported */
 
-    size_t pool_used;
-    _Alignas(max_align_t) unsigned char pool[1024]; /* for flex's own few bytes of state */
+    tn_lexer_pool pool;
 } tn_parse;
 
 /* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`

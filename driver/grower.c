@@ -96,7 +96,7 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
     *r = (rules){0};
     tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &r->opened);
     if (status != TN_OK)
-        return tn_fail(error, TN_INVALID, 0, "%.400s", tn_first_error(&r->opened));
+        return tn_open_error(&r->opened, status, error);
     status = tn_growth_system_read(r->opened.module, &r->system, error);
     if (status == TN_OK)
         status = *growth ? tn_growth_renew(*growth, r->system, &study->environment, &study->options, error)

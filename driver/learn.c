@@ -179,7 +179,7 @@ static tn_status score_rule(void *context, unsigned thread, const char *sentence
     (void)thread;
     tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, size, false, &opened);
     if (status != TN_OK)
-        snprintf(own.message, sizeof own.message, "%.199s", tn_first_error(&opened));
+        tn_open_error(&opened, status, &own);
     else
         status = judge(l, opened.module, &wrong, &own);
     tn_close(&opened);

@@ -120,6 +120,11 @@ const char *tn_first_error(const tn_opened *opened)
     return "it does not compile";
 }
 
+tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error)
+{
+    return status == TN_MEMORY ? tn_fail_memory(error) : tn_fail(error, status, 0, "%.400s", tn_first_error(opened));
+}
+
 void tn_close(tn_opened *opened)
 {
     tn_module_free(opened->module);

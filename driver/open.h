@@ -33,6 +33,9 @@ const char *tn_opened_help(const tn_opened *opened, const char *otherwise);
 /* What is wrong in a file that could not be opened, the first of it, in a sentence. */
 const char *tn_first_error(const tn_opened *opened);
 
+/* Puts that into an error, with the status of opening, which is returned. */
+tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error);
+
 void tn_close(tn_opened *opened);
 
 #endif

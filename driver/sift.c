@@ -254,15 +254,6 @@ static void report_end(worker *w)
     complain(w, &w->error, text, size);
 }
 
-static void report_unmatched(worker *w, size_t i)
-{
-    tn_error error;
-    match(w, i, i + 1, &error); /* again, for its reason */
-    find_lines_before(w);
-    tn_error_place(&error, w->numbers[i] + w->before, 0, 0);
-    complain(w, &error, NULL, 0);
-}
-
 static void report_plan(worker *w, size_t i)
 {
     const tn_sift_calls *calls = w->s->calls;
@@ -273,6 +264,19 @@ static void report_plan(worker *w, size_t i)
         give_up(w, tn_fail_memory(&error), &error);
     else if (w->texts[0].size + w->texts[1].size > TEXT_BYTES)
         take_turn(w);
+}
+
+static void report_unmatched(worker *w, size_t i)
+{
+    tn_error error;
+    match(w, i, i + 1, &error); /* again, for its reason */
+    if (w->statuses[i] == TN_OK) {
+        report_plan(w, i); /* memory was short, and now is not */
+        return;
+    }
+    find_lines_before(w);
+    tn_error_place(&error, w->numbers[i] + w->before, 0, 0);
+    complain(w, &error, NULL, 0);
 }
 
 /* Says what there is to say of the batch; false where no more is wanted. */

@@ -192,17 +192,18 @@ static void complete_in_call(cursor *c, size_t bracket)
 static void complete_codes(cursor *c)
 {
     static const struct {
-        const char *code, *summary;
+        int code;
+        const char *summary;
     } warnings[] = {
 #define ERROR(NUMBER, NAME, SUMMARY)
-#define WARNING(NUMBER, NAME, SUMMARY) {#NUMBER, SUMMARY},
+#define WARNING(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
 #include "compiler/codes.def"
 #undef ERROR
 #undef WARNING
     };
     for (size_t i = 0; i < sizeof warnings / sizeof *warnings; i++) {
         char code[16];
-        snprintf(code, sizeof code, "W%03d", atoi(warnings[i].code));
+        snprintf(code, sizeof code, "W%03d", warnings[i].code);
         offer(c, code, KIND_VALUE, warnings[i].summary, "1");
     }
 }

@@ -219,12 +219,13 @@ static tn_status find_growth(const tn_grammar *g, const uint32_t *component, tn_
 {
     size_t n = g->rule_count, endless_count;
     uint32_t *endless = list_endless(g, a, &endless_count);
-    double *now = calloc(n * 2, sizeof *now), *next = now + n, sum = 1;
+    double *now = calloc(n * 2, sizeof *now), sum = 1;
     if (!now || !endless) {
         free(now);
         free(endless);
         return tn_fail_memory(error);
     }
+    double *next = now + n;
     for (size_t r = 0; r < n; r++)
         now[r] = a->recursive[r] ? 1.0 : 0.0;
     for (int round = 0; round < GROWTH_ROUNDS; round++) {

@@ -10,7 +10,7 @@ typedef struct counter {
     size_t width;
     mpz_t *now, *next;      /* [rule][width] */
     mpz_t *product, *spare; /* [width] */
-    bool too_large;
+    bool too_large, failed;
 } counter;
 
 static mpz_t *numbers_new(size_t count)
@@ -64,7 +64,7 @@ static void close_loop(counter *c, mpz_t *body)
 {
     mpz_t *loop = numbers_new(c->width);
     if (!loop) {
-        c->too_large = true;
+        c->failed = true;
         return;
     }
     for (size_t round = 0; round < c->width; round++) {
@@ -82,7 +82,7 @@ static void count_words(counter *c, uint32_t at, uint32_t end, uint32_t *letters
 {
     const tn_grammar *g = c->grammar;
     set_one(c, product);
-    while (at < end && !c->too_large) {
+    while (at < end && !c->too_large && !c->failed) {
         uint32_t word = g->words[at], argument = TN_WORD_ARGUMENT(word);
         tn_word_op op = TN_WORD_OP(word);
         if (op == TN_WORD_RULE) {
@@ -93,7 +93,7 @@ static void count_words(counter *c, uint32_t at, uint32_t end, uint32_t *letters
         } else if (op == TN_WORD_REPEAT || op == TN_WORD_MAYBE) {
             mpz_t *body = numbers_new(c->width);
             if (!body) {
-                c->too_large = true;
+                c->failed = true;
                 return;
             }
             count_words(c, at + 1, at + 1 + argument - (op == TN_WORD_REPEAT), letters, body);
@@ -147,7 +147,9 @@ tn_status tn_count_derivations(const tn_grammar *grammar, uint32_t depth, bool *
         c.now = c.next;
         c.next = swap;
     }
-    if (status == TN_OK && c.too_large)
+    if (status == TN_OK && c.failed)
+        status = tn_fail_memory(error);
+    else if (status == TN_OK && c.too_large)
         status = tn_fail(error, TN_LIMIT, 1227, "the number of derivations passes %u binary digits, the limit",
                          TN_DERIVATION_BITS);
     if (status == TN_OK)

@@ -68,7 +68,7 @@ void tn_text_decimal(tn_text_out *out, double number)
         return;
     }
     uint64_t whole = (uint64_t)scaled;
-    char buffer[40], *end = buffer + sizeof buffer, *begin = end;
+    char buffer[40], *end = buffer + sizeof buffer;
     int decimals = out->decimals;
     while (decimals > 0 && whole > 0 && whole % 10 == 0) {
         whole /= 10;
@@ -76,7 +76,7 @@ void tn_text_decimal(tn_text_out *out, double number)
     }
     if (whole == 0)
         decimals = 0;
-    begin = digits_before(end, whole);
+    char *begin = digits_before(end, whole);
     while (end - begin <= decimals)
         *--begin = '0';
     size_t integer = (size_t)(end - begin) - (size_t)decimals;

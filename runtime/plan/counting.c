@@ -66,6 +66,7 @@ static void set_add(tn_counting *counting, uint32_t state)
 static uint32_t set_end(tn_counting *counting)
 {
     tn_pairs *members = &counting->members;
+    counting->failed |= members->failed;
     for (size_t i = 0; i < members->size; i++) {
         if (members->data[i] >> 32 == counting->a.everything) {
             members->data[0] = members->data[i];

