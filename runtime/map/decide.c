@@ -6,7 +6,7 @@
 #include "runtime/map/room.h"
 #include "runtime/map/share.h"
 
-#define MANY 64u /* faces, for patterns to be worth their finding */
+#define MANY 512u /* faces, for patterns to be worth their finding */
 
 /* ---- deciders */
 
@@ -275,6 +275,7 @@ static bool decide_later(tn_pass *pass)
     size_t count = 0;
     for (int i = 0; i < space->decider_count; i++)
         count += space->deciders[i].later_count;
+    pass->growth->waited |= count > 0;
     pass->growth->needs_ranks = count && !pass->growth->ranked;
     if (count == 0 || pass->growth->needs_ranks)
         return true;

@@ -8,6 +8,8 @@
 #include "runtime/map/decide.h"
 #include "runtime/vm/numeric.h"
 
+#define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
+
 tn_growth_options tn_growth_options_default(void)
 {
     return (tn_growth_options){
@@ -152,7 +154,8 @@ static tn_status plant(tn_growth *growth, tn_error *error)
                     .origin = space->darts[here].data,
                     .face_first = space->faces[here].data};
     map->side = map->origin + 2 * (size_t)n;
-    map->face_rank = growth->ranked ? map->face_first + 3 : NULL;
+    map->face_rank = map->face_first + 3;
+    growth->ranked = true;
     for (uint32_t i = 0; i < n; i++) {
         const tn_axiom_edge *edge = &growth->system->axiom[i];
         uint32_t back = n - 1 - i, along = n + i; /* the outer face runs the other way */
@@ -165,7 +168,7 @@ static tn_status plant(tn_growth *growth, tn_error *error)
     }
     for (uint32_t f = 0; f <= 2; f++)
         map->face_first[f] = f * n;
-    for (uint32_t f = 0; f < 2 && growth->ranked; f++)
+    for (uint32_t f = 0; f < 2; f++)
         map->face_rank[f] = f;
     growth->steps = 0;
     growth->draws = 0;
@@ -405,15 +408,19 @@ static tn_status take_step(tn_growth *growth, tn_error *error)
 #endif
 }
 
-/* The order in which faces were made matters only once a face has to wait for another, which few systems ever need.
- * So it is kept only from then on: the surface is grown again to where it was, and then further. */
+/* The order in which faces were made matters only once a face has to wait for another, which few systems ever need, and
+ * those mostly soon. So it is kept of small surfaces; of larger ones only once that has happened. Where it first happens
+ * to one, the surface is grown again to where it was, and then further. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error)
 {
+    if (growth->map.face_count > SMALL && !growth->waited) {
+        growth->ranked = false;
+        growth->map.face_rank = NULL;
+    }
     tn_status status = take_step(growth, error);
     if (status != TN_OK || !growth->needs_ranks)
         return status;
     growth->needs_ranks = false;
-    growth->ranked = true;
     status = tn_growth_regrow(growth, growth->steps, error);
     return status == TN_OK ? take_step(growth, error) : status;
 }

@@ -7,7 +7,7 @@
 #include "runtime/map/branch_tree.h"
 #include "runtime/map/room.h"
 
-#define FEW 40u /* branches of a face, up to which comparing all of them is the less work */
+#define FEW 96u /* branches of a face, up to which comparing all of them is the less work */
 
 /* ---- pairs of branches */
 

@@ -109,8 +109,9 @@ struct tn_growth {
     tn_walk *walks;       /* storage of the shapes */
     uint32_t *group_of;   /* [label] the group whose whole predecessor it is, or TN_NONE */
     bool weighted;        /* some choice is random */
-    bool ranked;          /* faces have ranks: not before a face has to wait for others (see tn_growth_step) */
-    bool needs_ranks;     /* one had to */
+    bool ranked;          /* faces have ranks (see tn_growth_step) */
+    bool waited;          /* some face has had to wait for others: they are needed */
+    bool needs_ranks;     /* one has to, and faces have no ranks any more */
     bool hard;            /* some boundary moves vertices */
     tn_workspace space;
     tn_map map;

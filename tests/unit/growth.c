@@ -166,6 +166,60 @@ static void test_any_number_of_threads_gives_the_same_bytes(void **state)
     }
 }
 
+/* Asked why branches did not join, growing works every face out by itself. */
+static void test_faces_alike_are_cut_as_each_by_itself(void **state)
+{
+    (void)state;
+    static const char *const systems[][2] = {
+        {"t.study", "rules \"square\" attractor at 3 2 2 strength 1 exponent 1.5 gravity 0 0 -0.2"},
+        {"t.study", "rules \"triangle\" branch-length 2 repeller at 1 1 0 strength 0.5"},
+        {"t.hemls", "A + B + A; A -> A [ [ + B ] - B ] B; -> A [ + A ] B [ - B ] A Weight 2\nB -> A [ [ + B ] - B ] A;"
+                    "Angle 60; BranchAngle 90; Sync"}};
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        uint64_t hashes[2];
+        grown g;
+        plant_text(&g, systems[i][0], systems[i][1]);
+        for (int alone = 0; alone < 2; alone++) {
+            g.study.options.explain = alone;
+            replant(&g);
+            while (tn_growth_map(g.growth)->face_count < 5000 && tn_growth_steps(g.growth) < 14)
+                step(&g);
+            assert_true(tn_growth_map(g.growth)->face_count > 1000);
+            hashes[alone] = bytes_hash(&g, true);
+        }
+        assert_true(hashes[0] == hashes[1]);
+        uproot(&g);
+    }
+}
+
+/* The order of faces is no longer kept once there are thousands; where a face then has to wait for another (branches on
+ * both sides of an edge, which might link the same two vertices), it is found again. */
+static void test_faces_wait_in_a_large_surface(void **state)
+{
+    (void)state;
+    static const char text[] = "A + B + A + B\n"
+                               "A -> A_i+1 [ [ + + B_i ] - - B_i ] A_i+1 If i < 6\n"
+                               "  -> A [ [ + C ] - C ] A A [ [ + + + C ] - - - C ] A\n"
+                               "B -> B_i+1 [ [ + + A_i+1 ] - - A_i+1 ] B_i+1 If i < 6\n"
+                               "  -> B [ [ + C ] - C ] B B [ [ + + + C ] - - - C ] B\n"
+                               "Angle 45; BranchAngle 90";
+    grown g;
+    uint64_t expected = 0;
+    plant_text(&g, "t.hemls", text);
+    for (int threads = 1; threads <= 3; threads += 2) {
+        g.study.options.threads = threads;
+        replant(&g);
+        for (int n = 0; n < 6; n++)
+            step(&g);
+        assert_int_equal(tn_growth_map(g.growth)->face_count, 4097);
+        step(&g);
+        assert_non_null(tn_growth_map(g.growth)->face_rank);
+        expected = threads == 1 ? bytes_hash(&g, true) : expected;
+        assert_true(bytes_hash(&g, true) == expected);
+    }
+    uproot(&g);
+}
+
 static void test_growing_again_gives_the_same_bytes(void **state)
 {
     (void)state;
@@ -558,6 +612,8 @@ int main(void)
         cmocka_unit_test(test_square_and_triangle_have_their_closed_forms),
         cmocka_unit_test(test_other_closed_forms),
         cmocka_unit_test(test_any_number_of_threads_gives_the_same_bytes),
+        cmocka_unit_test(test_faces_alike_are_cut_as_each_by_itself),
+        cmocka_unit_test(test_faces_wait_in_a_large_surface),
         cmocka_unit_test(test_growing_again_gives_the_same_bytes),
         cmocka_unit_test(test_growing_in_used_memory_gives_the_same_bytes),
         cmocka_unit_test(test_limits_stop_a_step),
