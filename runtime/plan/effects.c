@@ -14,6 +14,7 @@
 
 typedef struct tn_counting_alone {
     const tn_library *library;
+    size_t *order;     /* [applied_count]: the clauses as they are applied here */
     tn_bounds bounds;  /* of each automaton's making */
     size_t saved;      /* automata kept */
     tn_sparse **after; /* [saved + 1]: the plans that the first clauses keep */
@@ -45,38 +46,65 @@ static tn_status apply(const tn_library *library, size_t clause, tn_dfa_operatio
 }
 
 /* *base := what of it the clauses of these numbers keep. */
-static tn_status keep(const tn_library *library, size_t from, size_t to, tn_bounds *bounds, tn_sparse **base,
+static tn_status keep(const tn_counting_alone *counting, size_t from, size_t to, tn_bounds *bounds, tn_sparse **base,
                       tn_error *error)
 {
+    const tn_library *library = counting->library;
     tn_status status = TN_OK;
     for (size_t i = from; status == TN_OK && i < to && (*base)->states > 0; i++) {
-        size_t clause = library->applied[i];
+        size_t clause = counting->order[i];
         status = apply(library, clause, tn_library_keeping(library, clause), bounds, base, error);
     }
     return status;
 }
 
-/* Applies the clauses in order and keeps what the memory for that holds. */
-static tn_status save_starts(tn_counting_alone *counting, bool within, tn_error *error)
+/* Applies the clauses up to number `to` and keeps what the memory for that holds. */
+static tn_status save_starts(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
 {
-    const tn_library *library = counting->library;
-    tn_bounds bounds = counting->bounds;
-    counting->after = calloc(library->applied_count + 1, sizeof *counting->after);
-    if (!counting->after)
-        return tn_fail_memory(error);
-    tn_status status = tn_library_everything(library, within, &counting->after[0], error);
+    tn_status status = TN_OK;
     uint64_t edges = 0;
-    for (size_t i = 0; status == TN_OK && i + 1 < library->applied_count && edges <= SAVED_EDGES; i++) {
+    for (size_t i = 0; i <= counting->saved; i++)
+        edges += counting->after[i]->first[counting->after[i]->states];
+    while (status == TN_OK && counting->saved < to && edges <= SAVED_EDGES) {
         tn_sparse *next = NULL;
-        status = tn_sparse_minimise(counting->after[i], &next, error); /* a copy */
+        status = tn_sparse_minimise(counting->after[counting->saved], &next, error); /* a copy */
         if (status == TN_OK)
-            status = keep(library, i, i + 1, &bounds, &next, error);
-        counting->after[i + 1] = next;
-        counting->saved = i + 1;
-        if (status == TN_OK)
-            edges += next->first[next->states];
+            status = keep(counting, counting->saved, counting->saved + 1, bounds, &next, error);
+        if (status != TN_OK) {
+            tn_sparse_free(next);
+            break;
+        }
+        counting->after[++counting->saved] = next;
+        edges += next->first[next->states];
     }
     return status;
+}
+
+/* Totals come first, since they bound the plans; what they leave tells how the other requirements are ordered. Prunes
+ * are applied as the library does. */
+static tn_status begin(tn_counting_alone *counting, bool within, tn_error *error)
+{
+    const tn_library *library = counting->library;
+    size_t count = library->applied_count, required = library->required_count, totals = 0, next = 0;
+    tn_bounds bounds = counting->bounds;
+    counting->after = calloc(count + 1, sizeof *counting->after);
+    counting->order = malloc((count + 1) * sizeof *counting->order);
+    if (!counting->after || !counting->order)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < required; i++)
+        if (tn_library_clause(library, library->applied[i])->kind == TN_CLAUSE_TOTAL)
+            counting->order[totals++] = library->applied[i];
+    next = totals;
+    for (size_t i = 0; i < count; i++)
+        if (tn_library_clause(library, library->applied[i])->kind != TN_CLAUSE_TOTAL)
+            counting->order[next++] = library->applied[i];
+    tn_status status = tn_library_everything(library, within, &counting->after[0], error);
+    if (status == TN_OK && count)
+        status = save_starts(counting, totals < count ? totals : count - 1, &bounds, error);
+    if (status == TN_OK)
+        status = tn_library_order(library, counting->after[counting->saved], counting->order + totals,
+                                  required - totals, error);
+    return status == TN_OK && count ? save_starts(counting, count - 1, &bounds, error) : status;
 }
 
 /* Of the clause applied as this number. */
@@ -84,16 +112,16 @@ static tn_status count_only(const tn_counting_alone *counting, size_t number, mp
 {
     const tn_library *library = counting->library;
     size_t last = library->applied_count - 1, from = number < counting->saved ? number : counting->saved;
-    size_t clause = library->applied[number], last_clause = library->applied[last];
+    size_t clause = counting->order[number], last_clause = counting->order[last];
     tn_bounds bounds = counting->bounds;
     tn_sparse *base = NULL;
     tn_status status = tn_sparse_minimise(counting->after[from], &base, error); /* a copy */
     if (status == TN_OK)
-        status = keep(library, from, number, &bounds, &base, error);
+        status = keep(counting, from, number, &bounds, &base, error);
     if (status == TN_OK && number < last)
         status = apply(library, clause, dropping(library, clause), &bounds, &base, error);
     if (status == TN_OK && number < last)
-        status = keep(library, number + 1, last, &bounds, &base, error);
+        status = keep(counting, number + 1, last, &bounds, &base, error);
     if (status == TN_OK)
         status = count_with(library, base, library->clauses[last_clause],
                             number < last ? tn_library_keeping(library, last_clause) : dropping(library, clause), only,
@@ -116,17 +144,18 @@ static tn_status count_rest(tn_counting_alone *counting, bool within, tn_error *
 {
     const tn_library *library = counting->library;
     tn_error failure;
-    tn_status started = save_starts(counting, within, &failure), status = TN_OK;
+    tn_status started = begin(counting, within, &failure), status = TN_OK;
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t i = 0; i < library->applied_count; i++) {
-        tn_effect *effect = &counting->effects[library->applied[i]];
+        size_t clause = started == TN_OK ? counting->order[i] : library->applied[i];
+        tn_effect *effect = &counting->effects[clause];
         if (effect->status != TN_LIMIT)
             continue;
         if (started != TN_OK)
             effect->error = failure;
         effect->status = started == TN_OK ? count_only(counting, i, effect->only, &effect->error) : started;
         if (effect->status == TN_LIMIT)
-            show_limit(library, library->applied[i], &effect->error);
+            show_limit(library, clause, &effect->error);
     }
     for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
         const tn_effect *effect = &counting->effects[library->applied[i]];
@@ -158,6 +187,7 @@ static tn_status try_only(const tn_library *library, bool within, uint64_t work,
     for (size_t i = 0; counting.after && i <= library->applied_count; i++)
         tn_sparse_free(counting.after[i]);
     free(counting.after);
+    free(counting.order);
     return status;
 }
 

@@ -155,41 +155,48 @@ static void insert(size_t *order, uint32_t *sizes, size_t count, size_t what, ui
     sizes[i] = size;
 }
 
-/* How large a generator is without what one clause prunes: some clauses multiply states, others hardly add any. A
- * generator too large for so many trials: the clause's own size. */
-static tn_status try_prune(const tn_library *library, size_t i, uint32_t *size, tn_error *error)
+/* How large an automaton is with one clause applied: some clauses multiply states, others hardly add any. One too large
+ * for so many trials: the clause's own size. */
+static tn_status try_clause(const tn_library *library, const tn_sparse *base, size_t clause, uint32_t *size,
+                            tn_error *error)
 {
-    if (library->generator->states > TRIAL_STATES)
+    *size = library->clauses[clause]->states;
+    if (!base || base->states > TRIAL_STATES)
         return TN_OK;
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_minimise(library->generator, &trial, error); /* a copy */
+    tn_status status = tn_sparse_minimise(base, &trial, error); /* a copy */
     if (status == TN_OK)
-        status = tn_library_apply(library, library->clauses[i], TN_DFA_MINUS, &bounds, &trial, error);
+        status = tn_library_apply(library, library->clauses[clause], tn_library_keeping(library, clause), &bounds,
+                                  &trial, error);
     if (status == TN_OK)
         *size = trial->states;
     tn_sparse_free(trial);
     return status == TN_LIMIT ? TN_OK : status;
 }
 
-/* The order to apply the requirements in, those with the fewest states first; or the prunes: those that multiply the
- * generator's states come last, when the automaton is as large as it gets anyway. */
-static tn_status order_clauses(tn_library *library, bool prunes, tn_error *error)
+tn_status tn_library_order(const tn_library *library, const tn_sparse *base, size_t *clauses, size_t count,
+                           tn_error *error)
 {
-    size_t first = prunes ? library->required_count : 0, count = 0;
-    size_t all = prunes ? library->applied_count - first : library->required_count;
-    uint32_t *sizes = malloc((all + 1) * sizeof *sizes);
+    uint32_t *sizes = malloc((count + 1) * sizeof *sizes);
     tn_status status = sizes ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && count < all; i++) {
-        uint32_t size = library->clauses[i]->states;
-        if (tn_library_prunes(library, i) != prunes)
-            continue;
-        if (prunes)
-            status = try_prune(library, i, &size, error);
-        insert(library->applied + first, sizes, count++, i, size);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        uint32_t size;
+        status = try_clause(library, base, clauses[i], &size, error);
+        if (status == TN_OK)
+            insert(clauses, sizes, i, clauses[i], size);
     }
     free(sizes);
     return status;
+}
+
+/* The requirements, or the prunes, to be applied, in file order. */
+static void list_clauses(tn_library *library, bool prunes)
+{
+    size_t next = prunes ? library->required_count : 0, end = prunes ? library->applied_count : library->required_count;
+    for (size_t i = 0; next < end; i++)
+        if (tn_library_prunes(library, i) == prunes)
+            library->applied[next++] = i;
 }
 
 static void forget_combined(tn_library *library)
@@ -208,16 +215,20 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
     if (work < library->bounds.max_work)
         library->bounds.max_work = work;
     memset(library->growth, 0, library->record->clause_count * sizeof *library->growth);
+    size_t required = library->required_count;
+    list_clauses(library, false);
+    list_clauses(library, true);
     tn_status status = tn_library_everything(library, within, &library->generator, error);
     if (status == TN_OK)
-        status = order_clauses(library, false, error);
-    for (size_t i = 0; status == TN_OK && i < library->required_count; i++)
+        status = tn_library_order(library, NULL, library->applied, required, error);
+    for (size_t i = 0; status == TN_OK && i < required; i++)
         status = apply_clause(library, library->applied[i], &library->generator, error);
     if (status == TN_OK)
-        status = order_clauses(library, true, error);
+        status = tn_library_order(library, library->generator, library->applied + required,
+                                  library->applied_count - required, error);
     if (status == TN_OK)
         status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
-    for (size_t i = library->required_count; status == TN_OK && i < library->applied_count; i++)
+    for (size_t i = required; status == TN_OK && i < library->applied_count; i++)
         status = apply_clause(library, library->applied[i], &library->live, error);
     return status;
 }

@@ -108,6 +108,11 @@ tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_d
 /* Every plan, to begin with: of the library's lengths, or of any. */
 tn_status tn_library_everything(const tn_library *library, bool within, tn_sparse **out, tn_error *error);
 
+/* Puts clauses in the order to apply them to an automaton in: those that multiply its states come last, when it is as
+ * large as it gets anyway. base NULL: those with the fewest states first. */
+tn_status tn_library_order(const tn_library *library, const tn_sparse *base, size_t *clauses, size_t count,
+                           tn_error *error);
+
 /* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
  * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
