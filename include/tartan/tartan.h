@@ -59,7 +59,7 @@ typedef enum tartan_status {
 typedef struct tartan_error {
     tartan_status status;
     uint32_t code;     /* number of the diagnostic: 601 for E0601; 0 where it has none */
-    uint32_t column;   /* byte of the text given that it is about, from 1; 0 where it is about none */
+    uint32_t column;   /* byte of the plan line given that it is about, from 1; 0 where it is about none */
     char message[480]; /* one sentence */
     char help[320];    /* a likely fix, or empty; an option that it names is one of the command's, `tartan` */
 } tartan_error;

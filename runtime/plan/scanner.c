@@ -8,8 +8,9 @@
 
 #include "runtime/plan/pack.h"
 
+/* Texts remembered: twice as many as trays, for those that are written in two ways. */
 #define KNOWN_MIN 256u
-#define KNOWN_MAX 8192u
+#define KNOWN_MAX 16384u
 
 tn_tray tn_scanner_recall(const tn_plan_scanner *scanner, const char *text, size_t size, uint64_t *hash)
 {
@@ -17,20 +18,31 @@ tn_tray tn_scanner_recall(const tn_plan_scanner *scanner, const char *text, size
     if (!scanner->known || size == 0 || size > TN_TRAY_TEXT_MAX)
         return TN_NO_TRAY;
     *hash = XXH3_64bits(text, size);
-    size_t place = *hash & (scanner->known_count - 1);
-    const tn_known_tray *known = &scanner->known[place];
-    if (known->hash != *hash || known->size != size || memcmp(scanner->texts[place], text, size) != 0)
-        return TN_NO_TRAY;
-    return known->tray;
+    for (size_t place = *hash;; place++) {
+        uint32_t number = scanner->places[place & scanner->place_mask];
+        if (number == 0)
+            return TN_NO_TRAY;
+        const tn_known_tray *known = &scanner->known[number - 1];
+        if (known->hash == *hash && known->size == size && memcmp(scanner->texts[number - 1], text, size) == 0)
+            return known->tray;
+    }
 }
 
 void tn_scanner_learn(tn_plan_scanner *scanner, const char *text, size_t size, uint64_t hash, tn_tray tray)
 {
     if (!scanner->known || size == 0 || size > TN_TRAY_TEXT_MAX)
         return;
-    size_t place = hash & (scanner->known_count - 1);
-    scanner->known[place] = (tn_known_tray){.hash = hash, .size = (uint32_t)size, .tray = tray};
-    memcpy(scanner->texts[place], text, size);
+    if (scanner->known_count == scanner->known_max) { /* begin again */
+        memset(scanner->places, 0, (scanner->place_mask + 1) * sizeof *scanner->places);
+        scanner->known_count = 0;
+    }
+    uint32_t number = scanner->known_count++;
+    scanner->known[number] = (tn_known_tray){.hash = hash, .size = (uint32_t)size, .tray = tray};
+    memcpy(scanner->texts[number], text, size);
+    size_t place = hash;
+    while (scanner->places[place & scanner->place_mask])
+        place++;
+    scanner->places[place & scanner->place_mask] = number + 1;
 }
 
 tn_status tn_scanner_add(tn_plan *plan, tn_tray tray, size_t max_trays, const tn_word *place, tn_error *error)
@@ -56,6 +68,7 @@ static void clear(tn_plan_scanner *scanner)
         free(scanner->unescaped[i].data);
     free(scanner->known);
     free(scanner->texts);
+    free(scanner->places);
 }
 
 static bool start(tn_plan_scanner *scanner, const tn_schema *schema)
@@ -73,13 +86,16 @@ tn_status tn_plan_scanner_new(const tn_schema *schema, tn_plan_scanner **out, tn
     if (!scanner)
         return tn_fail_memory(error);
     bool ready = start(scanner, schema);
-    size_t count = KNOWN_MIN;
-    while (count < KNOWN_MAX && count / 8 < schema->tray_count)
-        count *= 2;
-    scanner->known_count = count;
-    scanner->known = calloc(count, sizeof *scanner->known);
-    scanner->texts = malloc(count * sizeof *scanner->texts);
-    if (!ready || !scanner->known || !scanner->texts) {
+    uint32_t count = schema->tray_count < KNOWN_MAX / 2 ? schema->tray_count * 2 : KNOWN_MAX;
+    scanner->known_max = count > KNOWN_MIN ? count : KNOWN_MIN;
+    size_t places = 4 * KNOWN_MIN;
+    while (places < 4 * (size_t)scanner->known_max)
+        places *= 2;
+    scanner->place_mask = places - 1;
+    scanner->known = malloc(scanner->known_max * sizeof *scanner->known);
+    scanner->texts = malloc(scanner->known_max * sizeof *scanner->texts);
+    scanner->places = calloc(places, sizeof *scanner->places);
+    if (!ready || !scanner->known || !scanner->texts || !scanner->places) {
         tn_plan_scanner_free(scanner);
         return tn_fail_memory(error);
     }

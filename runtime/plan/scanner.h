@@ -10,7 +10,7 @@
 
 typedef struct tn_known_tray {
     uint64_t hash;
-    uint32_t size; /* 0: nothing is known here */
+    uint32_t size;
     tn_tray tray;
 } tn_known_tray;
 
@@ -20,11 +20,14 @@ struct tn_plan_scanner {
     bool *given;            /* one per field: has JSON given it? */
     tn_buffer rank;         /* of the JSON plan read last: what its "rank" says, or empty */
     tn_buffer unescaped[3]; /* texts that JSON writes with escapes */
-    /* Trays by the text that wrote them; without `known` nothing is remembered. A text has one place, and a later text
-     * that falls on the same place takes it. */
+    /* Trays by the text that wrote them, in the order in which they were met, so that the few that most plans are made
+     * of are side by side and stay in the nearest cache; without `known` nothing is remembered. Where there is no room
+     * for more, all are forgotten. */
     tn_known_tray *known;
     char (*texts)[TN_TRAY_TEXT_MAX];
-    size_t known_count; /* a power of two */
+    uint32_t known_count, known_max;
+    uint32_t *places; /* by the text's hash, or the next that is free: its number from 1 */
+    size_t place_mask;
 };
 
 /* The tray that this text wrote before, or TN_NO_TRAY; *hash is then for tn_scanner_learn. */
