@@ -5,7 +5,7 @@
 
 #include "runtime/draw/canvas.h"
 
-enum { POINTS_MAX = 64, PANELS = 5, COLUMNS = 3 };
+enum { POINTS_MAX = 64, PANELS = 6, COLUMNS = 3 };
 
 #define PANEL_WIDTH 220.0
 #define PANEL_HEIGHT 180.0
@@ -26,6 +26,7 @@ static panel panels[PANELS] = {
     {.curve = "rules", .title = "ns a plan, by rules", .x_name = "rules"},
     {.curve = "states", .title = "ns a tray, by states of one rule", .x_name = "states"},
     {.curve = "threads", .title = "ns a plan, by threads", .x_name = "threads"},
+    {.curve = "text", .title = "ns a plan read as text, by threads", .x_name = "threads"},
 };
 
 static int read_points(const char *path)
