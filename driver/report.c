@@ -54,17 +54,28 @@ static tn_status put_totals(const tn_reporting *r)
 
 /* ---- findings */
 
+/* "houses.plan:12: " */
+static bool put_place(const tn_reporting *r, bool has_span, tn_span span)
+{
+    if (!has_span)
+        return true;
+    tn_place where = tn_sources_place(&r->opened->compilation.sources, span);
+    const char *slash = strrchr(where.path, '/');
+    return tn_report_text(r, slash ? slash + 1 : where.path) &&
+           tn_buffer_printf(r->page, ":%u: ", (unsigned)where.line);
+}
+
 /* A finding with its notes: what checking says at the terminal. */
 static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
 {
     char code[8] = "";
     if (item->code != TN_CODE_NONE)
         tn_code_name(item->code, code);
-    bool good = tn_report_html(r, "<div class=\"card\"><p>") &&
+    bool good = tn_report_html(r, "<div class=\"card\"><p>") && put_place(r, item->has_span, item->span) &&
                 (!*code || (tn_report_text(r, code) && tn_report_html(r, ": "))) && tn_report_text(r, item->message) &&
                 tn_report_html(r, "</p>\n");
     for (size_t n = 0; good && n < item->note_count; n++)
-        good = tn_report_html(r, "<p class=\"quiet\">") &&
+        good = tn_report_html(r, "<p class=\"quiet\">") && put_place(r, item->notes[n].has_span, item->notes[n].span) &&
                tn_report_text(r, item->notes[n].text ? item->notes[n].text : "") && tn_report_html(r, "</p>\n");
     if (good && item->help)
         good = tn_report_html(r, "<p>") && tn_report_text(r, item->help) && tn_report_html(r, "</p>\n");

@@ -62,8 +62,11 @@ is 'what other rules match' "$(sed -n 's|.*"counts">matches \(.*\)</p>|\1|p' "$s
 # Clauses of one name, of a library and of the one that it is from, have a place each.
 {
     cat "$files/rows.plan"
+    echo 'rule pairs = neighbour(tray(4.5m), tray(4.5m))'
     echo 'library short { trays 1..2 total <= 12m } library shorter from short { total <= 9m }'
 } >"$scratch/short.plan"
-"$TARTAN" report "$scratch/short.plan" --library shorter -o "$scratch/short"
-is 'cards' "$(grep -o 'id="rule-[^"]*"' "$scratch/short/index.html" | tr '\n' ' ')" 'id="rule-total" id="rule-total.2" id="rule-twins" '
+"$TARTAN" report "$scratch/short.plan" --library shorter -o "$scratch/short" 2>/dev/null
+grep -q '<p>short.plan:[0-9]*: W004: `pairs` matches the same plans as `twins`</p>' "$scratch/short/index.html" ||
+    fail 'a finding has no place'
+is 'cards' "$(grep -o 'id="rule-[^"]*"' "$scratch/short/index.html" | tr '\n' ' ')" 'id="rule-total" id="rule-total.2" id="rule-twins" id="rule-pairs" '
 finish
