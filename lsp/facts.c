@@ -139,14 +139,16 @@ static void write_grouped(FILE *out, const char *digits)
     }
 }
 
-static void write_count(FILE *out, const tn_rule_count *item)
+/* of_library: it is the library that is asked about. */
+static void write_count(FILE *out, const tn_rule_count *item, bool of_library)
 {
-    if (!item->rule)
-        fprintf(out, "\n- ");
-    else if (item->requires)
-        fprintf(out, "\n- required in `%s`: keeps out ", item->library);
-    else
-        fprintf(out, "\n- prunes ");
+    fprintf(out, "\n- ");
+    if (item->rule && of_library)
+        fprintf(out, item->requires ? "`%s` keeps out " : "`%s` prunes ", item->rule);
+    else if (item->rule && item->requires)
+        fprintf(out, "required in `%s`: keeps out ", item->library);
+    else if (item->rule)
+        fprintf(out, "prunes ");
     write_grouped(out, item->out);
     if (!item->rule)
         fprintf(out, " plans generated, ");
@@ -158,15 +160,23 @@ static void write_count(FILE *out, const tn_rule_count *item)
     fprintf(out, item->rule ? " of them alone" : " kept");
 }
 
+/* A clause that has no name of its author's (a total, `require@12`) is told with its library: nothing else can be
+ * asked about. */
+static bool is_asked(const tn_rule_count *item, const tn_symbol *symbol)
+{
+    if (!item->library || !item->out || !item->only)
+        return false;
+    if (symbol->kind != TN_SYMBOL_LIBRARY)
+        return item->rule && strcmp(item->rule, symbol->name) == 0;
+    return strcmp(item->library, symbol->name) == 0 &&
+           (!item->rule || strcmp(item->rule, "total") == 0 || strchr(item->rule, '@'));
+}
+
 static void write_counts(FILE *out, const tn_facts *facts, const tn_symbol *symbol)
 {
-    bool library = symbol->kind == TN_SYMBOL_LIBRARY;
-    for (size_t i = 0; i < facts->count; i++) {
-        const tn_rule_count *item = &facts->counts[i];
-        const char *name = !library ? item->rule : item->rule ? NULL : item->library;
-        if (name && strcmp(name, symbol->name) == 0 && item->library && item->out && item->only)
-            write_count(out, item);
-    }
+    for (size_t i = 0; i < facts->count; i++)
+        if (is_asked(&facts->counts[i], symbol))
+            write_count(out, &facts->counts[i], symbol->kind == TN_SYMBOL_LIBRARY);
 }
 
 static void write_relation(FILE *out, const tn_rule_matrix *matrix, size_t rule, tn_rule_relation relation,

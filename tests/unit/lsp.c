@@ -592,7 +592,7 @@ static void finish_live(live *l)
 
 static const char related[] = "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
                               "rule never = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
-                              "library l using lahave { trays 1..3 require first prune one, wide }\n";
+                              "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n";
 
 static void test_meaning(void **state)
 {
@@ -610,6 +610,10 @@ static void test_meaning(void **state)
     hovered = hear_answer(
         &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "first") - related))));
     assert_true(mentions(hovered, "required in `l`: keeps out 299,013,696 plans of its lengths, 0 of them alone"));
+    json_decref(hovered);
+    hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "l using") - related))));
+    assert_true(mentions(hovered, "`total` keeps out 0 plans of its lengths, 0 of them alone"));
     json_decref(hovered);
     json_t *actions = hear_answer(&l, ask(&l.session, "textDocument/codeAction", everything(uri)));
     assert_true(mentions(actions, "Allow W001 in never"));
