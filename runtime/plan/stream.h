@@ -56,7 +56,7 @@ const char *tn_plan_reader_text(const tn_plan_reader *reader, size_t *size);
 /* The rank that the file gives the plan read last; false where it gives none. */
 bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank);
 
-/* The format that is being read; TN_FORMAT_LINES and TN_FORMAT_JSON may alternate in one file. */
+/* The format that is being read: what was asked for, or was found out. Never TN_FORMAT_AUTO. */
 tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
 
 /* ---- reading by several threads */
