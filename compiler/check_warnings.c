@@ -24,6 +24,24 @@ static bool both_and_neither(const tn_checked_spec *a, const tn_checked_spec *b)
     return narrows_a && narrows_b;
 }
 
+static bool lets_all_in(const tn_checked_spec *spec, uint32_t field)
+{
+    const tn_checked_field *f = &spec->schema->fields[field];
+    bool all = true;
+    for (uint32_t bit = f->first_bit; bit < f->first_bit + f->value_count; bit++)
+        all = all && spec->mask[bit / 64] >> (bit % 64) & 1;
+    return all;
+}
+
+/* Do both ask for one field? In one specifier that would be asking twice. */
+static bool share_field(const tn_checked_spec *a, const tn_checked_spec *b)
+{
+    for (uint32_t f = 0; f < a->schema->field_count; f++)
+        if (!lets_all_in(a, f) && !lets_all_in(b, f))
+            return true;
+    return false;
+}
+
 /* ---- the author's own words, for fixes */
 
 typedef struct words {
@@ -66,6 +84,10 @@ static void help_two_trays(tn_check *check, tn_diagnostic *d, const tn_ast_expr 
 {
     words between = words_between(check, first->node.span.file, first->node.span.end, second->node.span.begin);
     words a = inside_tray(check, first), b = inside_tray(check, second);
+    if (share_field(first->spec, second->spec)) {
+        tn_help(check->diagnostics, d, "for one tray that is both write one specifier, which asks for each field once");
+        return;
+    }
     if (!is_word(between, "and") || !a.size || !b.size) {
         tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(..., ...)`");
         return;
