@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/plan/library.h"
+#include "runtime/plan/parts.h"
 
 enum {
     STATES_MAX = 50000, /* larger libraries are not counted */
@@ -16,8 +17,8 @@ enum {
 /* ---- counts */
 
 /* rule: NULL where it is the library that is counted. */
-static void add_count(tn_facts *facts, const char *library, const char *rule, bool requires, const mpz_t out,
-                      const mpz_t only)
+static void add_count(tn_facts *facts, const char *library, const char *rule, bool requires, bool is_rule,
+                      const mpz_t out, const mpz_t only)
 {
     if (facts->count == facts->capacity) {
         size_t capacity = facts->capacity ? 2 * facts->capacity : 32;
@@ -28,8 +29,16 @@ static void add_count(tn_facts *facts, const char *library, const char *rule, bo
         facts->capacity = capacity;
     }
     tn_rule_count *item = &facts->counts[facts->count++];
-    *item = (tn_rule_count){strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, out),
-                            mpz_get_str(NULL, 10, only), requires};
+    *item = (tn_rule_count){
+        strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, out), mpz_get_str(NULL, 10, only), requires,
+        is_rule};
+}
+
+static bool is_rule(const tn_module *module, const tn_clause_record *clause)
+{
+    uint32_t rule = tn_function_rule(module, clause->holds);
+    return rule != UINT32_MAX &&
+           strcmp(tn_text(module, module->RULE_records[rule].name), tn_text(module, clause->name)) == 0;
 }
 
 static void count_library(tn_facts *facts, const tn_module *module, const tn_library *library, uint32_t index)
@@ -41,13 +50,14 @@ static void count_library(tn_facts *facts, const tn_module *module, const tn_lib
     mpz_inits(out, only, NULL);
     if (tn_library_generated(library, TN_ALL_LENGTHS, out, &error) == TN_OK) {
         tn_library_kept(library, TN_ALL_LENGTHS, only);
-        add_count(facts, name, NULL, false, out, only);
+        add_count(facts, name, NULL, false, false, out, only);
     }
     for (uint32_t i = 0; i < record->clause_count; i++) {
         const tn_clause_record *clause = &module->CLAUSE_records[record->clause_first + i];
         uint32_t states;
         if (tn_library_effect(library, i, out, only, &states, &error) == TN_OK)
-            add_count(facts, name, tn_text(module, clause->name), clause->kind != TN_CLAUSE_PRUNE, out, only);
+            add_count(facts, name, tn_text(module, clause->name), clause->kind != TN_CLAUSE_PRUNE,
+                      is_rule(module, clause), out, only);
     }
     mpz_clears(out, only, NULL);
 }
@@ -167,7 +177,7 @@ static bool is_asked(const tn_rule_count *item, const tn_symbol *symbol)
     if (!item->library || !item->out || !item->only)
         return false;
     if (symbol->kind != TN_SYMBOL_LIBRARY)
-        return item->rule && strcmp(item->rule, symbol->name) == 0;
+        return item->rule && strcmp(item->rule, symbol->name) == 0 && item->is_rule == (symbol->kind == TN_SYMBOL_RULE);
     return strcmp(item->library, symbol->name) == 0 &&
            (!item->rule || strcmp(item->rule, "total") == 0 || strchr(item->rule, '@'));
 }

@@ -8,8 +8,8 @@
 
 typedef struct tn_rule_count {
     char *library, *rule;
-    char *out, *only; /* in digits, as in tn_library_effect; rule NULL: how many are generated and kept */
-    bool requires;
+    char *out, *only;       /* in digits, as in tn_library_effect; rule NULL: how many are generated and kept */
+    bool requires, is_rule; /* is_rule: the clause is the rule of its name, not an expression called so */
 } tn_rule_count;
 
 /* The relations of the rules of one schema. */
