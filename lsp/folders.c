@@ -30,22 +30,32 @@ static bool passed_over(const char *name)
     return name[0] == '.' || strcmp(name, "node_modules") == 0;
 }
 
-static void look_at(tn_rule_files *files, const char *folder, const char *name, unsigned depth)
+/* Not every file system says in its entries what they are. */
+static bool is_folder(const struct dirent *entry, const char *path)
 {
     struct stat status;
+    if (entry->d_type != DT_UNKNOWN)
+        return entry->d_type == DT_DIR;
+    return lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+static void look_at(tn_rule_files *files, const char *folder, const struct dirent *entry, unsigned depth)
+{
+    bool rules = tn_notation_of(entry->d_name) == TN_NOTATION_PLAN;
+    bool maybe_folder = depth > 0 && (entry->d_type == DT_DIR || entry->d_type == DT_UNKNOWN);
     char *path = NULL;
-    if (asprintf(&path, "%s/%s", folder, name) < 0) {
+    if (!rules && !maybe_folder)
+        return;
+    if (asprintf(&path, "%s/%s", folder, entry->d_name) < 0) {
         files->failed = true;
         return;
     }
-    if (lstat(path, &status) != 0) {
-        free(path);
-        return;
-    }
-    if (S_ISDIR(status.st_mode) && depth > 0)
+    if (!is_folder(entry, path)) {
+        if (rules)
+            add(files, path);
+    } else if (depth > 0) {
         tn_rule_files_find(files, path, depth - 1);
-    else if (!S_ISDIR(status.st_mode) && tn_notation_of(name) == TN_NOTATION_PLAN)
-        add(files, path);
+    }
     free(path);
 }
 
@@ -55,7 +65,7 @@ void tn_rule_files_find(tn_rule_files *files, const char *folder, unsigned depth
     for (const struct dirent *entry; directory && !files->cut_off && (entry = readdir(directory));) {
         files->cut_off = files->entries++ >= TN_FOLDER_ENTRIES_MAX;
         if (!files->cut_off && !passed_over(entry->d_name))
-            look_at(files, folder, entry->d_name, depth);
+            look_at(files, folder, entry, depth);
     }
     if (directory)
         closedir(directory);
