@@ -76,6 +76,21 @@ __attribute__((format(printf, 4, 5))) static tn_diagnostic *complain(turtle *t, 
     return tn_report(t->diagnostics, code, span, "%s", text);
 }
 
+/* Is the innermost bracket closed by something behind this symbol? */
+static bool is_closed(const tn_hemls_symbol *symbol)
+{
+    uint32_t depth = 1;
+    for (symbol = symbol->next; symbol && depth > 0; symbol = symbol->next)
+        depth += (symbol->kind == TN_HEMLS_OPEN) - (symbol->kind == TN_HEMLS_CLOSE);
+    return depth == 0;
+}
+
+static void complain_of_open_bracket(turtle *t)
+{
+    tn_diagnostic *d = complain(t, E_BRACKETS, t->stack[t->depth - 1].open->span, "this `[` is never closed");
+    tn_help(t->diagnostics, d, "close the branch with `]` after its edge, as in `[ + A ]`");
+}
+
 static void draw_branch(turtle *t, const tn_hemls_symbol *edge)
 {
     level *inner = &t->stack[t->depth - 1];
@@ -97,6 +112,10 @@ static void draw_branch(turtle *t, const tn_hemls_symbol *edge)
 
 static void draw_edge(turtle *t, const tn_hemls_symbol *edge)
 {
+    if (t->depth > 0 && t->stack[t->depth - 1].drew && !is_closed(edge)) { /* its end was forgotten behind its edge */
+        complain_of_open_bracket(t);
+        t->frame = t->stack[--t->depth].frame;
+    }
     if (t->depth > 0) {
         draw_branch(t, edge);
     } else {
@@ -200,8 +219,7 @@ static const char *missing_turn(const tn_hemls_symbols *symbols, int *count)
 static void check_end(turtle *t, const tn_hemls_symbols *symbols, tn_span span)
 {
     if (t->depth > 0) {
-        tn_diagnostic *d = complain(t, E_BRACKETS, t->stack[t->depth - 1].open->span, "this `[` is never closed");
-        tn_help(t->diagnostics, d, "close the branch with `]`");
+        complain_of_open_bracket(t);
         return;
     }
     if (t->tilde) {

@@ -409,8 +409,8 @@ static tn_status take_step(tn_growth *growth, tn_error *error)
 }
 
 /* The order in which faces were made matters only once a face has to wait for another, which few systems ever need, and
- * those mostly soon. So it is kept of small surfaces; of larger ones only once that has happened. Where it first happens
- * to one, the surface is grown again to where it was, and then further. */
+ * those mostly soon. So it is kept of small surfaces; of larger ones only once that has happened. Where it first
+ * happens to one, the surface is grown again to where it was, and then further. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error)
 {
     if (growth->map.face_count > SMALL && !growth->waited) {
