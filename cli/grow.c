@@ -173,8 +173,13 @@ static void forecast(run_state *run)
     if (coming <= FORECAST_FACES)
         return;
     run->forecast = true;
-    tn_job_note(run->job, "%u steps will make about %.0f million faces and need about %.1f GB of memory",
-                run->study.steps, coming / 1e6, coming * 170e-9);
+    uint64_t limit = run->study.options.edge_limit ? run->study.options.edge_limit : TN_EDGES_MAX;
+    if (2 * coming > (double)limit) /* a face has two edges of its own, where four meet */
+        tn_job_note(run->job, "%u steps will make more edges than the limit of %llu", run->study.steps,
+                    (unsigned long long)limit);
+    else
+        tn_job_note(run->job, "%u steps will make about %.0f million faces and need about %.1f GB of memory",
+                    run->study.steps, coming / 1e6, coming * 170e-9);
     tn_job_show(run->job);
 }
 

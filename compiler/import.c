@@ -145,7 +145,7 @@ static void report_missing(tn_importer *importer, const tn_use *use, const char 
         tn_help(importer->diagnostics, d, "for a file of yours write its extension too: `use \"%s%s\"`", use->path,
                 importer->extension);
     else
-        tn_help(importer->diagnostics, d, "the path starts at the folder of the file that says `use`");
+        tn_help(importer->diagnostics, d, "the path starts at the folder of the file that names it");
 }
 
 static void report_cycle(tn_importer *importer, const tn_use *use, const tn_unit *again)
