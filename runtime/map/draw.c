@@ -1,6 +1,7 @@
 #include "runtime/map/draw.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -196,6 +197,8 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
     prospect seen;
     tn_painting painting = {0};
     tn_status status = look(map, &eye, &seen, error);
+    int threads = tn_growth_settings(growth)->threads;
+    seen.scene.threads = threads > 0 ? threads : omp_get_max_threads();
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)

@@ -18,6 +18,7 @@ typedef struct tn_scene {
     double (*points)[3]; /* [corner] to the right, up, and towards the eye; the whole not much larger than 1 */
     uint32_t *first;     /* [face_count + 1] each face's first corner; faces have three or more */
     uint32_t face_count;
+    int threads; /* that may work on it, which changes nothing; 0 counts as 1 */
 } tn_scene;
 
 #define TN_CUT UINT32_MAX

@@ -193,6 +193,38 @@ static void test_degenerate_faces(void **state)
     tn_painting_clear(&s.painting);
 }
 
+/* So many that parts of the picture are searched side by side. */
+static void test_any_number_of_threads_paints_the_same(void **state)
+{
+    (void)state;
+    enum { MANY = 6000 };
+    static double points[3 * MANY][3];
+    static uint32_t first[MANY + 1];
+    uint64_t random = 11;
+    for (uint32_t f = 0; f < MANY; f++) {
+        double middle[3] = {place(&random), place(&random), place(&random)};
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                points[3 * f + (uint32_t)c][k] = middle[k] + 0.05 * place(&random);
+        first[f + 1] = 3 * (f + 1);
+    }
+    tn_painting paintings[2] = {0};
+    tn_error error = {0};
+    for (int i = 0; i < 2; i++) {
+        tn_scene scene = {.points = points, .first = first, .face_count = MANY, .threads = i ? 4 : 1};
+        assert_int_equal(tn_painting_make(&scene, &paintings[i], &error), TN_OK);
+    }
+    assert_int_equal(paintings[0].patch_count, paintings[1].patch_count);
+    assert_int_equal(paintings[0].corner_count, paintings[1].corner_count);
+    for (size_t i = 0; i < paintings[0].patch_count; i++) {
+        const tn_patch *a = &paintings[0].patches[i], *b = &paintings[1].patches[i];
+        assert_true(a->face == b->face && a->first == b->first && a->count == b->count && a->piece == b->piece);
+    }
+    assert_memory_equal(paintings[0].points, paintings[1].points, paintings[0].corner_count * sizeof(double[3]));
+    tn_painting_clear(&paintings[0]);
+    tn_painting_clear(&paintings[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +233,7 @@ int main(void)
         cmocka_unit_test(test_faces_with_an_order_stay_whole),
         cmocka_unit_test(test_random_faces),
         cmocka_unit_test(test_degenerate_faces),
+        cmocka_unit_test(test_any_number_of_threads_paints_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
