@@ -1,6 +1,7 @@
 #include "cli/plan_input.h"
 
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/library_job.h"
 #include "driver/suggest_file.h"
@@ -41,13 +42,23 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     return s->plan(s->context, plan, texts);
 }
 
-static bool write_texts(void *context, const tn_buffer texts[TN_RELAY_TEXTS])
+static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_RELAY_TEXTS])
 {
-    const tn_sifting *s = context;
+    tn_sifting *s = context;
     bool written = true;
     for (size_t t = 0; t < TN_RELAY_TEXTS && written; t++)
         written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
+    s->done += plans;
+    tn_progress_update(&s->progress, (double)s->done);
     return written;
+}
+
+/* Not between answers that are shown on the same terminal. */
+static void begin_progress(tn_sifting *s)
+{
+    tn_progress_begin(&s->progress, "plans", 0, 0);
+    for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
+        s->progress.shows &= !s->streams[t] || !*s->streams[t] || !isatty(fileno(*s->streams[t]));
 }
 
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
@@ -65,10 +76,13 @@ bool tn_job_sift(tn_sifting *s)
         return false;
     bool opened = s->open(s->context);
     tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
+    if (opened)
+        begin_progress(s);
     if (opened && tn_sift(reader, s->rules, tn_job_threads(s->job->settings), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }
+    tn_progress_end(&s->progress);
     tn_plan_reader_free(reader);
     return opened;
 }

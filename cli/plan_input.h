@@ -3,6 +3,7 @@
 #define TARTAN_CLI_PLAN_INPUT_H
 
 #include "cli/job.h"
+#include "cli/progress.h"
 #include "driver/sift.h"
 
 #define OPTION_INPUT_FORMAT                                                                                            \
@@ -34,7 +35,9 @@ typedef struct tn_sifting {
     bool (*plan)(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS]);
     FILE **streams[TN_RELAY_TEXTS]; /* where the texts go; NULL where nothing is appended to one */
     void *context;
-    bool stopped; /* before the end of the plans, by a plan that cannot be read or a failure */
+    bool stopped;  /* before the end of the plans, by a plan that cannot be read or a failure */
+    uint64_t done; /* plans written of */
+    tn_progress progress;
 } tn_sifting;
 
 /* Reads the plans as the options say, and reports the bad ones. True where the outputs were opened: then they are to be

@@ -4,6 +4,7 @@
 
 struct tn_relay_slot {
     tn_buffer texts[TN_RELAY_TEXTS];
+    uint64_t items;
     bool finished;
     bool is_counted;
     uint64_t lines;  /* in the chunk */
@@ -75,9 +76,9 @@ void tn_relay_wait(tn_relay *relay, uint64_t chunk)
     pthread_mutex_unlock(&relay->lock);
 }
 
-void tn_relay_now(tn_relay *relay, tn_buffer texts[TN_RELAY_TEXTS])
+void tn_relay_now(tn_relay *relay, uint64_t items, tn_buffer texts[TN_RELAY_TEXTS])
 {
-    if (!tn_relay_stopped(relay) && !relay->write(relay->context, texts))
+    if (!tn_relay_stopped(relay) && !relay->write(relay->context, items, texts))
         tn_relay_stop(relay);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
         texts[t].size = 0;
@@ -109,8 +110,9 @@ static size_t size_of(const tn_relay_slot *slot)
 }
 
 /* Another has the turn: leaves the texts to it. */
-static void leave(tn_relay *relay, tn_relay_slot *slot, tn_buffer texts[TN_RELAY_TEXTS])
+static void leave(tn_relay *relay, tn_relay_slot *slot, uint64_t items, tn_buffer texts[TN_RELAY_TEXTS])
 {
+    slot->items = items;
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++) {
         slot->texts[t] = texts[t];
         texts[t] = (tn_buffer){0};
@@ -130,7 +132,7 @@ static void hand_on(tn_relay *relay, tn_relay_slot *slot)
 {
     size_t size = size_of(slot);
     pthread_mutex_unlock(&relay->lock);
-    tn_relay_now(relay, slot->texts);
+    tn_relay_now(relay, slot->items, slot->texts);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
         free(slot->texts[t].data);
     pthread_mutex_lock(&relay->lock);
@@ -139,16 +141,16 @@ static void hand_on(tn_relay *relay, tn_relay_slot *slot)
     next_turn(relay);
 }
 
-void tn_relay_pass(tn_relay *relay, uint64_t chunk, tn_buffer texts[TN_RELAY_TEXTS])
+void tn_relay_pass(tn_relay *relay, uint64_t chunk, uint64_t items, tn_buffer texts[TN_RELAY_TEXTS])
 {
     pthread_mutex_lock(&relay->lock);
     if (relay->turn != chunk) {
-        leave(relay, slot_of(relay, chunk), texts);
+        leave(relay, slot_of(relay, chunk), items, texts);
         pthread_mutex_unlock(&relay->lock);
         return;
     }
     pthread_mutex_unlock(&relay->lock);
-    tn_relay_now(relay, texts);
+    tn_relay_now(relay, items, texts);
     pthread_mutex_lock(&relay->lock);
     next_turn(relay);
     for (tn_relay_slot *slot; (slot = slot_of(relay, relay->turn))->finished;)

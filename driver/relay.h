@@ -17,8 +17,9 @@
 
 typedef struct tn_relay_slot tn_relay_slot;
 
-/* Hands texts on: called by one thread at a time, in order. false ends it all: later texts are dropped. */
-typedef bool tn_relay_write(void *context, const tn_buffer texts[TN_RELAY_TEXTS]);
+/* Hands texts on, which are about so many items: called by one thread at a time, in order. false ends it all: later
+ * texts are dropped. */
+typedef bool tn_relay_write(void *context, uint64_t items, const tn_buffer texts[TN_RELAY_TEXTS]);
 
 typedef struct tn_relay {
     tn_relay_write *write;
@@ -51,11 +52,11 @@ uint64_t tn_relay_lines_before(tn_relay *relay, uint64_t chunk);
 /* Waits until it is this chunk's turn. Then its thread, and no other, may hand texts on with tn_relay_now and stop it
  * all. */
 void tn_relay_wait(tn_relay *relay, uint64_t chunk);
-void tn_relay_now(tn_relay *relay, tn_buffer texts[TN_RELAY_TEXTS]);
+void tn_relay_now(tn_relay *relay, uint64_t items, tn_buffer texts[TN_RELAY_TEXTS]);
 void tn_relay_stop(tn_relay *relay);
 bool tn_relay_stopped(tn_relay *relay);
 
 /* Ends a chunk. Its texts are empty then. */
-void tn_relay_pass(tn_relay *relay, uint64_t chunk, tn_buffer texts[TN_RELAY_TEXTS]);
+void tn_relay_pass(tn_relay *relay, uint64_t chunk, uint64_t items, tn_buffer texts[TN_RELAY_TEXTS]);
 
 #endif

@@ -54,6 +54,7 @@ typedef struct worker {
     tn_error error;
     tn_buffer bad; /* the text of the plan that is to blame, where it was not among lines taken */
     tn_buffer texts[TN_RELAY_TEXTS];
+    uint64_t told; /* plans that the texts are about */
 } worker;
 
 static void worker_clear(worker *w)
@@ -215,7 +216,8 @@ static void take_turn(worker *w)
     if (!w->has_turn)
         tn_relay_wait(&w->s->relay, w->chunk);
     w->has_turn = true;
-    tn_relay_now(&w->s->relay, w->texts);
+    tn_relay_now(&w->s->relay, w->told, w->texts);
+    w->told = 0;
 }
 
 /* Ends it all. */
@@ -260,6 +262,7 @@ static void report_plan(worker *w, size_t i)
     tn_sifted plan = {w->trays + w->starts[i], w->starts[i + 1] - w->starts[i], w->numbers[i] + w->before,
                       w->bits + i * w->s->words};
     tn_error error;
+    w->told++;
     if (!calls->plan(calls->context, &plan, w->texts))
         give_up(w, tn_fail_memory(&error), &error);
     else if (w->texts[0].size + w->texts[1].size > TEXT_BYTES)
@@ -307,7 +310,8 @@ static void finish_chunk(worker *w)
             read_batch(w, &more);
         match(w, 0, w->count, NULL);
     } while (report(w) && more);
-    tn_relay_pass(&w->s->relay, w->chunk, w->texts);
+    tn_relay_pass(&w->s->relay, w->chunk, w->told, w->texts);
+    w->told = 0;
     w->has_turn = false;
 }
 

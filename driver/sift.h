@@ -21,8 +21,8 @@ typedef struct tn_sift_calls {
     /* Appends to the texts what is to be written of a plan. Called by several threads at once; false where out of
      * memory. */
     bool (*plan)(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS]);
-    /* Writes such texts. This and the next are called by one thread at a time, though not always by the same one, and
-     * in the order of the input. Both return false to end early. */
+    /* Writes such texts, of so many plans. This and the next are called by one thread at a time, though not always by
+     * the same one, and in the order of the input. Both return false to end early. */
     tn_relay_write *write;
     /* A plan that cannot be read or matched; the error has its line. `text` may be NULL. */
     bool (*bad)(void *context, const tn_error *error, const char *text, size_t size);

@@ -18,14 +18,16 @@ typedef struct game {
     pthread_mutex_t taking; /* holds next */
     uint64_t next;          /* chunk */
     tn_buffer out[TN_RELAY_TEXTS];
+    uint64_t items;   /* written of */
     uint64_t stop_at; /* a chunk that ends it all */
     bool refuses;     /* the writer does, at that chunk */
     atomic_int wrong;
 } game;
 
-static bool write_texts(void *context, const tn_buffer texts[TN_RELAY_TEXTS])
+static bool write_texts(void *context, uint64_t items, const tn_buffer texts[TN_RELAY_TEXTS])
 {
     game *g = context;
+    g->items += items;
     char end[32];
     snprintf(end, sizeof end, "%d.", (int)g->stop_at);
     if (g->refuses && texts[0].size > 0 && strstr(texts[0].data, end))
@@ -48,7 +50,7 @@ static void make(game *g, uint64_t chunk, tn_buffer texts[TN_RELAY_TEXTS])
     if (chunk % 7 != 0)
         return;
     tn_relay_wait(&g->relay, chunk);
-    tn_relay_now(&g->relay, texts);
+    tn_relay_now(&g->relay, 1, texts);
     if (chunk == g->stop_at && !g->refuses)
         tn_relay_stop(&g->relay);
     tn_buffer_printf(&texts[chunk % 2], "%*s.", (int)(chunk % 100), "");
@@ -71,7 +73,7 @@ static void *play(void *context)
     tn_buffer texts[TN_RELAY_TEXTS] = {0};
     for (uint64_t chunk; take(g, &chunk);) {
         make(g, chunk, texts);
-        tn_relay_pass(&g->relay, chunk, texts);
+        tn_relay_pass(&g->relay, chunk, 2, texts);
         if (texts[0].size + texts[1].size > 0)
             g->wrong++;
     }
@@ -123,6 +125,7 @@ static void test_order(void **state)
     game g = {.stop_at = UINT64_MAX};
     run(&g);
     expect(&g, CHUNKS - 1, true);
+    assert_int_equal(g.items, 2 * CHUNKS + (CHUNKS + 6) / 7);
     clear(&g);
 }
 
