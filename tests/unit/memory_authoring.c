@@ -111,6 +111,8 @@ static tn_status export(opened_rows *rows, tn_buffer *out, tn_error *error)
         status = tn_lower(lowering, module->RULE_records[1].holds, &dfa, error);
     if (status == TN_OK)
         status = tn_export_regex(dfa, out, error);
+    if (status == TN_OK)
+        status = tn_regex_legend(dfa, classes, out, error);
     if (status == TN_OK && !tn_regex_plan(dfa, classes, dropped, 6, out))
         status = tn_fail_memory(error);
     tn_dfa_free(dfa);
