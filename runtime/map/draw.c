@@ -4,6 +4,7 @@
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/draw/type.h"
 #include "runtime/map/hidden.h"
@@ -27,7 +28,6 @@ struct tn_view {
     double low[2], high[2];
     double width;
     uint32_t step;
-    uint32_t label_count;
     uint32_t by_depth;
 };
 
@@ -192,7 +192,6 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
         return tn_fail_memory(error);
     view->width = camera->width > 0 ? camera->width : 480;
     view->step = tn_growth_steps(growth);
-    view->label_count = tn_growth_rules(growth)->label_count;
     viewpoint eye = place_eye(camera);
     prospect seen;
     tn_painting painting = {0};
@@ -223,14 +222,51 @@ uint32_t tn_view_by_depth(const tn_view *view)
 #define TITLE_HEIGHT 26.0
 #define FOOT_HEIGHT 30.0
 #define LABEL_HEIGHT 16.0
+#define LEGEND_LINE 11.0
+#define LEGEND_ROWS_MAX 40u /* more labels than these tell nobody anything */
 #define HAIRLINE 0.5
 
 typedef struct sheet {
-    double scale; /* points per model unit */
+    double scale;     /* points per model unit */
+    uint32_t *legend; /* labels that are seen; owned */
+    uint32_t legend_count, legend_columns, legend_rows;
+    double legend_cell; /* points a column */
     double cell[2];
     size_t columns, rows;
     double size[2];
 } sheet;
+
+/* Lists the labels that are seen, in one row where that is wide enough. False: out of memory. */
+static bool lay_out_legend(tn_view *const *views, size_t count, const tn_growth_system *system, sheet *s)
+{
+    uint32_t labels = system ? system->label_count : 0;
+    size_t longest = 1;
+    bool *seen = calloc(labels + 1, sizeof *seen);
+    s->legend = malloc((labels + 1) * sizeof *s->legend);
+    s->legend_count = 0;
+    for (size_t i = 0; seen && i < count; i++)
+        for (size_t f = 0; f < views[i]->face_count; f++)
+            for (uint32_t c = 0; c < views[i]->faces[f].size; c++) {
+                uint16_t label = views[i]->labels[views[i]->faces[f].first + c];
+                if (label < labels)
+                    seen[label] = true;
+            }
+    for (uint32_t label = 0; seen && s->legend && label < labels; label++) {
+        if (!seen[label])
+            continue;
+        size_t length = strlen(system->labels[label].name);
+        longest = length > longest ? length : longest;
+        s->legend[s->legend_count++] = label;
+    }
+    s->legend_cell = 26 + 5 * (double)longest; /* of 8 points, letters and digits are at most so wide on the mean */
+    s->legend_columns = (uint32_t)fmax((s->size[0] - 2 * MARGIN) / s->legend_cell, 1);
+    if (s->legend_count > LEGEND_ROWS_MAX * s->legend_columns)
+        s->legend_count = LEGEND_ROWS_MAX * s->legend_columns;
+    s->legend_rows = s->legend_count ? (s->legend_count + s->legend_columns - 1) / s->legend_columns : 1;
+    bool fine = seen && s->legend;
+    free(seen);
+    return fine;
+}
 
 static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
 {
@@ -330,11 +366,16 @@ static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double 
     }
 }
 
-static void write_foot(cairo_t *cr, const tn_view *view, const sheet *s, const tn_view_options *options)
+static void write_foot(cairo_t *cr, const sheet *s, const tn_view_options *options)
 {
-    double x = MARGIN, y = s->size[1] - FOOT_HEIGHT + 10;
+    double x = MARGIN, y = s->size[1] - FOOT_HEIGHT - LEGEND_LINE * (s->legend_rows - 1) + 10;
     tn_type_face(cr, 8, false);
-    for (uint32_t label = 0; options->system && label < view->label_count && x < s->size[0] - 60; label++) {
+    for (uint32_t i = 0; i < s->legend_count; i++) {
+        uint32_t label = s->legend[i];
+        if (s->legend_rows > 1) {
+            x = MARGIN + i % s->legend_columns * s->legend_cell;
+            y += i > 0 && i % s->legend_columns == 0 ? LEGEND_LINE : 0;
+        }
         set_label_colour(cr, label);
         cairo_set_line_width(cr, 2);
         cairo_move_to(cr, x, y - 2.5);
@@ -369,21 +410,27 @@ static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const 
         paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
                    options->labels || count > 1 ? label : NULL);
     }
-    write_foot(cr, views[count - 1], s, options);
+    write_foot(cr, s, options);
 }
 
 tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
                         tn_canvas_format format, tn_error *error)
 {
     sheet s = lay_out(views, count, options);
+    if (!lay_out_legend(views, count, options->system, &s)) {
+        free(s.legend);
+        return tn_fail_memory(error);
+    }
+    s.size[1] += LEGEND_LINE * (s.legend_rows - 1);
     tn_canvas_options canvas_options = {
         .width = s.size[0], .height = s.size[1], .dpi = options->dpi, .title = options->title};
     tn_canvas *canvas;
     tn_status status = tn_canvas_new(path, format, &canvas_options, &canvas, error);
-    if (status != TN_OK)
-        return status;
-    paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
-    status = tn_canvas_commit(canvas, error);
-    tn_canvas_free(canvas);
+    if (status == TN_OK) {
+        paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
+        status = tn_canvas_commit(canvas, error);
+        tn_canvas_free(canvas);
+    }
+    free(s.legend);
     return status;
 }

@@ -176,6 +176,10 @@ void tn_group_colour(uint32_t group, unsigned char rgb[3])
     /* Okabe and Ito's colours, which all readers can tell apart, without black and yellow */
     static const unsigned char colours[][3] = {{0, 114, 178},  {213, 94, 0},  {0, 158, 115}, {204, 121, 167},
                                                {86, 180, 233}, {230, 159, 0}, {120, 94, 60}};
-    const unsigned char *c = colours[group % (sizeof colours / sizeof *colours)];
-    memcpy(rgb, c, 3);
+    const uint32_t count = sizeof colours / sizeof *colours;
+    const unsigned char *c = colours[group % count];
+    for (int k = 0; k < 3; k++) { /* then all of them darker, then lighter */
+        uint32_t round = group / count % 3;
+        rgb[k] = (unsigned char)(round == 0 ? c[k] : round == 1 ? c[k] / 2 : (c[k] + 255) / 2);
+    }
 }

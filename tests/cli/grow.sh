@@ -219,6 +219,14 @@ diff -u expected stats
 run grow square.hemls -n 1 --explain -o x.obj
 grep -q '4 branches point out of the surface' stderr || fail '--explain does not say why'
 
+# Nineteen labels have nineteen colours, in the picture and its legend, which takes more than one row.
+printf 'A' >labels.hemls
+for letter in B C D E F G H I J K L M N O P Q R S; do printf ' + %s' "$letter" >>labels.hemls; done
+printf '; Angle 90\n' >>labels.hemls
+run grow labels.hemls -n 0 -o labels.svg
+[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort -u | wc -l)" = 19 ] || fail 'labels share colours'
+[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort | uniq -c | awk '$1 < 2' | wc -l)" = 0 ] || fail 'the legend leaves labels out'
+
 # Wrong usage.
 for words in '--smooth 3' '--sheet' '--smooth 3 -o x.png' '--subdivide 1 --lines -o x.ply' '--title T -o x.ply' '--normals -o x.stl' '--up y -o x.glb' \
     '--triangulate -o x.dxf' '--each-step --sheet -o x.svg' '-f obj' '-o x' '-o x.txt' '--until sides=3' '-o - --stats' '--sheet -o x.obj' '--azimuth north -o x.svg' 'said.tnb --scale 2'; do
