@@ -8,7 +8,7 @@
 #define HUGE_PAGE ((size_t)2 << 20)
 #define SMALL ((size_t)512 << 10) /* up to here the heap serves as well */
 
-/* A mapping that begins where a huge page does, untouched. */
+/* A mapping that begins where a huge page does, untouched: what is first touched in small pages stays in them. */
 static void *map_aligned(size_t capacity)
 {
     char *data = mmap(NULL, capacity + HUGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -19,6 +19,7 @@ static void *map_aligned(size_t capacity)
         munmap(data, before);
     if (before < HUGE_PAGE)
         munmap(data + before + capacity, HUGE_PAGE - before);
+    madvise(data + before, capacity, MADV_HUGEPAGE); /* advice only: without huge pages it is merely slower */
     return data + before;
 }
 
@@ -58,7 +59,6 @@ bool tn_pages_reserve(tn_pages *pages, size_t size)
     void *data = enlarge(pages, capacity);
     if (!data)
         return false;
-    madvise(data, capacity, MADV_HUGEPAGE); /* advice only: without huge pages it is merely slower */
     *pages = (tn_pages){data, capacity};
     return true;
 }
