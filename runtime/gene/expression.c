@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/vm/any_width.h"
 #include "runtime/vm/numeric.h"
 
 void tn_expression_clear(tn_expression *expression)
@@ -220,19 +221,12 @@ tn_status tn_expression_parse(const char *text, size_t size, const char *const *
 }
 
 /* ---- evaluating: row by row, each operation over a whole row. Rows have one length, so that compilers turn the loops
- * into vector code, also for wider vectors than the oldest processors have, where there are: every element is one IEEE
- * operation by itself, so that the results are the same with any. */
+ * into vector code. */
 
 #define ROW TN_EXPRESSION_ROW
 #define EACH for (size_t i = 0; i < ROW; i++)
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define ANY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default"), optimize("O3")))
-#else
-#define ANY_WIDTH
-#endif
-
-ANY_WIDTH static void compute(tn_expression_op op, const double *a, const double *b, double *restrict out)
+TN_ANY_WIDTH static void compute(tn_expression_op op, const double *a, const double *b, double *restrict out)
 {
     switch (op) {
     case TN_EXPRESSION_ADD:

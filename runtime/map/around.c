@@ -25,17 +25,16 @@ static bool turn(const tn_pass *pass, walker *at)
 /* The vertex at the other end of the first piece of what a dart's edge became. */
 static uint32_t neighbour(const tn_pass *pass, uint32_t side)
 {
-    uint32_t slot = pass->slot[side / 2];
-    if (slot & TN_KEPT)
+    const tn_record *record = &pass->records[side / 2];
+    if (tn_is_kept(record))
         return pass->sides[side ^ 1].origin;
-    const tn_record *record = &pass->records[slot];
     uint32_t pieces = pass->growth->shapes[record->template].template->segment_count;
     bool against = side & 1;
     if (pieces > 1)
         return against ? record->vertex + pieces - 2 : record->vertex;
     uint32_t far = side / 2;
     if (pass->runs)
-        far = against ? pass->runs[slot].first : pass->runs[slot].last;
+        far = against ? pass->runs[far].first : pass->runs[far].last;
     return pass->sides[2 * (size_t)far + (against ? 0 : 1)].origin;
 }
 
@@ -54,8 +53,8 @@ static bool old_vertices_linked(const tn_pass *pass, uint32_t face, const tn_loo
 static bool next_to(const tn_pass *pass, const tn_loop_branch *new, uint32_t old_vertex)
 {
     uint32_t edge = pass->old->side[new->corner] / 2;
-    tn_run run = pass->runs ? pass->runs[new->record] : (tn_run){edge, edge};
-    uint32_t pieces = pass->growth->shapes[pass->records[new->record].template].template->segment_count;
+    tn_run run = pass->runs ? pass->runs[edge] : (tn_run){edge, edge};
+    uint32_t pieces = pass->growth->shapes[pass->records[edge].template].template->segment_count;
     return (new->point == 1 && pass->sides[2 * (size_t)run.first].origin == old_vertex) ||
            (new->point + 1 == pieces && pass->sides[2 * (size_t)run.last + 1].origin == old_vertex);
 }
@@ -66,7 +65,7 @@ bool tn_linked_before(const tn_loop *loop, const tn_pass *pass, uint32_t face, c
     uint32_t u = loop->items[a->item].vertex, v = loop->items[b->item].vertex;
     bool a_new = a->beyond != TN_NONE, b_new = b->beyond != TN_NONE;
     if (a_new && b_new)
-        return a->record == b->record && (a->point + 1 == b->point || b->point + 1 == a->point);
+        return a->edge == b->edge && (a->point + 1 == b->point || b->point + 1 == a->point);
     if (a_new || b_new)
         return a_new ? next_to(pass, a, v) : next_to(pass, b, u);
     return old_vertices_linked(pass, face, a, u, b, v);

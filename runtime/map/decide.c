@@ -125,7 +125,7 @@ static bool keep_pattern_pending(const decision *d, const tn_cuts *cuts, const t
         uint32_t dart = pass->old->face_first[face] + tn_reference_dart(waiting[i].branch);
         uint32_t index = waiting[i].branch & 0xffff;
         uint32_t edge = pass->old->side[dart] / 2;
-        const tn_record *record = &pass->records[pass->slot[edge]];
+        const tn_record *record = &pass->records[edge];
         const tn_template_branch *branch = &pass->growth->system->templates[record->template].branches[index];
         tn_vector heading, up;
         double length;
@@ -182,12 +182,13 @@ static uint64_t plain_darts(const tn_pass *pass, uint32_t face)
 {
     uint64_t darts = 0;
     for (uint32_t d = pass->old->face_first[face]; d < pass->old->face_first[face + 1]; d++) {
-        uint32_t side = pass->old->side[d], slot = pass->slot[side / 2];
-        if (slot & TN_KEPT) {
+        uint32_t side = pass->old->side[d];
+        const tn_record *record = &pass->records[side / 2];
+        if (tn_is_kept(record)) {
             darts++;
             continue;
         }
-        const tn_shape *shape = &pass->growth->shapes[pass->records[slot].template];
+        const tn_shape *shape = &pass->growth->shapes[record->template];
         if (face != TN_OUTER_FACE && (side & 1 ? shape->right_branches : shape->left_branches))
             return 0;
         darts += shape->template->segment_count;
@@ -238,7 +239,8 @@ static void decide_chunk(void *context, uint32_t number)
     pass->chunks[number] = (tn_face_chunk){.decider = decider};
     decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
     for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
-        tn_ask_ahead(pass, pass->old->face_first[f], pass->old->face_first[f + 1], pass->frames, sizeof *pass->frames);
+        if (f % TN_TOGETHER == 0)
+            tn_ask_ahead(pass, f, pass->aims, sizeof *pass->aims, pass->branch_first);
         d.decider->failed = !decide_face(&d, f);
     }
 }

@@ -37,21 +37,26 @@ static inline const tn_cuts *tn_cuts_of(const tn_pass *pass, const tn_face_chunk
     return of_pattern ? &decider->patterns.cuts : &decider->cuts;
 }
 
-#define TN_AHEAD 32u /* darts */
+#define TN_AHEAD 32u   /* darts */
+#define TN_TOGETHER 8u /* faces, asked for at once */
 
-/* What some darts further on than first .. end will need lies all over memory: asked for now, it is there in time.
- * `items` are of `size` bytes, one a record. Always inlined: a call that only asks is taken for one without effect. */
-static inline __attribute__((always_inline)) void tn_ask_ahead(const tn_pass *pass, uint32_t first, uint32_t end,
-                                                               const void *items, size_t size)
+/* What the darts some way behind those of this face and the next ones will need lies all over memory: asked for now, it
+ * is there in time. Records, and of `items` (of `size` bytes, one for each branch from `first` on) those of the edges'
+ * first branches. Always inlined: a call that only asks is taken for one without effect. */
+static inline __attribute__((always_inline)) void tn_ask_ahead(const tn_pass *pass, uint32_t face, const void *items,
+                                                               size_t size, uint32_t first)
 {
-    const uint32_t *side = pass->old->side, *slots = pass->slot;
-    if (end + 2 * TN_AHEAD > 2 * pass->old->edge_count)
+    const tn_map *old = pass->old;
+    uint32_t last = old->face_count - face < TN_TOGETHER ? old->face_count : face + TN_TOGETHER;
+    const uint32_t *side = old->side + old->face_first[face], *end = old->side + old->face_first[last];
+    const uint32_t *all = old->side + 2 * (size_t)old->edge_count;
+    if (all - end < 4 * TN_AHEAD)
         return;
-    for (size_t i = first; i < end; i++) {
-        __builtin_prefetch(&slots[side[i + 2 * TN_AHEAD] / 2]);
-        uint32_t slot = slots[side[i + TN_AHEAD] / 2];
-        if (!(slot & TN_KEPT))
-            __builtin_prefetch((const char *)items + slot * size);
+    for (; side < end; side++) {
+        __builtin_prefetch(&pass->records[side[4 * TN_AHEAD] / 2], 0, 2); /* so far ahead, the second cache does */
+        const tn_record *record = &pass->records[side[TN_AHEAD] / 2];
+        if (!tn_is_kept(record))
+            __builtin_prefetch((const char *)items + (record->branch - first) * size);
     }
 }
 

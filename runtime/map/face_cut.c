@@ -113,8 +113,8 @@ typedef struct table {
 /* The pieces that a dart's edge became; 0 where it is kept. */
 static uint32_t pieces_of(const table *face, uint32_t dart)
 {
-    uint32_t slot = face->pass->slot[face->pass->old->side[face->first + dart] / 2];
-    return slot & TN_KEPT ? 0 : face->pass->growth->shapes[face->pass->records[slot].template].template->segment_count;
+    const tn_record *record = &face->pass->records[face->pass->old->side[face->first + dart] / 2];
+    return tn_is_kept(record) ? 0 : face->pass->growth->system->templates[record->template].segment_count;
 }
 
 static uint32_t refer_to_vertex(const table *face, uint32_t vertex)
@@ -147,10 +147,9 @@ static uint32_t refer_to_side(const table *face, uint32_t side)
 static const tn_template_branch *refer_to_branch(const table *face, uint32_t *id)
 {
     for (uint32_t i = 0; i < face->size; i++) {
-        uint32_t slot = face->pass->slot[face->pass->old->side[face->first + i] / 2];
-        if (slot & TN_KEPT)
+        const tn_record *record = &face->pass->records[face->pass->old->side[face->first + i] / 2];
+        if (tn_is_kept(record))
             continue;
-        const tn_record *record = &face->pass->records[slot];
         const tn_template *template = face->pass->growth->shapes[record->template].template;
         uint32_t more = *id - record->branch;
         if (more >= template->branch_count)

@@ -7,6 +7,8 @@
 #ifndef TARTAN_MAP_FACE_CUT_H
 #define TARTAN_MAP_FACE_CUT_H
 
+#include <string.h>
+
 #include "runtime/map/join.h"
 
 #define TN_CUT_PLAIN TN_NONE          /* no branches: one loop, each edge's pieces in place of it */
@@ -79,7 +81,7 @@ static inline uint32_t tn_reference_dart(uint32_t reference)
 static inline void tn_write_joint(const tn_pass *pass, const tn_cut_join *join, uint32_t one, uint32_t other,
                                   uint32_t *sides)
 {
-    uint32_t edge = pass->joints[one < other ? one : other], turned = !join->directed && other < one;
+    uint32_t later = other < one, edge = pass->joints[later ? other : one], turned = later & !join->directed;
     sides[join->one_dart] = 2 * edge + turned;
     sides[join->other_dart] = 2 * edge + !turned;
 }
@@ -88,17 +90,11 @@ static inline void tn_write_joint(const tn_pass *pass, const tn_cut_join *join, 
  * the side where the edge is kept), and the vertex that it leaves. */
 static inline void tn_dart_bases(const tn_pass *pass, uint32_t dart, uint32_t bases[TN_BASES])
 {
-    uint32_t side = pass->old->side[dart], slot = pass->slot[side / 2];
+    uint32_t side = pass->old->side[dart];
+    const tn_record *record = &pass->records[side / 2];
+    memcpy(bases, record, 3 * sizeof *bases); /* side, vertex and branch */
+    bases[TN_BASE_SIDE] += side & tn_is_kept(record);
     bases[TN_BASE_ORIGIN] = pass->old->origin[dart];
-    if (slot & TN_KEPT) {
-        bases[TN_BASE_SIDE] = 2 * (slot & ~TN_KEPT) | (side & 1);
-        bases[TN_BASE_VERTEX] = bases[TN_BASE_BRANCH] = 0;
-        return;
-    }
-    const tn_record *record = &pass->records[slot];
-    bases[TN_BASE_SIDE] = 2 * record->child;
-    bases[TN_BASE_VERTEX] = record->vertex;
-    bases[TN_BASE_BRANCH] = record->branch;
 }
 
 /* Turns the last cut that was added, made of this face's loop, into one of references. */

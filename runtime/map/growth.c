@@ -64,10 +64,21 @@ static uint32_t walk_corner(const tn_template *template, uint32_t at, uint8_t si
     return count;
 }
 
+static void make_pieces(const tn_template *template, tn_piece *pieces)
+{
+    for (uint32_t j = 0; j < template->segment_count; j++) {
+        const tn_template_segment *segment = &template->segments[j];
+        bool keeps = segment->age != TN_AGE_ZERO; /* or counts from it */
+        pieces[j] = (tn_piece){keeps ? tn_state(0, -1, false) : 0,
+                               tn_state(segment->label, tn_changed_age(segment->age, 0), false)};
+    }
+}
+
 static tn_walk *make_shape(tn_shape *shape, const tn_template *template, tn_walk *walk)
 {
     uint32_t points = template->segment_count;
     shape->template = template;
+    make_pieces(template, shape->pieces);
     shape->left = walk;
     for (uint32_t j = 0; j <= points; j++) {
         walk += walk_corner(template, j, TN_SIDE_LEFT, walk);
@@ -93,17 +104,24 @@ static tn_walk *make_shape(tn_shape *shape, const tn_template *template, tn_walk
 static tn_status make_shapes(tn_growth *growth, tn_error *error)
 {
     const tn_growth_system *system = growth->system;
-    size_t items = 0;
-    for (uint32_t t = 0; t < system->template_count; t++)
+    size_t items = 0, pieces = 0;
+    for (uint32_t t = 0; t < system->template_count; t++) {
+        pieces += system->templates[t].segment_count;
         items += 2 * (size_t)system->templates[t].segment_count + system->templates[t].branch_count;
+    }
     growth->shapes = calloc(system->template_count ? system->template_count : 1, sizeof *growth->shapes);
     growth->walks = malloc((items ? items : 1) * sizeof *growth->walks);
+    growth->pieces = malloc((pieces ? pieces : 1) * sizeof *growth->pieces);
     growth->group_of = malloc(system->label_count * sizeof *growth->group_of);
-    if (!growth->shapes || !growth->walks || !growth->group_of)
+    if (!growth->shapes || !growth->walks || !growth->pieces || !growth->group_of)
         return tn_fail_memory(error);
     tn_walk *walk = growth->walks;
-    for (uint32_t t = 0; t < system->template_count; t++)
+    tn_piece *piece = growth->pieces;
+    for (uint32_t t = 0; t < system->template_count; t++) {
+        growth->shapes[t].pieces = piece;
         walk = make_shape(&growth->shapes[t], &system->templates[t], walk);
+        piece += system->templates[t].segment_count;
+    }
     memset(growth->group_of, 0xff, system->label_count * sizeof *growth->group_of);
     for (uint32_t g = 0; g < system->group_count; g++) {
         const tn_growth_group *group = &system->groups[g];
@@ -190,6 +208,7 @@ static void clear_shapes(tn_growth *growth)
     clear_pending(growth);
     free(growth->shapes);
     free(growth->walks);
+    free(growth->pieces);
     free(growth->group_of);
 }
 
@@ -235,7 +254,7 @@ void tn_growth_free(tn_growth *growth)
     tn_workspace *space = &growth->space;
     tn_pages *all[] = {&space->positions, &space->states[0], &space->states[1], &space->darts[0], &space->darts[1],
                        &space->faces[0],  &space->faces[1],  &space->survey,    &space->choices,  &space->chunks,
-                       &space->slots,     &space->records,   &space->joints,    &space->cut_of,   &space->made};
+                       &space->records,   &space->joints,    &space->cut_of,    &space->made};
     tn_deciders_clear(space);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         tn_pages_release(all[i]);
@@ -259,14 +278,18 @@ static bool anything_to_do(const tn_pass *pass)
 static void explain_outside(tn_pass *pass)
 {
     uint64_t *failures = pass->growth->counts.failures;
-    for (uint32_t r = 0; r < pass->record_count; r++) {
-        const tn_frame *frame = &pass->frames[r];
-        const tn_template *template = &pass->growth->system->templates[frame->template];
+    for (uint32_t e = 0; e < pass->old->edge_count; e++) {
+        const tn_record *record = &pass->records[e];
+        if (tn_is_kept(record) || (pass->runs && pass->runs[e].first != e))
+            continue;
+        uint32_t last = pass->runs ? pass->runs[e].last : e;
+        uint32_t left = pass->sides[2 * (size_t)e].face, right = pass->sides[2 * (size_t)last + 1].face;
+        const tn_template *template = &pass->growth->system->templates[record->template];
         for (uint32_t b = 0; b < template->branch_count; b++) {
             uint8_t side = template->branches[b].side;
             if (side == TN_SIDE_NONE)
                 failures[TN_FAIL_SIDE]++;
-            else if ((side == TN_SIDE_LEFT ? frame->left_face : frame->right_face) == TN_OUTER_FACE)
+            else if ((side == TN_SIDE_LEFT ? left : right) == TN_OUTER_FACE)
                 failures[TN_FAIL_OUTER]++;
         }
     }

@@ -19,7 +19,7 @@ typedef struct tn_loop_branch {
     uint32_t id, label, item;
     int32_t age;
     int32_t partner; /* index of the branch it joined, or -1 */
-    uint32_t record; /* of the edge it comes from; TN_NONE: from an earlier pass */
+    uint32_t edge;   /* that it comes from, or the first of its chain; TN_NONE: from an earlier pass */
     uint32_t point;  /* the path's point it leaves from */
     uint32_t beyond; /* the face on the other side of its edge, where its vertex is new; TN_NONE: an old vertex */
     uint32_t corner; /* a dart of the old face: it starts at the old vertex, or is the edge that the new one divides */

@@ -25,21 +25,22 @@ static void add_dart(tn_loop *loop, uint32_t vertex, uint32_t side)
     loop->items[loop->item_count++] = (tn_loop_item){vertex, side, 0, false, false};
 }
 
-/* A branch of a record; its direction is filled in by the caller. */
-static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32_t index, uint32_t vertex,
-                       uint32_t beyond, uint32_t corner)
+/* A branch of a replaced edge; its direction is filled in by the caller. */
+static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t edge, uint32_t index, uint32_t vertex,
+                       uint32_t corner)
 {
-    const tn_record *record = &pass->records[slot];
+    const tn_record *record = &pass->records[edge];
+    uint32_t id = record->branch + index, beyond = pass->aims[id - pass->branch_first].beyond;
     const tn_template *template = pass->growth->shapes[record->template].template;
     const tn_template_branch *b = &template->branches[index];
     bool old = b->at == 0 || b->at == template->segment_count;
     loop->branches[loop->branch_count] = (tn_loop_branch){.at = tn_vector_at(pass->new->positions + 3 * (size_t)vertex),
-                                                          .id = record->branch + index,
+                                                          .id = id,
                                                           .label = b->label,
                                                           .item = loop->item_count,
                                                           .age = tn_changed_age(b->age, record->age),
                                                           .partner = -1,
-                                                          .record = slot,
+                                                          .edge = pass->runs ? pass->runs[edge].first : edge,
                                                           .point = b->at,
                                                           .beyond = old ? TN_NONE : beyond,
                                                           .corner = corner,
@@ -47,13 +48,13 @@ static void add_branch(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32
     loop->items[loop->item_count++] = (tn_loop_item){vertex, loop->branch_count++, 0, true, false};
 }
 
-/* Directions of the branches from `first` on, which are those of the edge of a side (or of its chain). */
-static void turn_branches(tn_loop *loop, const tn_pass *pass, uint32_t slot, uint32_t side, uint32_t first)
+/* Directions of the branches from `first` on, which are those of an edge (or of its chain). */
+static void turn_branches(tn_loop *loop, const tn_pass *pass, uint32_t edge, uint32_t first)
 {
     if (first == loop->branch_count)
         return;
-    const tn_record *record = &pass->records[slot];
-    tn_run run = pass->runs ? pass->runs[slot] : (tn_run){side / 2, side / 2};
+    const tn_record *record = &pass->records[edge];
+    tn_run run = pass->runs ? pass->runs[edge] : (tn_run){edge, edge};
     tn_vector heading, up;
     double length;
     tn_pass_frame(pass, run.first, run.last, &heading, &up, &length);
@@ -74,7 +75,7 @@ static void add_pending(tn_loop *loop, const tn_pass *pass, const tn_pending *pe
                                .item = loop->item_count,
                                .age = pending->age,
                                .partner = -1,
-                               .record = TN_NONE,
+                               .edge = TN_NONE,
                                .beyond = TN_NONE,
                                .corner = pending->dart,
                                .reversed = pending->reversed};
@@ -82,15 +83,14 @@ static void add_pending(tn_loop *loop, const tn_pass *pass, const tn_pending *pe
 }
 
 /* The pieces of a replaced edge along one side, from the old dart `here` on; `next` is the one after them. */
-static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool against, uint32_t here, uint32_t next,
+static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t edge, bool against, uint32_t here, uint32_t next,
                        bool branches)
 {
     uint32_t start = pass->old->origin[here], end = pass->old->origin[next];
-    const tn_record *record = &pass->records[slot];
+    const tn_record *record = &pass->records[edge];
     const tn_shape *shape = &pass->growth->shapes[record->template];
     const tn_walk *walk = against ? shape->right : shape->left;
     uint32_t count = against ? shape->right_count : shape->left_count, points = shape->template->segment_count;
-    uint32_t beyond = against ? pass->frames[slot].left_face : pass->frames[slot].right_face;
     for (uint32_t i = 0; i < count; i++) {
         if (walk[i].branch && !branches)
             continue;
@@ -101,9 +101,9 @@ static void add_pieces(tn_loop *loop, const tn_pass *pass, uint32_t slot, bool a
         else if (at == 0 || at == points)
             vertex = start;
         if (walk[i].branch)
-            add_branch(loop, pass, slot, walk[i].index, vertex, beyond, leaves_end ? next : here);
+            add_branch(loop, pass, edge, walk[i].index, vertex, leaves_end ? next : here);
         else
-            add_dart(loop, vertex, 2 * (record->child + walk[i].index) + (walk[i].reversed != against));
+            add_dart(loop, vertex, record->side + 2 * walk[i].index + (walk[i].reversed != against));
     }
 }
 
@@ -120,13 +120,14 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
     }
     loop->item_count = loop->branch_count = loop->join_count = loop->candidate_count = 0;
     for (uint32_t i = 0; i < size; i++) {
-        uint32_t slot = pass->slot[sides[i] / 2], room = 1, next = i + 1;
+        uint32_t edge = sides[i] / 2, room = 1, next = i + 1;
         bool against = sides[i] & 1;
-        const tn_shape *shape = slot & TN_KEPT ? NULL : &pass->growth->shapes[pass->records[slot].template];
+        const tn_record *record = &pass->records[edge];
+        const tn_shape *shape = tn_is_kept(record) ? NULL : &pass->growth->shapes[record->template];
         if (shape) {
-            if (pass->runs && sides[i] / 2 != (against ? pass->runs[slot].last : pass->runs[slot].first))
+            if (pass->runs && edge != (against ? pass->runs[edge].last : pass->runs[edge].first))
                 continue; /* within a chain: its head on this side stands for all of it */
-            while (pass->runs && pass->slot[sides[next % size] / 2] == slot)
+            while (pass->runs && pass->runs[sides[next % size] / 2].first == pass->runs[edge].first)
                 next++;
             room = against ? shape->right_count : shape->left_count;
         }
@@ -137,10 +138,10 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
             add_pending(loop, pass, pending++, origins[i]);
         uint32_t before = loop->branch_count;
         if (shape)
-            add_pieces(loop, pass, slot, against, first + i, first + next % size, branches);
+            add_pieces(loop, pass, edge, against, first + i, first + next % size, branches);
         else
-            add_dart(loop, origins[i], 2 * (slot & ~TN_KEPT) | against);
-        turn_branches(loop, pass, slot, sides[i], before);
+            add_dart(loop, origins[i], record->side | against);
+        turn_branches(loop, pass, edge, before);
     }
     return true;
 }

@@ -5,7 +5,7 @@
  *
  *   survey   each edge side's vertex and face, each face's normal                            (survey.c)
  *   match    which template, if any, replaces each edge                                      (match.c)
- *   rewrite  numbers, states, frames and new vertices of what replaces each edge             (rewrite.c)
+ *   rewrite  numbers, states, new vertices and branches' directions of what replaces each edge (rewrite.c)
  *   decide   which branches of each face join, and into which loops the face is cut           (decide.c)
  *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
@@ -34,34 +34,37 @@ typedef struct tn_walk {
     uint16_t at;   /* the path's point: where the dart starts, or the branch leaves */
 } tn_walk;
 
+/* A segment's state from that of the edge it replaces: (old & kept) + added. */
+typedef struct tn_piece {
+    tn_edge_state kept, added;
+} tn_piece;
+
 typedef struct tn_shape {
     const tn_template *template;
+    tn_piece *pieces;      /* [segment] */
     tn_walk *left, *right; /* left: along the path; right: back */
     uint32_t left_count, right_count;
     uint32_t left_branches, right_branches;
     bool end_branches; /* some branch leaves from an end of the path, a vertex that was there before */
 } tn_shape;
 
-/* What replaces an edge (or a chain of edges): the numbers that writing it needs. */
+/* What becomes of an edge: the numbers that writing it needs. The edges of a chain that is replaced as one have the
+ * same.
+ */
 typedef struct tn_record {
-    uint32_t child;  /* first new edge */
-    uint32_t vertex; /* first new vertex, at the path's point 1 */
-    uint32_t branch; /* first branch */
-    uint16_t template;
-    int16_t age; /* of the replaced edge */
+    uint32_t side;     /* first new edge's, along it; of a kept edge, its own */
+    uint32_t vertex;   /* first new vertex, at the path's point 1; kept: 0 */
+    uint32_t branch;   /* first branch; kept: 0 */
+    uint16_t template; /* TN_NO_TEMPLATE: it is kept */
+    int16_t age;       /* of the replaced edge */
 } tn_record;
 
-typedef float tn_quad __attribute__((vector_size(16)));
-
-/* Where it is: all that most faces need to know of it to join its branches, in one cache line. The frame is rounded;
- * where that could decide anything, tn_pass_frame works it out again. */
-typedef struct tn_frame {
-    tn_quad heading, left, up;      /* of the replaced edge; each one's last is 0 */
-    uint32_t left_face, right_face; /* of the old map */
-    uint32_t branch;                /* these three as in its record */
-    uint16_t template;
-    int16_t age;
-} tn_frame;
+/* All that most faces need to know of a branch to join it. The direction is rounded; where that could decide anything,
+ * tn_pass_frame works it out again. */
+typedef struct tn_aim {
+    float direction[3];
+    uint32_t beyond; /* the old map's face on the other side of the edge that it leaves */
+} tn_aim;
 
 /* One side of an edge. */
 typedef struct tn_edge_side {
@@ -94,7 +97,7 @@ typedef struct tn_pending_list {
  */
 typedef struct tn_workspace {
     tn_pages positions, states[2], darts[2], faces[2];
-    tn_pages survey, choices, chunks, slots, records, joints, cut_of, made;
+    tn_pages survey, choices, chunks, records, joints, cut_of, made;
     int current;
     struct tn_decider *deciders; /* [decider_count] one for each thread */
     int decider_count;
@@ -106,7 +109,8 @@ struct tn_growth {
     tn_growth_options options;
     double branch_cosine; /* -cos(branch angle) + 1e-9: joined directions' product is at most this */
     tn_shape *shapes;     /* [template] */
-    tn_walk *walks;       /* storage of the shapes */
+    tn_walk *walks;       /* storage of the shapes, */
+    tn_piece *pieces;     /* and this */
     uint32_t *group_of;   /* [label] the group whose whole predecessor it is, or TN_NONE */
     bool weighted;        /* some choice is random */
     bool ranked;          /* faces have ranks (see tn_growth_step) */
@@ -135,7 +139,7 @@ typedef struct tn_pass {
     bool joins_last;                  /* what does not join now is dropped */
     int threads;
     /* survey */
-    tn_edge_side *sides; /* [2 edge + against] */
+    tn_edge_side *sides; /* [2 edge + against]; lie where the new map's darts will be: gone once faces are decided */
     double *normal;      /* [face][3] */
     uint32_t *dart;      /* [2 edge + against]; only where `walks_vertices` */
     bool walks_vertices; /* joining may ask who is around a vertex */
@@ -144,12 +148,11 @@ typedef struct tn_pass {
     struct tn_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
     size_t list_count;
     /* rewrite */
-    uint32_t *slot; /* [edge] its record, or TN_KEPT | its new number */
-    tn_record *records;
-    tn_frame *frames; /* [record]; lie where the new map's darts will be: gone once faces are decided */
-    uint32_t record_count;
-    tn_run *runs;                        /* [record]; only where chains are replaced */
-    uint32_t vertices, edges;            /* of the new map, without joined edges */
+    tn_record *records;       /* [edge] */
+    tn_aim *aims;             /* [branch - branch_first]; behind the sides */
+    tn_run *runs;             /* [edge] the chain that it was in; only where chains are replaced */
+    uint32_t vertices, edges; /* of the new map, without joined edges */
+    uint64_t rewrites;
     uint32_t branch_first, branch_count; /* numbers of this pass's branches: [first, first + count) */
     bool out_of_range;
     /* decide */
@@ -159,9 +162,14 @@ typedef struct tn_pass {
     uint32_t *made;   /* [rank of a face] its joins, then the rank of the first face that they make; NULL: no ranks */
     struct tn_face_chunk *chunks;
     uint32_t chunk_count;
+    /* stamp */
+    bool has_lanes; /* the processor has them (stamp_lanes.h) */
 } tn_pass;
 
-#define TN_KEPT 0x80000000u
+static inline bool tn_is_kept(const tn_record *record)
+{
+    return record->template == TN_NO_TEMPLATE;
+}
 
 /* The age of what a successor draws, by the mark it has there (tn_age_change), from the age of what it replaces. */
 static inline int32_t tn_changed_age(uint8_t change, int32_t age)
@@ -175,6 +183,10 @@ typedef struct tn_replacement {
 } tn_replacement;
 
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
+
+/* Room for the aims of this many branches behind the sides, which may move. False: out of memory. */
+bool tn_pass_reserve_aims(tn_pass *pass, size_t count);
+
 tn_status tn_pass_match(tn_pass *pass, tn_error *error);
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error);
 

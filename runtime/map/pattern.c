@@ -9,6 +9,9 @@
 #define CANDIDATES 7u   /* pairs that may join in one face where their order matters: a byte each names them in a key */
 #define PATTERNS 1024u  /* past it, faces are worked out by themselves */
 #define VARIANTS 65536u /* likewise */
+#define TEMPLATES 32767u /* that a code can name; systems of more have no patterns */
+#define CODES 4u         /* in a word */
+#define CODE_WORDS (TN_PATTERN_DARTS / CODES)
 #define ORDERED ((uint64_t)1 << 63)
 #define FLIPPED 0x40u /* in an ordered key: the pair's second branch is the lower one */
 #define CLOSE 1e-5f   /* to a right answer's border: many times what rounding to float could change */
@@ -22,13 +25,12 @@ typedef struct pattern_branch {
 
 /* Two branches of one label, at vertices that nothing links. */
 typedef struct pattern_pair {
-    tn_quad a_turn[3], b_turn[3]; /* their directions in their edges' frames: each coordinate four times */
     pattern_branch a, b;
     uint32_t against; /* the pairs that it excludes: a bit each */
 } pattern_pair;
 
 typedef struct tn_pattern {
-    uint32_t codes[TN_PATTERN_DARTS]; /* [dart] 0: kept; otherwise 1 + 2 * template + against */
+    uint64_t codes[CODE_WORDS]; /* 16 bits for each dart: 0: kept; otherwise 1 + 2 * template + against */
     uint32_t size;
     bool unusual;      /* to be worked out by themselves */
     uint32_t last_cut; /* of the variant met last */
@@ -54,8 +56,8 @@ typedef struct candidate {
 typedef struct view {
     const tn_pass *pass;
     uint32_t first, size; /* its darts */
-    uint32_t codes[TN_PATTERN_DARTS];
-    const tn_frame *frames[TN_PATTERN_DARTS];
+    uint64_t codes[CODE_WORDS];
+    uint32_t branches[TN_PATTERN_DARTS]; /* [dart] its edge's first */
 } view;
 
 void tn_patterns_clear(tn_patterns *patterns)
@@ -75,49 +77,59 @@ void tn_patterns_forget(tn_patterns *patterns)
     tn_cuts_empty(&patterns->cuts);
 }
 
-/* Returns the hash of what it sees. */
-static uint64_t look(const tn_pass *pass, uint32_t face, view *seen)
+static inline void look(const tn_pass *pass, uint32_t face, view *seen)
 {
-    const uint32_t *sides = pass->old->side + pass->old->face_first[face], *slots = pass->slot;
+    const uint32_t *sides = pass->old->side + pass->old->face_first[face];
     uint32_t size = tn_face_size(pass->old, face);
-    uint64_t hash = size;
     seen->pass = pass;
     seen->first = pass->old->face_first[face];
     seen->size = size;
-    for (uint32_t i = 0; i < size; i++) {
-        uint32_t side = sides[i], slot = slots[side / 2], code = 0;
-        if (!(slot & TN_KEPT)) {
-            seen->frames[i] = &pass->frames[slot];
-            code = 1 + 2 * (uint32_t)seen->frames[i]->template + (side & 1);
+    for (uint32_t first = 0; first < size; first += CODES) {
+        uint32_t end = size - first < CODES ? size : first + CODES;
+        uint64_t word = 0;
+        for (uint32_t i = first; i < end; i++) {
+            const tn_record *record = &pass->records[sides[i] / 2];
+            uint32_t code = tn_is_kept(record) ? 0 : 1 + 2 * (uint32_t)record->template + (sides[i] & 1);
+            seen->branches[i] = record->branch;
+            word |= (uint64_t)code << 16 * (i - first);
         }
-        seen->codes[i] = code;
-        hash = (hash ^ code) * 0x9e3779b97f4a7c15u;
+        seen->codes[first / CODES] = word;
     }
-    return hash ^ hash >> 32;
+}
+
+static uint32_t code_at(const tn_pattern *pattern, uint32_t dart)
+{
+    return pattern->codes[dart / CODES] >> 16 * (dart % CODES) & 0xffff;
 }
 
 /* ---- the pattern of a face */
 
-static size_t slot_of(const tn_patterns *patterns, const uint32_t *codes, uint32_t size, uint64_t hash)
+static inline uint64_t hash_of(const uint64_t *codes, uint32_t size)
 {
+    uint64_t hash = size;
+    for (uint32_t i = 0; i * CODES < size; i++)
+        hash = (hash ^ codes[i]) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 32;
+}
+
+static inline bool same_codes(const uint64_t *a, const uint64_t *b, uint32_t size)
+{
+    for (uint32_t i = 0; i * CODES < size; i++)
+        if (a[i] != b[i])
+            return false;
+    return true;
+}
+
+static inline size_t slot_of(const tn_patterns *patterns, const uint64_t *codes, uint32_t size)
+{
+    uint64_t hash = hash_of(codes, size);
     for (size_t i = (size_t)hash & (patterns->slot_count - 1);; i = (i + 1) & (patterns->slot_count - 1)) {
         if (patterns->slots[i] == 0)
             return i;
         const tn_pattern *one = &patterns->items[patterns->slots[i] - 1];
-        uint32_t same = 0;
-        while (one->size == size && same < size && one->codes[same] == codes[same])
-            same++;
-        if (same == size)
+        if (one->size == size && same_codes(one->codes, codes, size))
             return i;
     }
-}
-
-static uint64_t hash_of(const tn_pattern *pattern)
-{
-    uint64_t hash = pattern->size;
-    for (uint32_t i = 0; i < pattern->size; i++)
-        hash = (hash ^ pattern->codes[i]) * 0x9e3779b97f4a7c15u;
-    return hash ^ hash >> 32;
 }
 
 static bool make_slots(tn_patterns *patterns)
@@ -131,7 +143,7 @@ static bool make_slots(tn_patterns *patterns)
     patterns->slot_count = larger;
     for (size_t i = 0; i < patterns->count; i++) {
         const tn_pattern *one = &patterns->items[i];
-        slots[slot_of(patterns, one->codes, one->size, hash_of(one))] = (uint32_t)i + 1;
+        slots[slot_of(patterns, one->codes, one->size)] = (uint32_t)i + 1;
     }
     return true;
 }
@@ -141,10 +153,11 @@ static bool list_branches(const tn_pass *pass, const tn_pattern *pattern, patter
 {
     *count = 0;
     for (uint32_t i = 0; i < pattern->size; i++) {
-        if (pattern->codes[i] == 0)
+        uint32_t code = code_at(pattern, i);
+        if (code == 0)
             continue;
-        const tn_shape *shape = &pass->growth->shapes[(pattern->codes[i] - 1) / 2];
-        bool against = (pattern->codes[i] - 1) & 1;
+        const tn_shape *shape = &pass->growth->shapes[(code - 1) / 2];
+        bool against = (code - 1) & 1;
         const tn_walk *walk = against ? shape->right : shape->left;
         for (uint32_t w = 0; w < (against ? shape->right_count : shape->left_count); w++) {
             if (!walk[w].branch)
@@ -156,14 +169,6 @@ static bool list_branches(const tn_pass *pass, const tn_pattern *pattern, patter
         }
     }
     return true;
-}
-
-static void set_turn(tn_quad turn[3], const tn_template_branch *branch)
-{
-    for (int k = 0; k < 3; k++) {
-        float x = (float)branch->direction[k];
-        turn[k] = (tn_quad){x, x, x, 0};
-    }
 }
 
 static bool same_vertex(const pattern_branch *a, const pattern_branch *b)
@@ -206,8 +211,6 @@ static void add_pairs(const tn_pass *pass, tn_pattern *pattern)
             }
             pattern_pair *pair = &pattern->pairs[pattern->pair_count];
             *pair = (pattern_pair){.a = *x, .b = *y};
-            set_turn(pair->a_turn, x->is);
-            set_turn(pair->b_turn, y->is);
             for (uint32_t p = 0; p < pattern->pair_count; p++) {
                 if (!exclude(&pattern->pairs[p], pair) && !cross(places[p][0], places[p][1], i, j))
                     continue;
@@ -221,12 +224,12 @@ static void add_pairs(const tn_pass *pass, tn_pattern *pattern)
 }
 
 /* The face's pattern; NULL where there are too many. The first of its kind is added. False: out of memory. */
-static bool find_pattern(tn_patterns *patterns, const view *seen, uint64_t hash, tn_pattern **found)
+static bool find_pattern(tn_patterns *patterns, const view *seen, tn_pattern **found)
 {
     *found = NULL;
     if (2 * patterns->count >= patterns->slot_count && !make_slots(patterns))
         return false;
-    size_t slot = slot_of(patterns, seen->codes, seen->size, hash);
+    size_t slot = slot_of(patterns, seen->codes, seen->size);
     if (patterns->slots[slot]) {
         *found = &patterns->items[patterns->slots[slot] - 1];
         return true;
@@ -238,7 +241,7 @@ static bool find_pattern(tn_patterns *patterns, const view *seen, uint64_t hash,
     tn_pattern *added = &patterns->items[patterns->count++];
     memset(added, 0, sizeof *added);
     added->size = seen->size;
-    memcpy(added->codes, seen->codes, seen->size * sizeof *seen->codes);
+    memcpy(added->codes, seen->codes, (seen->size + CODES - 1) / CODES * sizeof *seen->codes);
     add_pairs(seen->pass, added);
     patterns->slots[slot] = (uint32_t)patterns->count;
     *found = added;
@@ -256,26 +259,28 @@ static tn_vector exact_direction(const view *seen, const pattern_branch *branch)
     return tn_branch_direction(heading, up, branch->is);
 }
 
-static inline tn_quad direction(const tn_frame *frame, const tn_quad turn[3])
+static inline const tn_record *record_of(const view *seen, uint32_t dart)
 {
-    return frame->heading * turn[0] + frame->left * turn[1] + frame->up * turn[2];
+    return &seen->pass->records[seen->pass->old->side[seen->first + dart] / 2];
+}
+
+static inline uint32_t id_of(const view *seen, uint32_t dart, uint32_t index)
+{
+    return seen->branches[dart] + index;
+}
+
+static inline const tn_aim *aim_of(const view *seen, const pattern_branch *branch)
+{
+    return &seen->pass->aims[id_of(seen, branch->dart, branch->index) - seen->pass->branch_first];
 }
 
 static inline bool oppose(const view *seen, const pattern_pair *pair)
 {
-    tn_quad product =
-        direction(seen->frames[pair->a.dart], pair->a_turn) * direction(seen->frames[pair->b.dart], pair->b_turn);
-    float beyond = product[0] + product[1] + product[2] - (float)seen->pass->growth->branch_cosine;
+    const float *a = aim_of(seen, &pair->a)->direction, *b = aim_of(seen, &pair->b)->direction;
+    float beyond = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - (float)seen->pass->growth->branch_cosine;
     if (beyond < -CLOSE || beyond > CLOSE)
         return beyond < 0;
     return tn_branches_oppose(seen->pass->growth, exact_direction(seen, &pair->a), exact_direction(seen, &pair->b));
-}
-
-/* The face beyond a branch's edge. */
-static inline uint32_t beyond(const view *seen, const pattern_branch *branch)
-{
-    const tn_frame *frame = seen->frames[branch->dart];
-    return branch->against ? frame->left_face : frame->right_face;
 }
 
 /* The pairs whose directions are opposed, a bit each, and those that they exclude; false where another face might join
@@ -287,8 +292,8 @@ static bool find_opposed(const tn_pattern *pattern, const view *seen, uint32_t *
         const pattern_pair *pair = &pattern->pairs[p];
         if (!oppose(seen, pair))
             continue;
-        uint32_t other = beyond(seen, &pair->a);
-        if (other == beyond(seen, &pair->b) && other != TN_OUTER_FACE)
+        uint32_t other = aim_of(seen, &pair->a)->beyond;
+        if (other == aim_of(seen, &pair->b)->beyond && other != TN_OUTER_FACE)
             return false;
         *opposed |= 1u << p;
         *excluded |= pair->against;
@@ -299,14 +304,14 @@ static bool find_opposed(const tn_pattern *pattern, const view *seen, uint32_t *
 static tn_vector place_of(const view *seen, const pattern_branch *branch)
 {
     const tn_pass *pass = seen->pass;
-    uint32_t slot = pass->slot[pass->old->side[seen->first + branch->dart] / 2];
-    return tn_vector_at(pass->new->positions + 3 * ((size_t)pass->records[slot].vertex + branch->point - 1));
+    uint32_t vertex = record_of(seen, branch->dart)->vertex + branch->point - 1;
+    return tn_vector_at(pass->new->positions + 3 * (size_t)vertex);
 }
 
 static bool measure(const view *seen, const pattern_pair *pair, uint32_t index, candidate *one)
 {
-    uint32_t x = seen->frames[pair->a.dart]->branch + pair->a.index;
-    uint32_t y = seen->frames[pair->b.dart]->branch + pair->b.index;
+    uint32_t x = id_of(seen, pair->a.dart, pair->a.index);
+    uint32_t y = id_of(seen, pair->b.dart, pair->b.index);
     *one = x < y ? (candidate){0, x, y, (uint8_t)(1 + index)} : (candidate){0, y, x, (uint8_t)((1 + index) | FLIPPED)};
     return tn_branches_measure(seen->pass->growth, exact_direction(seen, &pair->a), place_of(seen, &pair->a),
                                exact_direction(seen, &pair->b), place_of(seen, &pair->b),
@@ -396,8 +401,8 @@ static bool find_cut(tn_patterns *patterns, const tn_pass *pass, uint32_t face, 
 
 static tn_edge_state aged_state(const tn_pass *pass, const tn_cut_join *join, const view *seen)
 {
-    const tn_frame *one = seen->frames[tn_reference_dart(join->one)];
-    const tn_frame *other = seen->frames[tn_reference_dart(join->other)];
+    const tn_record *one = record_of(seen, tn_reference_dart(join->one));
+    const tn_record *other = record_of(seen, tn_reference_dart(join->other));
     const tn_template_branch *a = &pass->growth->system->templates[one->template].branches[join->one & 0xffff];
     const tn_template_branch *b = &pass->growth->system->templates[other->template].branches[join->other & 0xffff];
     int32_t age = tn_changed_age(a->age, one->age), other_age = tn_changed_age(b->age, other->age);
@@ -408,8 +413,8 @@ static void note_joins(const tn_pass *pass, const tn_cuts *cuts, const tn_cut *c
 {
     const tn_cut_join *join = cuts->joins + cut->join_first, *end = join + cut->join_count;
     for (; join < end; join++) {
-        uint32_t one = seen->frames[tn_reference_dart(join->one)]->branch + (join->one & 0xffff);
-        uint32_t other = seen->frames[tn_reference_dart(join->other)]->branch + (join->other & 0xffff);
+        uint32_t one = id_of(seen, tn_reference_dart(join->one), join->one & 0xffff);
+        uint32_t other = id_of(seen, tn_reference_dart(join->other), join->other & 0xffff);
         pass->joints[one < other ? one : other] = join->aged ? aged_state(pass, join, seen) : join->state;
     }
 }
@@ -421,7 +426,10 @@ bool tn_patterns_decide(tn_patterns *patterns, const tn_pass *pass, uint32_t fac
     tn_pattern *pattern;
     uint32_t opposed, excluded;
     *cut = TN_NONE;
-    if (!find_pattern(patterns, &seen, look(pass, face, &seen), &pattern))
+    if (growth->system->template_count > TEMPLATES)
+        return true;
+    look(pass, face, &seen);
+    if (!find_pattern(patterns, &seen, &pattern))
         return false;
     if (!pattern || pattern->unusual || !find_opposed(pattern, &seen, &opposed, &excluded))
         return true;

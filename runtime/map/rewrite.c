@@ -4,110 +4,207 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/map/axes.h"
 #include "runtime/map/pass.h"
 #include "runtime/map/share.h"
 
-#define AHEAD 12u /* edges */
-
 /* How many of each, so far or in a chunk. */
 typedef struct tally_counts {
-    uint64_t records, kept, pieces, vertices, branches;
+    uint64_t rewrites, kept, pieces, vertices, branches;
 } tally_counts;
 
-/* U is the sum of the unit normals of the edge's faces made normal to H; where they cancel or are along H, the left
- * face's, z, then x. */
-static tn_vector up_of(tn_vector both, tn_vector left, tn_vector heading)
+static inline const double *position(const tn_pass *pass, tn_edge_side side)
 {
-    tn_vector candidates[] = {both, left, {0, 0, 1}, {1, 0, 0}};
-    for (int i = 0; i < 4; i++) {
-        tn_vector up = tn_along(candidates[i], heading, -tn_dot(candidates[i], heading));
-        double length2 = tn_dot(up, up);
-        if (length2 > 1e-18)
-            return tn_scale(up, 1 / sqrt(length2));
-    }
-    return (tn_vector){0, 0, 1};
+    return pass->old->positions + 3 * (size_t)side.origin;
 }
 
-static inline tn_vector make_frame(const tn_pass *pass, tn_edge_side from, tn_edge_side to, tn_vector *heading,
-                                   tn_vector *up, double *length)
+static inline const double *normal(const tn_pass *pass, tn_edge_side side)
 {
-    tn_vector a = tn_vector_at(pass->old->positions + 3 * (size_t)from.origin);
-    tn_vector h = tn_sub(tn_vector_at(pass->old->positions + 3 * (size_t)to.origin), a);
-    *length = tn_norm(h);
-    h = *length > 1e-300 ? tn_scale(h, 1 / *length) : (tn_vector){1, 0, 0};
-    tn_vector left = tn_vector_at(pass->normal + 3 * (size_t)from.face);
-    *heading = h;
-    *up = up_of(tn_add(left, tn_vector_at(pass->normal + 3 * (size_t)to.face)), left, h);
-    return a;
+    return pass->normal + 3 * (size_t)side.face;
 }
 
 tn_vector tn_pass_frame(const tn_pass *pass, uint32_t first, uint32_t last, tn_vector *heading, tn_vector *up,
                         double *length)
 {
-    return make_frame(pass, pass->sides[2 * (size_t)first], pass->sides[2 * (size_t)last + 1], heading, up, length);
-}
-
-static tn_quad rounded(tn_vector a)
-{
-    typedef double four __attribute__((vector_size(32)));
-    return __builtin_convertvector(((four){a.x, a.y, a.z, 0}), tn_quad);
-}
-
-/* Frame and new vertices of what replaces the edges first .. last. False where a coordinate leaves its range. */
-static inline bool place(const tn_pass *pass, uint32_t first, uint32_t last, const tn_template *template,
-                         const tn_record *record, tn_frame *frame)
-{
-    const tn_growth *growth = pass->growth;
     tn_edge_side from = pass->sides[2 * (size_t)first], to = pass->sides[2 * (size_t)last + 1];
-    tn_vector h, u;
-    double length;
-    tn_vector a = make_frame(pass, from, to, &h, &u, &length), l = tn_cross(u, h);
-    *frame = (tn_frame){rounded(h), rounded(l),     rounded(u),       from.face,
-                        to.face,    record->branch, record->template, record->age};
-    double *at = pass->new->positions + 3 * (size_t)record->vertex;
+    tn_vector start = tn_vector_at(position(pass, from)), end = tn_vector_at(position(pass, to));
+    tn_axes axes = tn_axes_of(start, end, tn_vector_at(normal(pass, from)), tn_vector_at(normal(pass, to)));
+    *heading = axes.heading;
+    *up = axes.up;
+    *length = axes.length;
+    return start;
+}
+
+/* ---- new vertices and branches, of some edges at once */
+
+/* Edges that wait until they are many, all replaced by one template. */
+typedef struct waiting {
+    const tn_template *template;
+    uint32_t count;
+    uint32_t from[TN_ROW], to[TN_ROW];       /* vertices */
+    uint32_t left[TN_ROW], right[TN_ROW];    /* faces */
+    uint32_t vertex[TN_ROW], branch[TN_ROW]; /* the first new ones */
+} waiting;
+
+#define WAITING 4u
+
+typedef struct placing {
+    waiting waiting[WAITING]; /* by the template's number, as long as no other template needs the place */
+    tn_axes_rows axes;        /* of those that are placed */
+    tn_row turned[3];
+    bool failed; /* a coordinate left its range */
+} placing;
+
+/* Not set to zeros as a whole: small surfaces need little of it. */
+static void start_placing(placing *some)
+{
+    for (uint32_t w = 0; w < WAITING; w++) {
+        some->waiting[w].template = NULL;
+        some->waiting[w].count = 0;
+    }
+    some->failed = false;
+}
+
+static void gather(const tn_pass *pass, const waiting *edges, tn_axes_rows *axes)
+{
+    const double *positions = pass->old->positions, *normals = pass->normal;
+    for (uint32_t i = 0; i < edges->count; i++) {
+        tn_rows_put(axes->from, i, tn_vector_at(positions + 3 * (size_t)edges->from[i]));
+        tn_rows_put(axes->to, i, tn_vector_at(positions + 3 * (size_t)edges->to[i]));
+        tn_rows_put(axes->left_normal, i, tn_vector_at(normals + 3 * (size_t)edges->left[i]));
+        tn_rows_put(axes->right_normal, i, tn_vector_at(normals + 3 * (size_t)edges->right[i]));
+    }
+}
+
+static tn_vector keep_inside(const tn_pass *pass, tn_axes_rows *axes, uint32_t i, tn_vector place)
+{
+    tn_vector from = tn_rows_at(axes->from, i);
+    tn_vector to = tn_along(from, tn_rows_at(axes->heading, i), axes->length[i]);
+    return tn_environment_place(pass->growth->environment, place, from, to);
+}
+
+/* The vertex at the path's point j + 1 of each. */
+static void place_vertices(const tn_pass *pass, const waiting *edges, uint32_t j, placing *some)
+{
+    bool hard = pass->growth->hard;
     double wild = 0; /* what is no finite number stays none when subtracted from itself */
-    for (uint32_t j = 0; j + 1 < template->segment_count; j++) {
-        const double *c = template->segments[j].end;
-        tn_vector p = tn_along(a, tn_along(tn_along(tn_scale(h, c[0]), l, c[1]), u, c[2]), length);
-        if (growth->hard)
-            p = tn_environment_place(growth->environment, p, a, tn_along(a, h, length));
-        tn_vector_put(at + 3 * (size_t)j, p);
+    tn_axes_place(&some->axes, edges->count, edges->template->segments[j].end, some->turned);
+    for (uint32_t i = 0; i < edges->count; i++) {
+        tn_vector p = tn_rows_at(some->turned, i);
+        if (hard)
+            p = keep_inside(pass, &some->axes, i, p);
+        tn_vector_put(pass->new->positions + 3 * ((size_t)edges->vertex[i] + j), p);
         double sum = p.x + p.y + p.z;
         wild += sum - sum;
     }
-    return wild == 0;
+    some->failed |= wild != 0;
 }
 
-/* Replaces the edges first .. last; `at` holds the numbers that come next. False where an age or a coordinate leaves
- * its range. */
-static bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tally_counts *at)
+static void aim_branches(const tn_pass *pass, const waiting *edges, uint32_t b, placing *some)
 {
-    const tn_template *template = &pass->growth->system->templates[chosen];
-    int32_t age = tn_state_age(pass->old->states[first]);
-    tn_record record = {(uint32_t)at->pieces, (uint32_t)at->vertices, (uint32_t)at->branches, chosen, (int16_t)age};
-    pass->records[at->records] = record;
-    if (pass->runs)
-        pass->runs[at->records] = (tn_run){first, last};
-    if (!place(pass, first, last, template, &record, &pass->frames[at->records]))
-        return false;
-    bool fresh = !pass->joins_last;
+    const tn_template_branch *branch = &edges->template->branches[b];
+    const uint32_t *beyond = branch->side == TN_SIDE_LEFT ? edges->right : edges->left;
+    tn_axes_turn(&some->axes, edges->count, branch->direction, some->turned);
+    for (uint32_t i = 0; i < edges->count; i++) {
+        tn_vector d = tn_rows_at(some->turned, i);
+        pass->aims[edges->branch[i] - pass->branch_first + b] =
+            (tn_aim){{(float)d.x, (float)d.y, (float)d.z}, beyond[i]};
+    }
+}
+
+static void place(const tn_pass *pass, waiting *edges, placing *some)
+{
+    if (edges->count == 0)
+        return;
+    gather(pass, edges, &some->axes);
+    tn_axes_of_rows(&some->axes, edges->count);
+    for (uint32_t j = 0; j + 1 < edges->template->segment_count; j++)
+        place_vertices(pass, edges, j, some);
+    for (uint32_t b = 0; b < edges->template->branch_count; b++)
+        aim_branches(pass, edges, b, some);
+    edges->count = 0;
+}
+
+/* False where a coordinate left its range. */
+static bool place_all(const tn_pass *pass, placing *some)
+{
+    for (uint32_t w = 0; w < WAITING; w++)
+        place(pass, &some->waiting[w], some);
+    return !some->failed;
+}
+
+/* What placing an edge needs lies all over memory: asked for when the edge is added, it is there in time. Always
+ * inlined: a call that only asks is taken for one without effect. */
+static inline __attribute__((always_inline)) void ask_for(const tn_pass *pass, tn_edge_side side)
+{
+    __builtin_prefetch(pass->old->positions + 3 * (size_t)side.origin);
+    __builtin_prefetch(pass->normal + 3 * (size_t)side.face);
+}
+
+/* The edges first .. last are replaced as this record says. */
+static inline void add_to_place(const tn_pass *pass, placing *some, uint32_t first, uint32_t last,
+                                const tn_record *record)
+{
+    const tn_template *template = &pass->growth->system->templates[record->template];
+    waiting *edges = &some->waiting[record->template % WAITING];
+    tn_edge_side from = pass->sides[2 * (size_t)first], to = pass->sides[2 * (size_t)last + 1];
+    if (edges->template != template) {
+        place(pass, edges, some);
+        edges->template = template;
+    }
+    ask_for(pass, from);
+    ask_for(pass, to);
+    edges->from[edges->count] = from.origin;
+    edges->to[edges->count] = to.origin;
+    edges->left[edges->count] = from.face;
+    edges->right[edges->count] = to.face;
+    edges->vertex[edges->count] = record->vertex;
+    edges->branch[edges->count] = record->branch;
+    if (++edges->count == TN_ROW)
+        place(pass, edges, some);
+}
+
+/* ---- what replaces an edge */
+
+static bool ages_stay_in_range(const tn_template *template, int32_t age)
+{
+    int32_t least = 0, most = 0;
     for (uint32_t j = 0; j < template->segment_count; j++) {
         int32_t now = tn_changed_age(template->segments[j].age, age);
-        if (now > TN_AGE_MAX || now < -TN_AGE_MAX)
-            return false;
-        pass->new->states[at->pieces + j] = tn_state(template->segments[j].label, now, fresh);
+        least = now < least ? now : least;
+        most = now > most ? now : most;
     }
-    at->records++;
+    return least >= -TN_AGE_MAX && most <= TN_AGE_MAX;
+}
+
+/* Replaces the edges first .. last, of which `first` gets the record; `at` holds the numbers that come next. False
+ * where an age leaves its range. */
+static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tally_counts *at,
+                           placing *some)
+{
+    const tn_shape *shape = &pass->growth->shapes[chosen];
+    const tn_template *template = shape->template;
+    tn_edge_state old = pass->old->states[first] & ~TN_STATE_FRESH, fresh = pass->joins_last ? 0 : TN_STATE_FRESH;
+    tn_edge_state *states = pass->new->states + at->pieces;
+    int32_t age = tn_state_age(old);
+    if ((age == TN_AGE_MAX || age == -TN_AGE_MAX) && !ages_stay_in_range(template, age))
+        return false;
+    tn_record record = {2 * (uint32_t)at->pieces, (uint32_t)at->vertices, (uint32_t)at->branches, chosen, (int16_t)age};
+    pass->records[first] = record;
+    for (uint32_t j = 0; j < template->segment_count; j++)
+        states[j] = ((old & shape->pieces[j].kept) + shape->pieces[j].added) | fresh;
+    at->rewrites++;
     at->pieces += template->segment_count;
     at->vertices += template->segment_count - 1;
     at->branches += template->branch_count;
+    add_to_place(pass, some, first, last, &record);
     return true;
 }
 
 static void count(const tn_pass *pass, uint16_t chosen, tally_counts *so_far)
 {
     const tn_template *template = &pass->growth->system->templates[chosen];
-    so_far->records++;
+    so_far->rewrites++;
     so_far->pieces += template->segment_count;
     so_far->vertices += template->segment_count - 1;
     so_far->branches += template->branch_count;
@@ -131,8 +228,8 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     uint64_t vertices = (uint64_t)old->vertex_count + total->vertices;
     uint64_t most = edges + (total->branches + growth->pending.count) / 2;
     uint64_t bytes = 3 * sizeof(double) * vertices + (sizeof(tn_edge_state) + 4 * sizeof(uint32_t)) * most +
-                     (sizeof(tn_record) + sizeof(tn_frame)) * total->records + sizeof(uint32_t) * total->branches +
-                     40 * (uint64_t)old->edge_count;
+                     (sizeof(tn_aim) + sizeof(uint32_t)) * total->branches +
+                     (sizeof(tn_record) + 40) * (uint64_t)old->edge_count;
     if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
         tn_fail(error, TN_LIMIT, 841, "step %u would need about %llu MB of memory; the limit is %llu MB",
                 growth->steps + 1, (unsigned long long)(bytes >> 20),
@@ -142,27 +239,24 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     }
     pass->vertices = (uint32_t)vertices;
     pass->edges = (uint32_t)edges;
-    pass->record_count = (uint32_t)total->records;
     pass->branch_count = (uint32_t)total->branches;
+    pass->rewrites = total->rewrites;
     tn_workspace *space = &growth->space;
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
         !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
-        !tn_pages_reserve(&space->records, (size_t)total->records * sizeof *pass->records) ||
-        !tn_pages_reserve(&space->darts[!space->current], (size_t)total->records * sizeof *pass->frames) ||
-        !tn_pages_reserve(&space->slots, (size_t)old->edge_count * sizeof *pass->slot))
+        !tn_pages_reserve(&space->records, (size_t)old->edge_count * sizeof *pass->records) ||
+        !tn_pass_reserve_aims(pass, (size_t)total->branches))
         return tn_fail_memory(error);
     growth->map.positions = space->positions.data; /* vertices stay where they are; new ones follow them */
     pass->new->positions = space->positions.data;
     pass->new->states = space->states[!space->current].data;
     pass->records = space->records.data;
-    pass->frames = space->darts[!space->current].data;
-    pass->slot = space->slots.data;
     return TN_OK;
 }
 
 static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
 {
-    pass->slot[edge] = TN_KEPT | number;
+    pass->records[edge] = (tn_record){.side = 2 * number, .template = TN_NO_TEMPLATE};
     tn_edge_state state = pass->old->states[edge];
     pass->new->states[number] = pass->joins_last ? state & ~TN_STATE_FRESH : state;
 }
@@ -184,30 +278,19 @@ static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally
     }
 }
 
-/* What an edge's frame needs lies all over memory: asked for some edges ahead, it is there in time. */
-static inline __attribute__((always_inline)) void prefetch(const tn_pass *pass, uint32_t edge)
-{
-    for (size_t side = 2 * (size_t)edge; side < 2 * (size_t)edge + 2; side++) {
-        __builtin_prefetch(pass->old->positions + 3 * (size_t)pass->sides[side].origin);
-        __builtin_prefetch(pass->normal + 3 * (size_t)pass->sides[side].face);
-    }
-}
-
 static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
 {
+    placing some;
+    start_placing(&some);
     bool fine = true;
     for (uint32_t e = begin; e < end && fine; e++) {
-        if (e + AHEAD < end && pass->choice[e + AHEAD] != TN_NO_TEMPLATE)
-            prefetch(pass, e + AHEAD);
         if (pass->choice[e] == TN_NO_TEMPLATE) {
             keep(pass, e, (uint32_t)by_group[0].kept++);
             continue;
         }
-        tally_counts *at = &by_group[group_at(pass, e)];
-        pass->slot[e] = (uint32_t)at->records;
-        fine = replace(pass, e, e, pass->choice[e], at);
+        fine = replace(pass, e, e, pass->choice[e], &by_group[group_at(pass, e)], &some);
     }
-    return fine;
+    return fine && place_all(pass, &some);
 }
 
 /* Counts become first numbers: groups in order, chunks of edges in order within each. Returns the totals. */
@@ -218,7 +301,7 @@ static tally_counts number(tn_pass *pass, tally_counts *counts, uint32_t chunks,
         for (uint32_t c = 0; c < chunks; c++) {
             tally_counts *one = &counts[(size_t)c * groups + g], here = *one;
             *one = next;
-            next.records += here.records;
+            next.rewrites += here.rewrites;
             next.kept += here.kept;
             next.pieces += here.pieces;
             next.vertices += here.vertices;
@@ -282,6 +365,18 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
 
 /* ---- chains */
 
+/* The record of a chain's first edge becomes that of all. */
+static void run_along(tn_pass *pass, const tn_replacement *chain)
+{
+    uint32_t d = pass->dart[2 * (size_t)chain->first], f = pass->sides[2 * (size_t)chain->first].face;
+    uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
+    for (uint32_t j = 0; j < chain->length; j++) {
+        uint32_t edge = pass->old->side[first + (d - first + j) % size] / 2;
+        pass->records[edge] = pass->records[chain->first];
+        pass->runs[edge] = (tn_run){chain->first, chain->last};
+    }
+}
+
 static tn_status rewrite_list(tn_pass *pass, tn_error *error)
 {
     tally_counts total = {0};
@@ -294,25 +389,23 @@ static tn_status rewrite_list(tn_pass *pass, tn_error *error)
     tn_status status = make_room(pass, &total, error);
     if (status != TN_OK)
         return status;
-    pass->runs = malloc((total.records ? total.records : 1) * sizeof *pass->runs);
+    pass->runs = malloc((edges ? edges : 1) * sizeof *pass->runs);
     if (!pass->runs)
         return tn_fail_memory(error);
-    memset(pass->slot, 0xff, edges * sizeof *pass->slot);
+    memset(pass->runs, 0xff, edges * sizeof *pass->runs);
     tally_counts at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
-    for (size_t i = 0; i < pass->list_count; i++) {
+    placing some;
+    start_placing(&some);
+    bool fine = true;
+    for (size_t i = 0; i < pass->list_count && fine; i++) {
         const tn_replacement *one = &pass->list[i];
-        uint32_t d = pass->dart[2 * (size_t)one->first], f = pass->sides[2 * (size_t)one->first].face;
-        uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
-        for (uint32_t j = 0; j < one->length; j++)
-            pass->slot[pass->old->side[first + (d - first + j) % size] / 2] = (uint32_t)at.records;
-        if (!replace(pass, one->first, one->last, one->template, &at)) {
-            pass->out_of_range = true;
-            return TN_OK;
-        }
+        fine = replace(pass, one->first, one->last, one->template, &at, &some);
+        run_along(pass, one);
     }
+    pass->out_of_range = !fine || !place_all(pass, &some);
     uint32_t kept = 0;
     for (uint32_t e = 0; e < edges; e++)
-        if (pass->slot[e] == TN_NONE)
+        if (pass->runs[e].first == TN_NONE)
             keep(pass, e, kept++);
     return TN_OK;
 }
@@ -328,6 +421,6 @@ tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error)
                 pass->growth->steps + 1, TN_AGE_MAX, TN_AGE_MAX);
         return TN_LIMIT;
     }
-    pass->growth->counts.rewrites += pass->record_count;
+    pass->growth->counts.rewrites += pass->rewrites;
     return TN_OK;
 }

@@ -3,6 +3,7 @@
 
 #include "runtime/map/decide.h"
 #include "runtime/map/share.h"
+#include "runtime/map/stamp_lanes.h"
 
 /* Where the next of each goes. */
 typedef struct place {
@@ -14,15 +15,16 @@ static void stamp_plain(const tn_pass *pass, uint32_t face, uint32_t *at)
 {
     const tn_map *old = pass->old, *new = pass->new;
     for (uint32_t d = old->face_first[face]; d < old->face_first[face + 1]; d++) {
-        uint32_t bases[TN_BASES], side = old->side[d], slot = pass->slot[side / 2];
+        uint32_t bases[TN_BASES], side = old->side[d];
+        const tn_record *record = &pass->records[side / 2];
         tn_dart_bases(pass, d, bases);
         uint32_t vertex = bases[TN_BASE_ORIGIN];
-        if (slot & TN_KEPT) {
+        if (tn_is_kept(record)) {
             new->origin[*at] = vertex;
             new->side[(*at)++] = bases[TN_BASE_SIDE];
             continue;
         }
-        const tn_template *template = pass->growth->shapes[pass->records[slot].template].template;
+        const tn_template *template = pass->growth->shapes[record->template].template;
         uint32_t pieces = template->segment_count, against = side & 1;
         for (uint32_t i = 0; i < pieces; i++) {
             uint32_t piece = against ? pieces - 1 - i : i;
@@ -35,15 +37,19 @@ static void stamp_plain(const tn_pass *pass, uint32_t face, uint32_t *at)
 
 static void stamp_references(const tn_pass *pass, uint32_t face, const tn_cuts *cuts, const tn_cut *cut, uint32_t dart)
 {
-    uint32_t bases[TN_PATTERN_DARTS * TN_BASES], first = pass->old->face_first[face];
-    uint32_t size = pass->old->face_first[face + 1] - first;
+    _Alignas(64) uint32_t bases[TN_PATTERN_DARTS * TN_BASES];
+    uint32_t first = pass->old->face_first[face], size = tn_face_size(pass->old, face);
     const uint32_t *restrict origins = cuts->origins + cut->dart_first, *restrict sides = cuts->sides + cut->dart_first;
     uint32_t *restrict origin = pass->new->origin + dart, *restrict side = pass->new->side + dart;
-    for (uint32_t i = 0; i < size; i++)
-        tn_dart_bases(pass, first + i, bases + i * TN_BASES);
-    for (size_t i = 0, count = cut->dart_count; i < count; i++) {
-        origin[i] = tn_referred(bases, origins[i]);
-        side[i] = tn_referred(bases, sides[i]);
+    if (pass->has_lanes && size <= TN_LANES_DARTS) {
+        tn_stamp_lanes(pass, first, size, origins, sides, cut->dart_count, origin, side, bases);
+    } else {
+        for (uint32_t i = 0; i < size; i++)
+            tn_dart_bases(pass, first + i, bases + i * TN_BASES);
+        for (size_t i = 0, count = cut->dart_count; i < count; i++) {
+            origin[i] = tn_referred(bases, origins[i]);
+            side[i] = tn_referred(bases, sides[i]);
+        }
     }
     const tn_cut_join *join = cuts->joins + cut->join_first, *end = join + cut->join_count;
     for (; join < end; join++)
@@ -102,13 +108,14 @@ static void stamp_chunk(void *context, uint32_t number)
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
     place at = {(uint32_t)chunk->darts, (uint32_t)chunk->faces};
     for (uint32_t f = begin; f < end; f++) {
-        tn_ask_ahead(pass, pass->old->face_first[f], pass->old->face_first[f + 1], pass->records,
-                     sizeof *pass->records);
+        if (f % TN_TOGETHER == 0)
+            tn_ask_ahead(pass, f, pass->joints, sizeof *pass->joints, 0);
         stamp_face(pass, chunk, f, &at);
     }
 }
 
 void tn_pass_stamp(tn_pass *pass)
 {
+    pass->has_lanes = tn_stamp_has_lanes();
     tn_share(pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, stamp_chunk, pass);
 }

@@ -63,7 +63,7 @@ static void fill(scene *s, uint32_t count, uint32_t grid, uint32_t kind)
                                    .label = draw(s, labels),
                                    .item = s->loop.item_count,
                                    .partner = -1,
-                                   .record = i / 4,
+                                   .edge = i / 4,
                                    .point = 1 + i % 4,
                                    .beyond = 1 + draw(s, beyonds),
                                    .reversed = draw(s, 4) == 0};
@@ -120,7 +120,7 @@ static bool may_join(const scene *s, uint32_t i, uint32_t j, bool refused[BRANCH
     const tn_loop *loop = &s->loop;
     const tn_loop_branch *a = &loop->branches[i], *b = &loop->branches[j];
     const tn_loop_item *x = &loop->items[a->item], *y = &loop->items[b->item];
-    bool neighbours = a->record == b->record && abs((int)a->point - (int)b->point) == 1;
+    bool neighbours = a->edge == b->edge && abs((int)a->point - (int)b->point) == 1;
     return a->partner < 0 && b->partner < 0 && a->label == b->label && x->region == y->region &&
            x->vertex != y->vertex && !neighbours && !refused[i][j] && !joined_already(loop, x->vertex, y->vertex) &&
            tn_branches_compare(&s->growth, a, b, distance) == TN_JOIN_FAILURE_COUNT;
