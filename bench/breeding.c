@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "driver/grower.h"
 #include "driver/open.h"
 #include "runtime/gene/evolve.h"
@@ -16,19 +17,6 @@
 #include "runtime/vm/crew.h"
 
 enum { POPULATION = 400, GENERATIONS = 5, ROUNDS = 5, FACES_LOW = 500, FACES_HIGH = 2000, THREADS = 4 };
-
-static double seconds(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-static void stop(const char *what)
-{
-    fprintf(stderr, "bench_breeding: %s\n", what);
-    exit(1);
-}
 
 /* Seconds of the clock, and of all processors. */
 typedef struct spent {
@@ -221,14 +209,13 @@ int main(int count, char **words)
 {
     if (count != 3)
         stop("usage: bench_breeding GRAMMAR.tnb STUDY");
-    tn_module *module;
+    tn_module *module = load_module(words[1]);
     tn_grammar *grammar;
     tn_error error;
     tn_opened opened;
     tn_study study;
     tn_grower *grower;
-    if (tn_module_load_file(words[1], NULL, &module, &error) != TN_OK ||
-        tn_grammar_new(module, 0, &grammar, &error) != TN_OK ||
+    if (tn_grammar_new(module, 0, &grammar, &error) != TN_OK ||
         tn_grower_new(words[2], false, THREADS, &grower, &error) != TN_OK)
         stop(error.message);
     if (tn_open(words[2], false, &opened) != TN_OK || tn_study_read(opened.module, words[2], &study, &error) != TN_OK)

@@ -9,23 +9,11 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "runtime/plan/rules.h"
 #include "runtime/vm/random.h"
 
 enum { RUNS = 61, RULES_MAX = 1000 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-static void stop(const char *what)
-{
-    fprintf(stderr, "bench_curve: %s\n", what);
-    exit(1);
-}
 
 /* Random plans in `trays` and `ends`, which have room for the longest. */
 static void make(const tn_schema *schema, size_t count, size_t shortest, size_t longest, tn_tray *trays, size_t *ends)
@@ -65,9 +53,9 @@ static double fastest(const tn_rules *rules, const tn_plan_array *plans, size_t 
     double best = 1e9;
     match(rules, plans, threads, bits);
     for (size_t run = 0; run < RUNS; run++) {
-        double start = seconds();
+        double start = seconds(CLOCK_MONOTONIC);
         match(rules, plans, threads, bits);
-        double time = seconds() - start;
+        double time = seconds(CLOCK_MONOTONIC) - start;
         best = time < best ? time : best;
     }
     free(bits);
@@ -79,11 +67,10 @@ int main(int argc, char **argv)
     if (argc != 6 && argc != 3)
         stop("usage: bench_curve MODULE PLANS SHORTEST LONGEST THREADS, or bench_curve MODULE states");
     tn_error error;
-    tn_module *module;
+    tn_module *module = load_module(argv[1]);
     tn_schema *schema;
     tn_rules *rules;
-    if (tn_module_load_file(argv[1], NULL, &module, &error) != TN_OK ||
-        tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
+    if (tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
         stop(error.message);
     static uint32_t functions[RULES_MAX];
     if (module->RULE_count > RULES_MAX)

@@ -7,32 +7,19 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "runtime/gene/evolve.h"
 #include "runtime/gene/problem.h"
 #include "runtime/vm/random.h"
 
 enum { GENOMES = 20000, CODONS = 200, ROUNDS = 9, REPEATS = 10, POINTS = 1024, VARIABLES = 5, GENERATIONS = 50 };
 
-static double seconds(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-static void stop(const char *what)
-{
-    fprintf(stderr, "bench_gene: %s\n", what);
-    exit(1);
-}
-
 static tn_grammar *load(const char *path)
 {
-    tn_module *module;
+    tn_module *module = load_module(path);
     tn_grammar *grammar;
     tn_error error;
-    if (tn_module_load_file(path, NULL, &module, &error) != TN_OK ||
-        tn_grammar_new(module, 0, &grammar, &error) != TN_OK)
+    if (tn_grammar_new(module, 0, &grammar, &error) != TN_OK)
         stop(error.message);
     tn_module_free(module);
     return grammar;

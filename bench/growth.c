@@ -10,17 +10,11 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "compiler/compile.h"
 #include "runtime/map/growth.h"
 #include "runtime/map/study.h"
 #include "runtime/vm/numeric.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -102,19 +96,20 @@ static double grow(const tn_growth_system *system, const tn_environment *environ
     tn_error error;
     if (tn_growth_new(system, environment, options, &growth, &error) != TN_OK)
         exit(1);
-    double start = now();
+    double start = seconds(CLOCK_MONOTONIC);
     for (int i = 0; i < steps; i++) {
-        double before = now();
+        double before = seconds(CLOCK_MONOTONIC);
         if (tn_growth_step(growth, &error) != TN_OK) {
             fprintf(stderr, "%s\n", error.message);
             exit(1);
         }
         const tn_map *map = tn_growth_map(growth);
         if (curve)
-            printf("step %2d %9u edges %8.2f ms %6.1f ns an edge\n", i + 1, map->edge_count, 1e3 * (now() - before),
-                   1e9 * (now() - before) / map->edge_count);
+            printf("step %2d %9u edges %8.2f ms %6.1f ns an edge\n", i + 1, map->edge_count,
+                   1e3 * (seconds(CLOCK_MONOTONIC) - before),
+                   1e9 * (seconds(CLOCK_MONOTONIC) - before) / map->edge_count);
     }
-    double took = now() - start;
+    double took = seconds(CLOCK_MONOTONIC) - start;
     tn_growth_free(growth);
     return took;
 }

@@ -7,24 +7,12 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "runtime/plan/library.h"
 
 enum { RUNS = 5 };
 
 /* Of this thread's own: what else runs on the machine takes time, and is no part of this. */
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-static void stop(const char *what)
-{
-    fprintf(stderr, "bench_library: %s\n", what);
-    exit(1);
-}
-
 static int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -46,10 +34,10 @@ static double walk(const tn_library *library, unsigned long count)
     const tn_tray *trays;
     uint32_t length;
     unsigned long walked = 0, sum = 0;
-    double start = seconds();
+    double start = seconds(CLOCK_THREAD_CPUTIME_ID);
     for (; tn_cursor_next(cursor, &trays, &length); walked++)
         sum += trays[length - 1];
-    double time = seconds() - start;
+    double time = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     if (walked != count || sum == 0)
         stop("the library has too few plans");
     tn_cursor_free(cursor);
@@ -63,11 +51,10 @@ int main(int argc, char **argv)
         stop("usage: bench_library MODULE PLANS");
     unsigned long count = strtoul(argv[2], NULL, 10);
     tn_error error;
-    tn_module *module;
+    tn_module *module = load_module(argv[1]);
     tn_schema *schema;
     tn_library *library;
-    if (tn_module_load_file(argv[1], NULL, &module, &error) != TN_OK ||
-        tn_schema_new(module, module->LIBRARY_records[0].schema, 0, &schema, &error) != TN_OK ||
+    if (tn_schema_new(module, module->LIBRARY_records[0].schema, 0, &schema, &error) != TN_OK ||
         tn_library_new(schema, 0, NULL, &library, &error) != TN_OK)
         stop(error.message);
     double times[RUNS];

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "bench/bench.h"
 #include "runtime/plan/lower.h"
 #include "runtime/plan/rules.h"
 #include "runtime/plan/text.h"
@@ -26,19 +27,6 @@ typedef struct plans {
 } plans;
 
 /* Of this thread's own: what else runs on the machine takes time, and is no part of this. */
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-static void stop(const char *what)
-{
-    fprintf(stderr, "bench_plan: %s\n", what);
-    exit(1);
-}
-
 static plans make(const tn_schema *schema, size_t count)
 {
     plans made = {malloc(count * TRAYS_HIGH * sizeof *made.trays), malloc(count * sizeof *made.ends), count};
@@ -79,13 +67,13 @@ static void time_one_by_one(tn_matcher *matcher, const plans *all, uint64_t *bit
     tn_error error;
     double times[RUNS];
     for (size_t run = 0; run < RUNS; run++) {
-        double start = seconds();
+        double start = seconds(CLOCK_THREAD_CPUTIME_ID);
         for (size_t i = 0; i < all->count; i++) {
             size_t begin = i ? all->ends[i - 1] : 0;
             if (tn_match(matcher, all->trays + begin, all->ends[i] - begin, &bits[i], &error) != TN_OK)
                 stop(error.message);
         }
-        times[run] = seconds() - start;
+        times[run] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
     print_time("all", "single", median(times), all->count);
 }
@@ -105,14 +93,14 @@ static void time_engine(const char *how, const tn_schema *schema, const uint32_t
         stop(error.message);
     double times[RUNS], any_times[RUNS];
     for (size_t run = 0; run < RUNS; run++) {
-        double start = seconds();
+        double start = seconds(CLOCK_THREAD_CPUTIME_ID);
         if (!matches || tn_match_all(matcher, &plan_array, bits, &done, &error) != TN_OK)
             stop(error.message);
-        times[run] = seconds() - start;
-        start = seconds();
+        times[run] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+        start = seconds(CLOCK_THREAD_CPUTIME_ID);
         if (tn_match_any(matcher, &plan_array, matches, &done, &error) != TN_OK)
             stop(error.message);
-        any_times[run] = seconds() - start;
+        any_times[run] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
     for (size_t i = 0; i < count; i++)
         if (matches[i] != (bits[i] != 0))
@@ -236,12 +224,12 @@ static void time_plain(const tn_schema *schema, const uint32_t *functions, size_
         stop("out of memory");
     plain_make(&p, schema, functions, rules);
     for (size_t run = 0; run < RUNS; run++) {
-        double start = seconds();
+        double start = seconds(CLOCK_THREAD_CPUTIME_ID);
         walk_rules(&p, rules, all, bits);
-        times[run] = seconds() - start;
-        start = seconds();
+        times[run] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+        start = seconds(CLOCK_THREAD_CPUTIME_ID);
         walk_union(&p, all, matches);
-        any_times[run] = seconds() - start;
+        any_times[run] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
     for (size_t i = 0; i < all->count; i++)
         if (matches[i] != (bits[i] != 0))
@@ -321,10 +309,9 @@ int main(int argc, char **argv)
         stop("usage: bench_plan MODULE PLANS FOLDER");
     size_t count = strtoul(argv[2], NULL, 10), few = count / 20;
     tn_error error;
-    tn_module *module;
+    tn_module *module = load_module(argv[1]);
     tn_schema *schema;
-    if (tn_module_load_file(argv[1], NULL, &module, &error) != TN_OK ||
-        tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
+    if (tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
         stop(error.message);
     uint32_t functions[64];
     size_t rules = module->RULE_count;

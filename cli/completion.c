@@ -5,18 +5,17 @@
 
 #include "cli/option_rows.h"
 
-const tn_shell tn_shells[] = {
+static const tn_shell shells[] = {
     {"bash", tn_completion_bash},
     {"zsh", tn_completion_zsh},
     {"fish", tn_completion_fish},
 };
-const size_t tn_shells_count = OPTION_COUNT(tn_shells);
 
 const tn_shell *tn_shell_find(const char *name)
 {
-    for (size_t i = 0; i < tn_shells_count; i++)
-        if (strcmp(tn_shells[i].name, name) == 0)
-            return &tn_shells[i];
+    for (size_t i = 0; i < OPTION_COUNT(shells); i++)
+        if (strcmp(shells[i].name, name) == 0)
+            return &shells[i];
     return NULL;
 }
 

@@ -10,9 +10,6 @@ typedef struct tn_shell {
     void (*write)(FILE *out);
 } tn_shell;
 
-extern const tn_shell tn_shells[];
-extern const size_t tn_shells_count;
-
 /* The shell named so, or NULL. */
 const tn_shell *tn_shell_find(const char *name);
 

@@ -95,21 +95,6 @@ tn_status tn_compile_text(const char *path, const char *text, size_t size, const
     return finish(compilation, status, &error, path);
 }
 
-tn_status tn_compile_file(const char *path, const tn_compile_options *options, tn_compilation *compilation)
-{
-    tn_error error = {0};
-    uint8_t *bytes;
-    size_t size;
-    tn_status status = tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error);
-    if (status != TN_OK) {
-        start(compilation);
-        return finish(compilation, status, &error, path);
-    }
-    status = tn_compile_text(path, (const char *)bytes, size, options, compilation);
-    free(bytes);
-    return status;
-}
-
 void tn_compilation_clear(tn_compilation *compilation)
 {
     tn_diagnostics_clear(&compilation->diagnostics);

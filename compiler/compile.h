@@ -33,12 +33,8 @@ typedef struct tn_compilation {
     size_t module_size;
 } tn_compilation;
 
-/* Compiles the file at `path` ("-": standard input). The result's diagnostics say what is wrong; returns TN_OK, or
- * TN_INVALID where there is an error, TN_IO where the named file itself cannot be read (reported as a diagnostic too).
- * Free with tn_compilation_clear in any case. */
-tn_status tn_compile_file(const char *path, const tn_compile_options *options, tn_compilation *compilation);
-
-/* The same from memory; `path` is its name in diagnostics and where relative imports start. */
+/* Compiles a text; `path` is its name in diagnostics and where relative imports start. The result's diagnostics say
+ * what is wrong; returns TN_OK, or TN_INVALID where there is an error. Free with tn_compilation_clear in any case. */
 tn_status tn_compile_text(const char *path, const char *text, size_t size, const tn_compile_options *options,
                           tn_compilation *compilation);
 

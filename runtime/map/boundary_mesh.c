@@ -46,11 +46,6 @@ bool tn_boundary_mesh_is_solid(const tn_boundary_mesh *mesh)
     return mesh->solid;
 }
 
-size_t tn_boundary_mesh_triangles(const tn_boundary_mesh *mesh)
-{
-    return mesh->count;
-}
-
 /* ---- building */
 
 static double component(tn_vector a, int k)

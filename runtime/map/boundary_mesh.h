@@ -22,7 +22,6 @@ tn_status tn_boundary_mesh_new(const double *positions, size_t vertex_count, con
 void tn_boundary_mesh_free(tn_boundary_mesh *mesh);
 
 bool tn_boundary_mesh_is_solid(const tn_boundary_mesh *mesh);
-size_t tn_boundary_mesh_triangles(const tn_boundary_mesh *mesh);
 
 typedef struct tn_mesh_hit {
     double t;         /* along the segment, in [0, 1) */

@@ -421,11 +421,3 @@ bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t leng
 {
     return length >= library->min && length <= library->max && accepts(library, library->kept, trays, length);
 }
-
-uint32_t tn_library_failing(const tn_library *library, const tn_tray *trays, size_t length)
-{
-    for (size_t i = 0; i < library->record->clause_count; i++)
-        if (accepts(library, library->clauses[i], trays, length) == tn_library_prunes(library, i))
-            return (uint32_t)(library->record->clause_first + i);
-    return UINT32_MAX;
-}

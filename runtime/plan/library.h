@@ -71,9 +71,6 @@ tn_status tn_library_kept_mirror(const tn_library *library, uint32_t length, mpz
 /* Is the plan in the library? */
 bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t length);
 
-/* The first clause (CLAUSE record) that keeps a plan of the library's lengths out of it; UINT32_MAX where none does. */
-uint32_t tn_library_failing(const tn_library *library, const tn_tray *trays, size_t length);
-
 /* The plan's rank. false where it is not in the library. */
 bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank);
 

@@ -14,24 +14,6 @@
 #define LINE_DEFAULT (1u << 20)
 #define SQLITE_MAGIC "SQLite format 3" /* with its zero byte, the first 16 bytes of a database */
 
-static const char *const format_names[TN_FORMAT_COUNT] = {"auto", "lines", "json", "csv", "bin", "sqlite"};
-
-const char *tn_plan_format_name(tn_plan_format format)
-{
-    return format < TN_FORMAT_COUNT ? format_names[format] : "unknown";
-}
-
-bool tn_plan_format_find(const char *name, tn_plan_format *format)
-{
-    for (int i = 0; i < TN_FORMAT_COUNT; i++) {
-        if (strcmp(name, format_names[i]) == 0) {
-            *format = (tn_plan_format)i;
-            return true;
-        }
-    }
-    return false;
-}
-
 /* ---- input */
 
 /* Room for `wanted` bytes from `begin` on. */
@@ -352,9 +334,4 @@ bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank)
     if (digits->size == 0 || strspn(digits->data, "0123456789") != digits->size)
         return false;
     return mpz_set_str(rank, digits->data, 10) == 0;
-}
-
-tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader)
-{
-    return reader->format;
 }

@@ -20,12 +20,6 @@ typedef enum tn_plan_format {
     TN_FORMAT_COUNT
 } tn_plan_format;
 
-/* "auto", "lines", "json", "csv", "bin", "sqlite". */
-const char *tn_plan_format_name(tn_plan_format format);
-
-/* The format named so; false where there is none. */
-bool tn_plan_format_find(const char *name, tn_plan_format *format);
-
 /* ---- reading */
 
 typedef struct tn_plan_reader tn_plan_reader;
@@ -55,9 +49,6 @@ const char *tn_plan_reader_text(const tn_plan_reader *reader, size_t *size);
 
 /* The rank that the file gives the plan read last; false where it gives none. */
 bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank);
-
-/* The format that is being read: what was asked for, or was found out. Never TN_FORMAT_AUTO. */
-tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
 
 /* ---- reading by several threads */
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "runtime/vm/bytes.h"
-#include "runtime/vm/file.h"
 #include "runtime/vm/layout.h"
 #include "runtime/vm/verify.h"
 
@@ -168,20 +167,6 @@ tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits 
     }
     *module = loaded;
     return TN_OK;
-}
-
-tn_status tn_module_load_file(const char *path, const tn_module_limits *limits, tn_module **module, tn_error *error)
-{
-    *module = NULL;
-    uint8_t *bytes;
-    size_t size;
-    tn_status status =
-        tn_file_read(path, limits ? limits->bytes : tn_module_limits_default().bytes, &bytes, &size, error);
-    if (status != TN_OK)
-        return status;
-    status = tn_module_load(bytes, size, limits, module, error);
-    free(bytes);
-    return status;
 }
 
 void tn_module_free(tn_module *module)

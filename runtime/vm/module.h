@@ -140,9 +140,6 @@ tn_module_limits tn_module_limits_default(void);
 tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits *limits, tn_module **module,
                          tn_error *error);
 
-/* The same from a file. */
-tn_status tn_module_load_file(const char *path, const tn_module_limits *limits, tn_module **module, tn_error *error);
-
 /* Does this look like a module (its first bytes), as opposed to a source text? */
 bool tn_module_has_magic(const void *bytes, size_t size);
 

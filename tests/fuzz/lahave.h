@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "compiler/compile.h"
 #include "runtime/plan/schema.h"
+#include "tests/support/compile_file.h"
 
 static void stop(const char *why)
 {
@@ -22,7 +22,7 @@ static const tn_schema *lahave(void)
     tn_error error;
     if (schema)
         return schema;
-    if (tn_compile_file(TARTAN_SOURCE_DIR "/stdlib/lahave.plan", &(tn_compile_options){0}, &compilation) != TN_OK ||
+    if (compile_file(TARTAN_SOURCE_DIR "/stdlib/lahave.plan", &(tn_compile_options){0}, &compilation) != TN_OK ||
         tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error) != TN_OK ||
         tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
         stop("stdlib/lahave.plan does not compile");

@@ -9,10 +9,10 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/vm/builder.h"
 #include "runtime/vm/disasm.h"
 #include "runtime/vm/module.h"
+#include "tests/support/compile_file.h"
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
 static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
@@ -25,7 +25,7 @@ enum { FILES = sizeof files / sizeof *files };
 
 static void compile(const char *path, tn_compilation *compilation)
 {
-    tn_status status = tn_compile_file(path, &options, compilation);
+    tn_status status = compile_file(path, &options, compilation);
     if (status != TN_OK || !compilation->module)
         fail_msg("%s does not compile", path);
 }

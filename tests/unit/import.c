@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/vm/module.h"
+#include "tests/support/compile_file.h"
 
 #define SCHEMA "schema s { width = 4' | 8' }\n"
 
@@ -61,7 +61,7 @@ static tn_status compile_main(tn_compilation *compilation)
     snprintf(path, sizeof path, "%s/top/main.plan", folder);
     const char *dirs[] = {lib, lib2};
     tn_compile_options options = {.stdlib_dirs = dirs, .stdlib_dir_count = 2};
-    return tn_compile_file(path, &options, compilation);
+    return compile_file(path, &options, compilation);
 }
 
 static void diamond(void **state)

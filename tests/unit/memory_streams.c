@@ -40,7 +40,7 @@ static void expect_robust(operation *operate, const context *c)
             if (status == TN_OK)
                 continue;
             if (status != TN_MEMORY || error.code != 801)
-                fail_msg("allocation %zu, format %s: %s", number, tn_plan_format_name(c->format), error.message);
+                fail_msg("allocation %zu, format %d: %s", number, (int)c->format, error.message);
             failures++;
         }
     }
