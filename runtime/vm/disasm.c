@@ -6,6 +6,7 @@
 #include "runtime/vm/code.h"
 #include "runtime/vm/condition_text.h"
 #include "runtime/vm/disasm_growth.h"
+#include "runtime/vm/disasm_lines.h"
 #include "runtime/vm/disasm_settings.h"
 #include "runtime/vm/growth.h"
 #include "runtime/vm/utf8.h"
@@ -16,10 +17,10 @@ enum { TEXT_SHOWN = 240 };
 typedef struct tn_lister {
     const tn_module *module;
     FILE *out;
-    uint32_t **line_starts; /* per source, found when first needed */
-    size_t *line_counts;
+    tn_source_lines *lines;
     uint32_t shown_file; /* the source line that was shown last */
     size_t shown_line;
+    bool failed; /* out of memory */
 } tn_lister;
 
 /* A line under construction that is cut where it grows too long. */
@@ -68,40 +69,11 @@ static void write_doc(tn_lister *lister, tn_string doc)
 
 /* ---- places */
 
-/* Finds where a source's lines start, once; without memory for that, no lines are shown. */
-static bool index_lines(tn_lister *lister, uint32_t file)
+static bool find_line(tn_lister *lister, uint32_t file, uint32_t offset, size_t *line)
 {
-    if (lister->line_starts[file])
-        return true;
-    const char *text = tn_text(lister->module, lister->module->SOURCE_records[file].text);
-    size_t count = 1;
-    for (const char *at = text; (at = strchr(at, '\n')); at++)
-        count++;
-    uint32_t *starts = malloc(count * sizeof *starts);
-    if (!starts)
-        return false;
-    size_t line = 0;
-    starts[line++] = 0;
-    for (const char *at = text; (at = strchr(at, '\n')); at++)
-        starts[line++] = (uint32_t)(at + 1 - text);
-    lister->line_starts[file] = starts;
-    lister->line_counts[file] = count;
-    return true;
-}
-
-/* The line (from 0) of a source that holds a byte of it. */
-static size_t line_of(const tn_lister *lister, uint32_t file, uint32_t offset)
-{
-    const uint32_t *starts = lister->line_starts[file];
-    size_t low = 0, high = lister->line_counts[file];
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (starts[middle] <= offset)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    bool found = tn_source_line(lister->lines, file, offset, line);
+    lister->failed |= !found;
+    return found;
 }
 
 /* Ends the line of a record with where it comes from. */
@@ -109,8 +81,9 @@ static void write_place(tn_lister *lister, uint32_t file, uint32_t begin)
 {
     fputs("  (", lister->out);
     write_name(lister, lister->module->SOURCE_records[file].path);
-    if (index_lines(lister, file))
-        fprintf(lister->out, ":%zu", line_of(lister, file, begin) + 1);
+    size_t line;
+    if (find_line(lister, file, begin, &line))
+        fprintf(lister->out, ":%zu", line + 1);
     fputs(")\n", lister->out);
 }
 
@@ -284,15 +257,14 @@ static void list_library(tn_lister *lister, size_t index)
 /* Shows the line that a place begins in, unless it was the last one shown. */
 static void show_source(tn_lister *lister, const tn_map_record *place)
 {
-    if (!place || !index_lines(lister, place->file))
+    size_t line;
+    if (!place || !find_line(lister, place->file, place->begin, &line))
         return;
-    size_t line = line_of(lister, place->file, place->begin);
     if (lister->shown_file == place->file && lister->shown_line == line + 1)
         return;
     lister->shown_file = place->file;
     lister->shown_line = line + 1;
-    const char *text = tn_text(lister->module, lister->module->SOURCE_records[place->file].text) +
-                       lister->line_starts[place->file][line];
+    const char *text = tn_source_line_text(lister->lines, place->file, line);
     size_t size = 0;
     while (size < TEXT_SHOWN && text[size] && text[size] != '\n' && text[size] != '\r')
         size++;
@@ -500,18 +472,14 @@ static bool list_rule_code(tn_lister *lister, uint32_t rule)
 static bool list(const tn_module *module, uint32_t rule, FILE *out)
 {
     tn_lister lister = {.module = module, .out = out};
-    lister.line_starts = calloc(module->SOURCE_count + 1, sizeof *lister.line_starts);
-    lister.line_counts = calloc(module->SOURCE_count + 1, sizeof *lister.line_counts);
-    bool ready = lister.line_starts && lister.line_counts;
+    lister.lines = tn_source_lines_new(module);
+    bool ready = lister.lines != NULL;
     if (ready && rule != UINT32_MAX)
         ready = list_rule_code(&lister, rule);
     else if (ready)
         list_module(&lister);
-    for (size_t i = 0; lister.line_starts && i < module->SOURCE_count; i++)
-        free(lister.line_starts[i]);
-    free(lister.line_starts);
-    free(lister.line_counts);
-    return ready && !ferror(out);
+    tn_source_lines_free(lister.lines);
+    return ready && !lister.failed && !ferror(out);
 }
 
 bool tn_module_disassemble(const tn_module *module, FILE *out)
