@@ -5,7 +5,7 @@ CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 
-.PHONY: help packages build demo check check-editor check-report package check-package bench fuzz install uninstall clean
+.PHONY: help packages build demo check check-editor check-report lint package check-package bench fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -14,6 +14,7 @@ help:
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
+	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -45,6 +46,9 @@ check-editor: build
 
 check-report: build
 	@tools/check-report build/tartan
+
+lint: build
+	@tools/lint build
 
 bench: build
 	@bench/run build
