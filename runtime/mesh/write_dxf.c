@@ -131,7 +131,7 @@ static const char *layer_name(const tn_mesh *mesh, uint32_t layer)
     return mesh->group_names ? mesh->group_names[layer] : "0";
 }
 
-/* Colours of AutoCAD's index that are nearest to those of tn_group_colour. */
+/* Colours of AutoCAD's index that are nearest to the first of tn_group_colour; layers have names, and repeat them. */
 static uint64_t layer_colour(uint32_t layer)
 {
     static const uint64_t colours[] = {152, 30, 104, 221, 140, 40, 34};
