@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #define HUGE_PAGE ((size_t)2 << 20)
 #define SMALL ((size_t)512 << 10) /* up to here the heap serves as well */
@@ -23,22 +24,33 @@ static void *map_aligned(size_t capacity)
     return data + before;
 }
 
-/* A larger mapping that holds what there was: copied from the heap, where it was too small for that to matter; its
- * pages taken over otherwise. */
+/* Whole huge pages, and small ones for a short rest: counts are often a little more than a power of two, and clearing a
+ * huge page for that little takes longer than what is done there. */
+static size_t capacity_for(size_t size)
+{
+    size_t rest = size % HUGE_PAGE, small = (size_t)sysconf(_SC_PAGESIZE);
+    size_t unit = rest > HUGE_PAGE / 2 ? HUGE_PAGE : small;
+    return size - rest + (rest + unit - 1) / unit * unit;
+}
+
+/* A larger mapping that holds what there was: its huge pages are taken over; the rest, or what was on the heap, is
+ * copied, so that it is in a huge page now. */
 static void *enlarge(const tn_pages *pages, size_t capacity)
 {
-    void *data = map_aligned(capacity);
+    char *data = map_aligned(capacity), *old = pages->data;
     if (!data)
         return NULL;
-    if (pages->capacity > SMALL) {
-        if (mremap(pages->data, pages->capacity, capacity, MREMAP_MAYMOVE | MREMAP_FIXED, data) == MAP_FAILED) {
-            munmap(data, capacity);
-            return NULL;
-        }
-    } else if (pages->data) {
-        memcpy(data, pages->data, pages->capacity);
-        free(pages->data);
+    size_t whole = pages->capacity > SMALL ? pages->capacity / HUGE_PAGE * HUGE_PAGE : 0;
+    if (whole && mremap(old, whole, capacity, MREMAP_MAYMOVE | MREMAP_FIXED, data) == MAP_FAILED) {
+        munmap(data, capacity);
+        return NULL;
     }
+    if (pages->capacity > whole)
+        memcpy(data + whole, old + whole, pages->capacity - whole);
+    if (pages->capacity <= SMALL)
+        free(old);
+    else if (pages->capacity > whole)
+        munmap(old + whole, pages->capacity - whole);
     return data;
 }
 
@@ -55,7 +67,7 @@ bool tn_pages_reserve(tn_pages *pages, size_t size)
         *pages = (tn_pages){data, size};
         return true;
     }
-    size_t capacity = (size + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
+    size_t capacity = capacity_for(size);
     void *data = enlarge(pages, capacity);
     if (!data)
         return false;
