@@ -265,6 +265,8 @@ static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
 
 static uint32_t group_at(const tn_pass *pass, uint32_t edge)
 {
+    if (pass->group_last - pass->group_first == 1)
+        return 0;
     return pass->growth->group_of[tn_state_label(pass->old->states[edge])] - pass->group_first;
 }
 
