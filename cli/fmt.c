@@ -70,6 +70,9 @@ static void format_file(tn_job *job, const char *path)
     }
     tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path), path,
                                       (const char *)bytes, size, &formatted, &formatted_size));
+    if (!formatted && !job->settings->notation && tn_notation_of(path) == TN_NOTATION_COUNT)
+        tn_job_note(job, "%.200s was read as .plan, as its name says nothing else; --notation hemls, study or bnf does",
+                    path);
     if (formatted)
         deliver(job, path, (const char *)bytes, formatted, formatted_size);
     free(formatted);

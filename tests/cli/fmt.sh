@@ -21,6 +21,7 @@ for notation in hemls study bnf; do
     golden "stdin_$notation" "tartan fmt --notation $notation - <$scratch/wild.$notation"
 done
 golden notation_name 'tartan fmt --notation hemsl -'
+golden notation_unsaid 'printf "<a> ::= x\n" | tartan fmt -'
 golden all "tartan fmt --diff $scratch/wild.hemls $scratch/evolution.study $scratch/wild.bnf"
 golden plain "cp $scratch/wild.bnf $scratch/grammar; tartan fmt --notation bnf $scratch/grammar; cat $scratch/grammar"
 printf '<a> ::= it'"'"'s\n' >"$scratch/broken.bnf"
