@@ -3,24 +3,31 @@
 #include "runtime/map/share.h"
 
 #define AHEAD 48u /* darts */
-/* What some darts further on will need lies all over memory: asked for now, it is there in time. */
-static inline __attribute__((always_inline)) void prefetch(const tn_pass *pass, uint32_t dart)
+/* What the darts that are AHEAD of first .. end will need lies all over memory: asked for now, it is there in time.
+ * Always inlined: a call that only asks is taken for one without effect. */
+static inline __attribute__((always_inline)) void ask_ahead(const tn_map *map, const tn_edge_side *sides,
+                                                            uint32_t first, uint32_t end)
 {
-    __builtin_prefetch(pass->old->positions + 3 * (size_t)pass->old->origin[dart]);
-    __builtin_prefetch(pass->sides + pass->old->side[dart], 1);
+    if (2 * map->edge_count - end < AHEAD)
+        return;
+    for (size_t d = (size_t)first + AHEAD; d < (size_t)end + AHEAD; d++) {
+        __builtin_prefetch(map->positions + 3 * (size_t)map->origin[d]);
+        __builtin_prefetch(sides + map->side[d], 1);
+    }
 }
 
-static void survey_face(tn_pass *pass, uint32_t face)
+/* Where the faces begin .. end - 1 have their darts. `sides` and `darts` are nobody else's, so that nothing has to be
+ * read twice. */
+static void note_sides(const tn_map *map, uint32_t begin, uint32_t end, tn_edge_side *restrict sides,
+                       uint32_t *restrict darts)
 {
-    const tn_map *map = pass->old;
-    uint32_t darts = 2 * map->edge_count;
-    for (uint32_t d = map->face_first[face]; d < map->face_first[face + 1]; d++) {
-        uint32_t side = map->side[d];
-        if (d + AHEAD < darts)
-            prefetch(pass, d + AHEAD);
-        pass->sides[side] = (tn_edge_side){map->origin[d], face};
-        if (pass->dart)
-            pass->dart[side] = d;
+    const uint32_t *first = map->face_first, *origin = map->origin, *side = map->side;
+    for (uint32_t f = begin; f < end; f++) {
+        ask_ahead(map, sides, first[f], first[f + 1]);
+        for (uint32_t d = first[f]; d < first[f + 1]; d++)
+            sides[side[d]] = (tn_edge_side){origin[d], f};
+        for (uint32_t d = first[f]; darts && d < first[f + 1]; d++)
+            darts[side[d]] = d;
     }
 }
 
@@ -33,9 +40,10 @@ static void survey_chunk(void *context, uint32_t chunk)
     tn_normals_start(&normals, pass->old, pass->normal);
     if (chunk == 0)
         tn_vector_put(pass->normal + 3 * TN_OUTER_FACE, (tn_vector){0, 0, 0});
-    for (uint32_t f = begin; f < end; f++) {
-        survey_face(pass, f);
-        if (f != TN_OUTER_FACE)
+    for (uint32_t some = begin; some < end; some += TN_ROW) {
+        uint32_t last = end - some < TN_ROW ? end : some + TN_ROW;
+        note_sides(pass->old, some, last, pass->sides, pass->dart);
+        for (uint32_t f = some == TN_OUTER_FACE ? 1 : some; f < last; f++)
             tn_normals_add(&normals, f);
     }
     tn_normals_finish(&normals);
