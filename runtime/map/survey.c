@@ -2,7 +2,7 @@
 #include "runtime/map/pass.h"
 #include "runtime/map/share.h"
 
-#define AHEAD 48u /* darts */
+#define AHEAD 80u /* darts */
 /* What the darts that are AHEAD of first .. end will need lies all over memory: asked for now, it is there in time.
  * Always inlined: a call that only asks is taken for one without effect. */
 static inline __attribute__((always_inline)) void ask_ahead(const tn_map *map, const tn_edge_side *sides,
