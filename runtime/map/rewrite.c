@@ -201,13 +201,13 @@ static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_
     return true;
 }
 
-static void count(const tn_pass *pass, uint16_t chosen, tally_counts *so_far)
+static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tally_counts *so_far)
 {
     const tn_template *template = &pass->growth->system->templates[chosen];
-    so_far->rewrites++;
-    so_far->pieces += template->segment_count;
-    so_far->vertices += template->segment_count - 1;
-    so_far->branches += template->branch_count;
+    so_far->rewrites += times;
+    so_far->pieces += times * template->segment_count;
+    so_far->vertices += times * (template->segment_count - 1);
+    so_far->branches += times * template->branch_count;
 }
 
 /* Memory for what the counts say, and the first numbers of each kind. */
@@ -270,13 +270,19 @@ static uint32_t group_at(const tn_pass *pass, uint32_t edge)
     return pass->growth->group_of[tn_state_label(pass->old->states[edge])] - pass->group_first;
 }
 
+/* Counted by runs of edges replaced alike: one after another, each would wait for the sums of the last. */
 static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
 {
-    for (uint32_t e = begin; e < end; e++) {
-        if (pass->choice[e] == TN_NO_TEMPLATE)
-            by_group[0].kept++;
+    for (uint32_t e = begin, next; e < end; e = next) {
+        uint16_t chosen = pass->choice[e];
+        uint32_t group = chosen == TN_NO_TEMPLATE ? 0 : group_at(pass, e);
+        for (next = e + 1; next < end && pass->choice[next] == chosen; next++)
+            if (chosen != TN_NO_TEMPLATE && group_at(pass, next) != group)
+                break;
+        if (chosen == TN_NO_TEMPLATE)
+            by_group[0].kept += next - e;
         else
-            count(pass, pass->choice[e], &by_group[group_at(pass, e)]);
+            count(pass, chosen, next - e, &by_group[group]);
     }
 }
 
@@ -384,7 +390,7 @@ static tn_status rewrite_list(tn_pass *pass, tn_error *error)
     tally_counts total = {0};
     uint32_t edges = pass->old->edge_count, replaced = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
-        count(pass, pass->list[i].template, &total);
+        count(pass, pass->list[i].template, 1, &total);
         replaced += pass->list[i].length;
     }
     total.kept = edges - replaced;
