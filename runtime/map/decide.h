@@ -55,8 +55,7 @@ static inline __attribute__((always_inline)) void tn_ask_ahead(const tn_pass *pa
     for (; side < end; side++) {
         __builtin_prefetch(&pass->records[side[4 * TN_AHEAD] / 2], 0, 2); /* so far ahead, the second cache does */
         const tn_record *record = &pass->records[side[TN_AHEAD] / 2];
-        if (!tn_is_kept(record))
-            __builtin_prefetch((const char *)items + (record->branch - first) * size);
+        __builtin_prefetch((const char *)items + (record->branch - first) * size);
     }
 }
 

@@ -54,7 +54,7 @@ typedef struct tn_shape {
 typedef struct tn_record {
     uint32_t side;     /* first new edge's, along it; of a kept edge, its own */
     uint32_t vertex;   /* first new vertex, at the path's point 1; kept: 0 */
-    uint32_t branch;   /* first branch; kept: 0 */
+    uint32_t branch;   /* first branch; kept: the first of all, so that asking ahead for it needs no condition */
     uint16_t template; /* TN_NO_TEMPLATE: it is kept */
     int16_t age;       /* of the replaced edge */
 } tn_record;

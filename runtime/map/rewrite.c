@@ -256,7 +256,7 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
 
 static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
 {
-    pass->records[edge] = (tn_record){.side = 2 * number, .template = TN_NO_TEMPLATE};
+    pass->records[edge] = (tn_record){2 * number, 0, pass->branch_first, TN_NO_TEMPLATE, 0};
     tn_edge_state state = pass->old->states[edge];
     pass->new->states[number] = pass->joins_last ? state & ~TN_STATE_FRESH : state;
 }
