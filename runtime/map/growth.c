@@ -113,7 +113,8 @@ static tn_status make_shapes(tn_growth *growth, tn_error *error)
     growth->walks = malloc((items ? items : 1) * sizeof *growth->walks);
     growth->pieces = malloc((pieces ? pieces : 1) * sizeof *growth->pieces);
     growth->group_of = malloc(system->label_count * sizeof *growth->group_of);
-    if (!growth->shapes || !growth->walks || !growth->pieces || !growth->group_of)
+    growth->template_of = malloc(system->label_count * sizeof *growth->template_of);
+    if (!growth->shapes || !growth->walks || !growth->pieces || !growth->group_of || !growth->template_of)
         return tn_fail_memory(error);
     tn_walk *walk = growth->walks;
     tn_piece *piece = growth->pieces;
@@ -210,6 +211,7 @@ static void clear_shapes(tn_growth *growth)
     free(growth->walks);
     free(growth->pieces);
     free(growth->group_of);
+    free(growth->template_of);
 }
 
 tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
@@ -269,7 +271,7 @@ static bool anything_to_do(const tn_pass *pass)
     if (pass->list)
         return pass->list_count > 0;
     for (uint32_t e = 0; e < pass->old->edge_count; e++)
-        if (pass->choice[e] != TN_NO_TEMPLATE)
+        if (tn_choice(pass, e) != TN_NO_TEMPLATE)
             return true;
     return false;
 }

@@ -199,9 +199,10 @@ static tn_status number_draws(tn_pass *pass, uint32_t chunks, uint64_t **ordinal
 }
 
 /* The template of every edge of a label, where neither context, age nor chance has a say; false where one has. */
-static bool find_plain(const tn_pass *pass, uint16_t *template_of)
+static bool find_plain(tn_pass *pass)
 {
     const tn_growth_system *system = pass->growth->system;
+    uint16_t *template_of = pass->growth->template_of;
     memset(template_of, 0xff, system->label_count * sizeof *template_of);
     for (uint32_t g = pass->group_first; g < pass->group_last; g++) {
         const tn_growth_group *group = &system->groups[g];
@@ -211,39 +212,13 @@ static bool find_plain(const tn_pass *pass, uint16_t *template_of)
             return false;
         template_of[group->labels[0]] = (uint16_t)rule->alternatives[0].template;
     }
+    pass->template_of = template_of;
     return true;
-}
-
-typedef struct plain_match {
-    tn_pass *pass;
-    const uint16_t *template_of; /* [label] */
-} plain_match;
-
-static void match_plainly(void *context, uint32_t chunk)
-{
-    const plain_match *match = context;
-    const tn_map *map = match->pass->old;
-    uint16_t *choice = match->pass->choice;
-    uint32_t begin = chunk * TN_CHUNK_EDGES;
-    uint32_t end = map->edge_count - begin < TN_CHUNK_EDGES ? map->edge_count : begin + TN_CHUNK_EDGES;
-    for (uint32_t e = begin; e < end; e++) {
-        tn_edge_state state = map->states[e];
-        choice[e] = state & TN_STATE_FRESH ? TN_NO_TEMPLATE : match->template_of[tn_state_label(state)];
-    }
 }
 
 static tn_status match_singly(tn_pass *pass, const contexts *around, tn_error *error)
 {
     uint32_t chunks = (pass->old->edge_count + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
-    uint16_t *template_of = malloc(pass->growth->system->label_count * sizeof *template_of);
-    if (!template_of)
-        return tn_fail_memory(error);
-    bool plain = find_plain(pass, template_of);
-    if (plain)
-        tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_plainly, &(plain_match){pass, template_of});
-    free(template_of);
-    if (plain)
-        return TN_OK;
     single_match match = {pass, around, NULL};
     tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
     if (!pass->growth->weighted)
@@ -406,7 +381,7 @@ tn_status tn_pass_match(tn_pass *pass, tn_error *error)
     tn_status status = find_contexts(pass, &around, error);
     if (status == TN_OK && has_chains(pass)) {
         status = match_chains(pass, &around, error);
-    } else if (status == TN_OK) {
+    } else if (status == TN_OK && !find_plain(pass)) {
         tn_pages *choices = &pass->growth->space.choices;
         if (tn_pages_reserve(choices, pass->old->edge_count * sizeof *pass->choice)) {
             pass->choice = choices->data;

@@ -107,16 +107,17 @@ struct tn_growth {
     const tn_growth_system *system;
     const tn_environment *environment;
     tn_growth_options options;
-    double branch_cosine; /* -cos(branch angle) + 1e-9: joined directions' product is at most this */
-    tn_shape *shapes;     /* [template] */
-    tn_walk *walks;       /* storage of the shapes, */
-    tn_piece *pieces;     /* and this */
-    uint32_t *group_of;   /* [label] the group whose whole predecessor it is, or TN_NONE */
-    bool weighted;        /* some choice is random */
-    bool ranked;          /* faces have ranks (see tn_growth_step) */
-    bool waited;          /* some face has had to wait for others: they are needed */
-    bool needs_ranks;     /* one has to, and faces have no ranks any more */
-    bool hard;            /* some boundary moves vertices */
+    double branch_cosine;  /* -cos(branch angle) + 1e-9: joined directions' product is at most this */
+    tn_shape *shapes;      /* [template] */
+    tn_walk *walks;        /* storage of the shapes, */
+    tn_piece *pieces;      /* and this */
+    uint32_t *group_of;    /* [label] the group whose whole predecessor it is, or TN_NONE */
+    uint16_t *template_of; /* [label] of a pass */
+    bool weighted;         /* some choice is random */
+    bool ranked;           /* faces have ranks (see tn_growth_step) */
+    bool waited;           /* some face has had to wait for others: they are needed */
+    bool needs_ranks;      /* one has to, and faces have no ranks any more */
+    bool hard;             /* some boundary moves vertices */
     tn_workspace space;
     tn_map map;
     uint32_t steps;
@@ -144,7 +145,8 @@ typedef struct tn_pass {
     uint32_t *dart;      /* [2 edge + against]; only where `walks_vertices` */
     bool walks_vertices; /* joining may ask who is around a vertex */
     /* match */
-    uint16_t *choice;            /* [edge] template or TN_NO_TEMPLATE */
+    const uint16_t *template_of; /* [label] template or TN_NO_TEMPLATE, where labels alone decide; otherwise NULL */
+    uint16_t *choice;            /* [edge] the same, where they do not and no chains are replaced */
     struct tn_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
     size_t list_count;
     /* rewrite */
@@ -165,6 +167,15 @@ typedef struct tn_pass {
     /* stamp */
     bool has_lanes; /* the processor has them (stamp_lanes.h) */
 } tn_pass;
+
+/* The template that replaces an edge, or TN_NO_TEMPLATE, where no chains are replaced. */
+static inline uint16_t tn_choice(const tn_pass *pass, uint32_t edge)
+{
+    if (!pass->template_of)
+        return pass->choice[edge];
+    tn_edge_state state = pass->old->states[edge];
+    return state & TN_STATE_FRESH ? TN_NO_TEMPLATE : pass->template_of[tn_state_label(state)];
+}
 
 static inline bool tn_is_kept(const tn_record *record)
 {

@@ -274,9 +274,9 @@ static uint32_t group_at(const tn_pass *pass, uint32_t edge)
 static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
 {
     for (uint32_t e = begin, next; e < end; e = next) {
-        uint16_t chosen = pass->choice[e];
+        uint16_t chosen = tn_choice(pass, e);
         uint32_t group = chosen == TN_NO_TEMPLATE ? 0 : group_at(pass, e);
-        for (next = e + 1; next < end && pass->choice[next] == chosen; next++)
+        for (next = e + 1; next < end && tn_choice(pass, next) == chosen; next++)
             if (chosen != TN_NO_TEMPLATE && group_at(pass, next) != group)
                 break;
         if (chosen == TN_NO_TEMPLATE)
@@ -292,11 +292,12 @@ static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_cou
     start_placing(&some);
     bool fine = true;
     for (uint32_t e = begin; e < end && fine; e++) {
-        if (pass->choice[e] == TN_NO_TEMPLATE) {
+        uint16_t chosen = tn_choice(pass, e);
+        if (chosen == TN_NO_TEMPLATE) {
             keep(pass, e, (uint32_t)by_group[0].kept++);
             continue;
         }
-        fine = replace(pass, e, e, pass->choice[e], &by_group[group_at(pass, e)], &some);
+        fine = replace(pass, e, e, chosen, &by_group[group_at(pass, e)], &some);
     }
     return fine && place_all(pass, &some);
 }
