@@ -150,7 +150,7 @@ test('files that are not saved count where another uses them', async () => {
 const notations = {
     hemls: {
         text: 'A+B+A\nA->A[+B A\n// why\nANGLE 90;',
-        code: 'E1007',
+        code: 'E1005',
         outline: ['A+B+A', 'A', 'ANGLE'],
         layout: 'A + B + A\nA -> A [ + B A\n// why\nAngle 90\n',
     },
