@@ -41,7 +41,7 @@ static void gather(const tn_normals *n, uint32_t corner, tn_row *points)
 {
     const tn_map *map = n->map;
     for (uint32_t i = 0; i < n->count; i++) {
-        uint32_t vertex = map->origin[map->face_first[n->faces[i]] + corner];
+        uint32_t vertex = map->origin[n->darts[i] + corner];
         tn_rows_put(points, i, tn_vector_at(map->positions + 3 * (size_t)vertex));
     }
     tn_rows_fill(points, n->count);
@@ -112,7 +112,8 @@ void tn_normals_add(tn_normals *n, uint32_t face)
         tn_normals_finish(n);
         n->size = size;
     }
-    n->faces[n->count++] = face;
-    if (n->count == TN_ROW)
+    n->faces[n->count] = face;
+    n->darts[n->count] = n->map->face_first[face];
+    if (++n->count == TN_ROW)
         tn_normals_finish(n);
 }

@@ -9,7 +9,7 @@
 typedef struct tn_normals {
     const tn_map *map;
     double *normals; /* [face][3] where they go */
-    uint32_t faces[TN_ROW];
+    uint32_t faces[TN_ROW], darts[TN_ROW]; /* each one's first dart */
     uint32_t count, size;
     tn_row first[3], before[3], point[3], sum[3], span;
 } tn_normals;
