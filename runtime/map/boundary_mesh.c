@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/map/select_nth.h"
+
 #define LEAF_TRIANGLES 4u
 #define TREE_DEPTH_MAX 64
 #define TOUCH 1e-9
@@ -74,36 +76,10 @@ static void bound(const tn_boundary_mesh *mesh, node *box, uint32_t begin, uint3
     }
 }
 
-static bool before(const tn_boundary_mesh *mesh, uint32_t a, uint32_t b, int axis)
+static bool before(const void *mesh, uint32_t a, uint32_t b, int axis)
 {
     double x = centre(mesh, a, axis), y = centre(mesh, b, axis);
     return x < y || (x == y && a < b);
-}
-
-/* Puts the middle-th of order[begin, end) where sorting would put it, smaller ones before it (quickselect). */
-static void select_middle(tn_boundary_mesh *mesh, uint32_t begin, uint32_t end, uint32_t middle, int axis)
-{
-    uint32_t *order = mesh->order;
-    while (end - begin > 1) {
-        uint32_t pivot = order[begin + (end - begin) / 2], i = begin, j = end - 1;
-        for (;;) {
-            while (before(mesh, order[i], pivot, axis))
-                i++;
-            while (before(mesh, pivot, order[j], axis))
-                j--;
-            if (i >= j)
-                break;
-            uint32_t swap = order[i];
-            order[i++] = order[j];
-            order[j--] = swap;
-        }
-        if (i == j && middle == i) /* the pivot's own place: no two triangles compare equal */
-            return;
-        if (middle <= j)
-            end = i == j ? j : j + 1;
-        else
-            begin = j + 1;
-    }
 }
 
 static void build(tn_boundary_mesh *mesh, uint32_t begin, uint32_t end)
@@ -120,7 +96,7 @@ static void build(tn_boundary_mesh *mesh, uint32_t begin, uint32_t end)
         if (here->high[k] - here->low[k] > here->high[axis] - here->low[axis])
             axis = k;
     uint32_t middle = begin + (end - begin) / 2;
-    select_middle(mesh, begin, end, middle, axis);
+    tn_select_nth(mesh->order, begin, end, middle, axis, before, mesh);
     here->count = 0;
     build(mesh, begin, middle); /* halves each time: at most 32 deep */
     here->first = mesh->node_count;

@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "runtime/map/select_nth.h"
+
 #define LEAF 8u
 
 enum { DIRECTION = 3, LABEL = 6 }; /* the first axes of these */
@@ -59,38 +61,11 @@ static int widest_axis(const tn_branch_node *root, const tn_branch_node *node)
     return widest;
 }
 
-static bool lies_before(const tn_branch_trees *trees, uint32_t a, uint32_t b, int axis)
+static bool lies_before(const void *context, uint32_t a, uint32_t b, int axis)
 {
+    const tn_branch_trees *trees = context;
     double x = trees->places[a][axis], y = trees->places[b][axis];
     return x != y ? x < y : a < b;
-}
-
-/* Orders a stretch so that what lies before its element `nth` comes before it (Hoare's selection). Pivots are drawn, as
- * coordinates along an outline rise and fall in ways that fixed choices are slow on. */
-static void select_nth(const tn_branch_trees *trees, uint32_t *order, uint32_t first, uint32_t end, uint32_t nth,
-                       int axis)
-{
-    while (end - first > 1) {
-        uint32_t pivot = order[first + (end * 0x9e3779b1u ^ first * 0x85ebca77u) % (end - first)];
-        uint32_t i = first, j = end - 1;
-        for (;;) {
-            while (lies_before(trees, order[i], pivot, axis))
-                i++;
-            while (lies_before(trees, pivot, order[j], axis))
-                j--;
-            if (i >= j)
-                break;
-            uint32_t swap = order[i];
-            order[i++] = order[j];
-            order[j--] = swap;
-        }
-        if (i == j && nth == i)
-            return; /* the pivot is in its place */
-        if (nth < i)
-            end = i;
-        else
-            first = i == j ? i + 1 : i;
-    }
 }
 
 static void refresh_leaf(const tn_branch_trees *trees, uint32_t region, tn_branch_node *node)
@@ -123,7 +98,7 @@ static uint32_t build(const tn_branch_trees *trees, uint32_t region, uint32_t fi
         refresh_leaf(trees, region, node);
         return index;
     }
-    select_nth(trees, tree->order, first, end, middle, widest_axis(tree->nodes, node));
+    tn_select_nth(tree->order, first, end, middle, widest_axis(tree->nodes, node), lies_before, trees);
     node->left = build(trees, region, first, middle, index);
     node->right = build(trees, region, middle, end, index);
     refresh_inner(tree, node);

@@ -5,7 +5,7 @@
  *
  *   survey   each edge side's vertex and face, each face's normal                            (survey.c)
  *   match    which template, if any, replaces each edge                                      (match.c)
- *   rewrite  numbers, states, new vertices and branches' directions of what replaces each edge (rewrite.c)
+ *   rewrite  numbers and states of what replaces each edge, its vertices, its branches' aims  (rewrite.c)
  *   decide   which branches of each face join, and into which loops the face is cut           (decide.c)
  *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
