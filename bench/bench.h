@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "runtime/vm/file.h"
-#include "runtime/vm/module.h"
+#include "runtime/base/file.h"
+#include "runtime/module/module.h"
 
 static inline double seconds(clockid_t clock)
 {

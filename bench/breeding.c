@@ -10,11 +10,11 @@
 #include <time.h>
 
 #include "bench/bench.h"
-#include "driver/grower.h"
-#include "driver/open.h"
-#include "runtime/gene/evolve.h"
-#include "runtime/map/study.h"
-#include "runtime/vm/crew.h"
+#include "driver/breed/grower.h"
+#include "driver/open/open.h"
+#include "runtime/base/crew.h"
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/growth/study.h"
 
 enum { POPULATION = 400, GENERATIONS = 5, ROUNDS = 5, FACES_LOW = 500, FACES_HIGH = 2000, THREADS = 4 };
 

@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "bench/bench.h"
-#include "runtime/plan/rules.h"
-#include "runtime/vm/random.h"
+#include "runtime/base/random.h"
+#include "runtime/plan/match/rules.h"
 
 enum { RUNS = 61, RULES_MAX = 1000 };
 

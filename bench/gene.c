@@ -8,9 +8,9 @@
 #include <time.h>
 
 #include "bench/bench.h"
-#include "runtime/gene/evolve.h"
-#include "runtime/gene/problem.h"
-#include "runtime/vm/random.h"
+#include "runtime/base/random.h"
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/breeding/problem.h"
 
 enum { GENOMES = 20000, CODONS = 200, ROUNDS = 9, REPEATS = 10, POINTS = 1024, VARIABLES = 5, GENERATIONS = 50 };
 

@@ -12,9 +12,9 @@
 
 #include "bench/bench.h"
 #include "compiler/compile.h"
-#include "runtime/map/growth.h"
-#include "runtime/map/study.h"
-#include "runtime/vm/numeric.h"
+#include "runtime/base/numeric.h"
+#include "runtime/growth/growth.h"
+#include "runtime/growth/study.h"
 
 static int compare(const void *a, const void *b)
 {

@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "bench/bench.h"
-#include "runtime/plan/library.h"
+#include "runtime/plan/library/library.h"
 
 enum { RUNS = 5 };
 

@@ -13,10 +13,10 @@
 #include <time.h>
 
 #include "bench/bench.h"
-#include "runtime/plan/lower.h"
-#include "runtime/plan/rules.h"
-#include "runtime/plan/text.h"
-#include "runtime/vm/random.h"
+#include "runtime/base/random.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/match/rules.h"
+#include "runtime/plan/text/text.h"
 
 enum { TRAYS_LOW = 4, TRAYS_HIGH = 10, RUNS = 15, BYTE_FIRST = 33 };
 

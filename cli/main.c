@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/completion.h"
-#include "cli/help.h"
-#include "cli/job.h"
-#include "cli/manual.h"
-#include "cli/options.h"
+#include "cli/common/completion.h"
+#include "cli/common/help.h"
+#include "cli/common/job.h"
+#include "cli/common/manual.h"
+#include "cli/common/options.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
 static int written(void)

@@ -3,9 +3,17 @@
 # libtartan-runtime loads and runs modules; libtartan can compile too and holds the runtime whole: a program links the one or the other.
 include(CMakePackageConfigHelpers)
 
-set(TARTAN_RUNTIME_OBJECTS $<TARGET_OBJECTS:tartan-runtime-core>)
-set(TARTAN_OBJECTS ${TARTAN_RUNTIME_OBJECTS} $<TARGET_OBJECTS:tartan-grammar> $<TARGET_OBJECTS:tartan-compiler-core>
-    $<TARGET_OBJECTS:tartan-driver-core>)
+get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
+set(TARTAN_OBJECTS "")
+set(TARTAN_RUNTIME_OBJECTS "")
+foreach(folder ${folders})
+  if(folder MATCHES "^(runtime|api-runtime)")
+    list(APPEND TARTAN_RUNTIME_OBJECTS $<TARGET_OBJECTS:${folder}>)
+  endif()
+  if(NOT folder STREQUAL "lsp")
+    list(APPEND TARTAN_OBJECTS $<TARGET_OBJECTS:${folder}>)
+  endif()
+endforeach()
 set(TARTAN_LIBRARY_NEEDS ${TARTAN_OPENMESH} PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
     Threads::Threads m)
 set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/bnf.h"
-#include "compiler/emit.h"
-#include "compiler/evolution.h"
-#include "compiler/study.h"
-#include "runtime/vm/file.h"
+#include "compiler/bnf/bnf.h"
+#include "compiler/evolution/evolution.h"
+#include "compiler/plan/emit.h"
+#include "compiler/study/study.h"
+#include "runtime/base/file.h"
 
 /* What `use` needs to know of a .plan file. */
 static bool parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,

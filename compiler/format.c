@@ -4,9 +4,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/format_bnf.h"
-#include "compiler/format_clauses.h"
-#include "compiler/lexical.h"
+#include "compiler/bnf/format.h"
+#include "compiler/common/lexical.h"
+#include "compiler/plan/format_clauses.h"
 #include "compiler/reading.h"
 
 enum { PASSES_MAX = 8 };

@@ -9,10 +9,8 @@
 #ifndef TARTAN_COMPILER_FORMAT_H
 #define TARTAN_COMPILER_FORMAT_H
 
-#include "compiler/diagnostic.h"
+#include "compiler/common/diagnostic.h"
 #include "compiler/notation.h"
-
-#define TN_FORMAT_WIDTH 100u
 
 /* Formats a file's text; `path` is its name in diagnostics. *formatted, zero-ended, is the caller's to free().
  * The text is added to the diagnostics' sources. TN_INVALID where it has errors of syntax, TN_LIMIT, TN_MEMORY: all

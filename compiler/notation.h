@@ -1,6 +1,6 @@
 /* The notations of rule files, told apart by the ends of their names. */
-#ifndef TARTAN_COMPILER_NOTATION_H
-#define TARTAN_COMPILER_NOTATION_H
+#ifndef TARTAN_COMPILER_COMMON_NOTATION_H
+#define TARTAN_COMPILER_COMMON_NOTATION_H
 
 typedef enum tn_notation {
     TN_NOTATION_PLAN,

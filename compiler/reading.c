@@ -1,9 +1,9 @@
 #include "compiler/reading.h"
 
-#include "compiler/bnf_ast.h"
-#include "compiler/evolution.h"
-#include "compiler/parse.h"
-#include "compiler/study.h"
+#include "compiler/bnf/ast.h"
+#include "compiler/evolution/evolution.h"
+#include "compiler/plan/parse.h"
+#include "compiler/study/study.h"
 
 static bool read_study(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
 {

@@ -1,10 +1,10 @@
 /* Reading a text of any notation for its tokens: what formatting and editors need. */
-#ifndef TARTAN_COMPILER_READING_H
-#define TARTAN_COMPILER_READING_H
+#ifndef TARTAN_COMPILER_COMMON_READING_H
+#define TARTAN_COMPILER_COMMON_READING_H
 
-#include "compiler/diagnostic.h"
+#include "compiler/common/diagnostic.h"
+#include "compiler/common/token.h"
 #include "compiler/notation.h"
-#include "compiler/token.h"
 
 typedef struct tn_reading {
     uint32_t file;

@@ -11,7 +11,7 @@
 %lex-param { void *scanner }
 
 %code requires {
-#include "compiler/bnf_ast.h"
+#include "compiler/bnf/ast.h"
 }
 %code {
 #include "bnf_lexer.h"

@@ -11,11 +11,11 @@
 %lex-param { void *scanner }
 
 %code requires {
-#include "compiler/evolution.h"
+#include "compiler/evolution/evolution.h"
 }
 %code {
-#include "compiler/lexical.h"
-#include "compiler/lexical.h"
+#include "compiler/common/lexical.h"
+#include "compiler/common/lexical.h"
 #include "evolution_lexer.h"
 
 int tn_evolution_yy_lex(TN_EVOLUTION_YY_STYPE *value, tn_span *span, void *scanner);

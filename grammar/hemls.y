@@ -1,6 +1,6 @@
 /* The grammar of HEMLS files: a seed, rewrite rules and settings, a line each ("Genr8", Fig. 4, as docs/growth.md reads it).
  *
- * Permissive on purpose: a line is a row of symbols, and compiler/hemls_check.c says what is wrong with it. After an
+ * Permissive on purpose: a line is a row of symbols, and compiler/hemls/check.c says what is wrong with it. After an
  * error the parser goes on with the next line.
  */
 %require "3.8"
@@ -14,7 +14,7 @@
 %expect 0
 
 %code requires {
-#include "compiler/hemls.h"
+#include "compiler/hemls/hemls.h"
 }
 
 %parse-param {tn_growth_parse *parse} {void *scanner}

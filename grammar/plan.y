@@ -1,6 +1,6 @@
 /* The plan language's grammar: schemas, rules, libraries and tests (docs/plan-language.md).
  *
- * An action calls one constructor of compiler/ast.h. After an error the parser goes on at the next item of the file, field
+ * An action calls one constructor of compiler/plan/ast.h. After an error the parser goes on at the next item of the file, field
  * of a schema, clause of a library or case of a test (the rules with `error`); the words that start those say yyerrok, so
  * that the next mistake is reported too. All lists are left-recursive: the parser's stack grows with nesting only.
  */
@@ -15,14 +15,14 @@
 %expect 0
 
 %code requires {
-#include "compiler/ast.h"
+#include "compiler/plan/ast.h"
 }
 
 %parse-param {tn_parse *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
-#include "compiler/syntax_error.h"
+#include "compiler/plan/syntax_error.h"
 #include "plan_lexer.h"
 
 #define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \

@@ -11,7 +11,7 @@
 %expect 0
 
 %code requires {
-#include "compiler/study.h"
+#include "compiler/study/study.h"
 }
 
 %parse-param {tn_growth_parse *parse} {void *scanner}

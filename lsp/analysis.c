@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "compiler/lexical.h"
+#include "compiler/common/lexical.h"
 #include "compiler/reading.h"
 
 void tn_analysis_free(tn_analysis *analysis)

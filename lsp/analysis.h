@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "compiler/notation.h"
-#include "driver/stdlib_dirs.h"
+#include "driver/open/stdlib_dirs.h"
 #include "lsp/index.h"
 #include "lsp/lines.h"
 

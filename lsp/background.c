@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "driver/analysis.h"
-#include "driver/grammar_report.h"
+#include "driver/breed/grammar_report.h"
+#include "driver/plan/analysis.h"
 
 enum { THREAD_STACK = 8 << 20 };
 

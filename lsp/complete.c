@@ -197,7 +197,7 @@ static void complete_codes(cursor *c)
     } warnings[] = {
 #define ERROR(NUMBER, NAME, SUMMARY)
 #define WARNING(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
-#include "compiler/codes.def"
+#include "runtime/base/codes.def"
 #undef ERROR
 #undef WARNING
     };

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/library.h"
-#include "runtime/plan/parts.h"
+#include "runtime/plan/library/library.h"
+#include "runtime/plan/match/parts.h"
 
 enum {
     STATES_MAX = 50000, /* larger libraries are not counted */

@@ -3,7 +3,7 @@
 #ifndef TARTAN_LSP_FACTS_H
 #define TARTAN_LSP_FACTS_H
 
-#include "driver/analysis.h"
+#include "driver/plan/analysis.h"
 #include "lsp/index.h"
 
 typedef struct tn_rule_count {

@@ -3,8 +3,8 @@
 #ifndef TARTAN_LSP_INDEX_H
 #define TARTAN_LSP_INDEX_H
 
-#include "compiler/check.h"
 #include "compiler/compile.h"
+#include "compiler/plan/check.h"
 
 typedef enum tn_symbol_kind {
     TN_SYMBOL_SCHEMA,

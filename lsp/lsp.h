@@ -11,7 +11,7 @@
 
 #include <stdio.h>
 
-#include "runtime/vm/error.h"
+#include "runtime/base/error.h"
 
 /* Serves until `exit` or the end of input. TN_INVALID where the client left without `shutdown`, TN_IO where nothing can
  * be written, TN_MEMORY. */

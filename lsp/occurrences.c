@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/limits.h"
+#include "compiler/common/limits.h"
 #include "lsp/folders.h"
-#include "runtime/vm/file.h"
+#include "runtime/base/file.h"
 
 bool tn_same_file(const char *a, const char *b)
 {

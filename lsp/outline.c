@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/study.h"
+#include "compiler/study/study.h"
 #include "lsp/features.h"
 
 /* SymbolKind of the protocol. */

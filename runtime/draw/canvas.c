@@ -7,10 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
+#include "runtime/base/file.h"
 #include "runtime/draw/svg_ids.h"
 #include "runtime/draw/svg_page.h"
 #include "runtime/draw/type.h"
-#include "runtime/vm/file.h"
 
 enum { DPI_DEFAULT = 150, SIDE_MAX = 32767 };
 

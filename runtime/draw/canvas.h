@@ -9,7 +9,7 @@
 
 #include <cairo.h>
 
-#include "runtime/vm/error.h"
+#include "runtime/base/error.h"
 
 typedef struct tn_canvas tn_canvas;
 

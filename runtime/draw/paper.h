@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "runtime/vm/error.h"
+#include "runtime/base/error.h"
 
 typedef struct tn_paper {
     const char *name;

@@ -5,7 +5,7 @@
 #ifndef TARTAN_MESH_OPENMESH_H
 #define TARTAN_MESH_OPENMESH_H
 
-#include "runtime/mesh/mesh.h"
+#include "runtime/geometry/mesh.h"
 
 /* Reads OBJ, PLY, STL, OFF or OM. OpenMesh splits vertices where faces meet otherwise than on a surface; they are
  * welded again. E0901 where the file cannot be read; TN_INVALID where it is no mesh. */

@@ -29,12 +29,12 @@ for plan in *.plan *.bnf *.hemls *.study; do
 done
 [ "${1-}" != --update ] || exit 0
 # Every code that the front ends report is among them.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study}.[ly] \
-    ../../compiler/{ast*,check*,import,lexical,syntax_error,hemls_*,study_*,growth_compile}.c ../../driver/analysis.c | sort -u)
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study}.[ly] ../../compiler/{hemls,study}/*.c \
+    ../../compiler/plan/{ast*,check*,syntax_error}.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c | sort -u)
 codes=$(while read -r name; do
     case $name in
-    E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'error[E%04d]\n' ;;
-    W_*) sed -nE "s/^WARNING\(([0-9]+), ${name#W_},.*/\1/p" ../../compiler/codes.def | xargs -r printf 'warning[W%03d]\n' ;;
+    E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../runtime/base/codes.def | xargs -r printf 'error[E%04d]\n' ;;
+    W_*) sed -nE "s/^WARNING\(([0-9]+), ${name#W_},.*/\1/p" ../../runtime/base/codes.def | xargs -r printf 'warning[W%03d]\n' ;;
     esac
 done <<<"$names")
 while read -r code; do

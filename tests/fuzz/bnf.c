@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "compiler/compile.h"
-#include "runtime/gene/analysis.h"
-#include "runtime/gene/invert.h"
-#include "runtime/gene/tree.h"
-#include "runtime/vm/random.h"
+#include "runtime/base/random.h"
+#include "runtime/genome/mapping/invert.h"
+#include "runtime/genome/mapping/tree.h"
+#include "runtime/grammar/analysis.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { CODONS = 40, STEPS = 4000, ITEMS = 20000, LONGEST = 120 };

@@ -1,7 +1,7 @@
 /* Evolution blocks of studies: any text is read, or refused with a reason. */
 #include <stdlib.h>
 
-#include "compiler/evolution.h"
+#include "compiler/evolution/evolution.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -5,9 +5,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "runtime/plan/pack.h"
-#include "runtime/plan/stream.h"
-#include "runtime/vm/bytes.h"
+#include "runtime/base/bytes.h"
+#include "runtime/plan/text/pack.h"
+#include "runtime/plan/text/stream.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/lahave.h"
 

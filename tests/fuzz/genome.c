@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/gene/expression.h"
-#include "runtime/gene/genome.h"
-#include "runtime/gene/problem.h"
+#include "runtime/genome/breeding/problem.h"
+#include "runtime/genome/mapping/genome.h"
+#include "runtime/number/expression.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/map/draw.h"
-#include "runtime/map/faults.h"
-#include "runtime/map/stats.h"
-#include "runtime/map/study.h"
-#include "runtime/map/surface.h"
+#include "runtime/growth/faults.h"
+#include "runtime/growth/picture/draw.h"
+#include "runtime/growth/stats.h"
+#include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 
 enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_TEMPLATES = 200 };
 

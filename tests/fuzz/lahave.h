@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/plan/schema.h"
+#include "runtime/plan/schema/schema.h"
 #include "tests/support/compile_file.h"
 
 static void stop(const char *why)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/text.h"
+#include "runtime/plan/text/text.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/lahave.h"
 

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/library.h"
-#include "runtime/plan/rules.h"
-#include "runtime/vm/builder.h"
-#include "runtime/vm/bytes.h"
-#include "runtime/vm/disasm.h"
-#include "runtime/vm/layout.h"
-#include "runtime/vm/random.h"
+#include "runtime/base/bytes.h"
+#include "runtime/base/random.h"
+#include "runtime/module/builder.h"
+#include "runtime/module/disasm.h"
+#include "runtime/module/layout.h"
+#include "runtime/plan/library/library.h"
+#include "runtime/plan/match/rules.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/grow.h"
 

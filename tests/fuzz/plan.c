@@ -5,7 +5,7 @@
 #include <strings.h>
 
 #include "compiler/compile.h"
-#include "runtime/vm/module.h"
+#include "runtime/module/module.h"
 #include "tests/fuzz/fuzz.h"
 
 /* Imports by name reach the stdlib; by path they could reach anything on this machine. A text in quotes shortly after a

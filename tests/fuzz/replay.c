@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "runtime/vm/file.h"
+#include "runtime/base/file.h"
 #include "tests/fuzz/fuzz.h"
 
 static size_t replayed;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "compiler/compile.h"
-#include "runtime/vm/file.h"
+#include "runtime/base/file.h"
 
 /* As tn_compile_text. TN_IO where the file cannot be read. */
 static inline tn_status compile_file(const char *path, const tn_compile_options *options, tn_compilation *compilation)

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#include "runtime/vm/builder.h"
-#include "runtime/vm/length.h"
+#include "runtime/base/length.h"
+#include "runtime/module/builder.h"
 
 #define SAMPLE_SOURCE                                                                                                  \
     "schema toy {\n"                                                                                                   \

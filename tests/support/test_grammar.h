@@ -11,9 +11,9 @@
 
 #include <cmocka.h>
 
-#include "compiler/bnf.h"
-#include "runtime/gene/grammar.h"
-#include "runtime/vm/file.h"
+#include "compiler/bnf/bnf.h"
+#include "runtime/base/file.h"
+#include "runtime/grammar/grammar.h"
 
 /* Compiles; what there is to say goes to `codes` as "E1004 W1001 ", in the order of the text. NULL where there are
  * errors. */

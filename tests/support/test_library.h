@@ -2,8 +2,8 @@
 #ifndef TARTAN_TEST_LIBRARY_H
 #define TARTAN_TEST_LIBRARY_H
 
-#include "runtime/plan/library.h"
-#include "runtime/plan/vm.h"
+#include "runtime/plan/library/library.h"
+#include "runtime/plan/match/vm.h"
 #include "tests/support/test_rule.h"
 
 #define TEST_CLAUSES_MAX 6

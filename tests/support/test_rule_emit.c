@@ -6,7 +6,7 @@
 
 #include "tests/support/test_rule.h"
 
-#include "runtime/vm/code.h"
+#include "runtime/module/code.h"
 
 #define NOT_EMITTED UINT32_MAX
 

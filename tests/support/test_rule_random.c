@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/vm/random.h"
+#include "runtime/base/random.h"
 
 uint64_t test_random_next(test_random *random)
 {

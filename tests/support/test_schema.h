@@ -5,9 +5,9 @@
 #ifndef TARTAN_TEST_SCHEMA_H
 #define TARTAN_TEST_SCHEMA_H
 
-#include "runtime/plan/schema.h"
-#include "runtime/vm/builder.h"
-#include "runtime/vm/length.h"
+#include "runtime/base/length.h"
+#include "runtime/module/builder.h"
+#include "runtime/plan/schema/schema.h"
 
 #define TEST_VALUES_MAX 6
 #define TEST_FIELDS_MAX 7

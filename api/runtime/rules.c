@@ -1,0 +1,270 @@
+#include "runtime/plan/match/rules.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/runtime/api.h"
+#include "runtime/base/crew.h"
+
+struct tartan_rules {
+    const tn_module *module;
+    tn_schema *schema;
+    tn_rules *rules;
+    uint32_t *records; /* per rule: its RULE record */
+    size_t count;
+};
+
+struct tartan_matcher {
+    const tartan_rules *rules;
+    tn_matcher *matcher;
+};
+
+static tartan_status out_of_memory(tartan_error *error)
+{
+    tn_error found;
+    tn_fail_memory(&found);
+    return tn_api_fail(&found, error);
+}
+
+static bool find(const tn_module *module, const char *name, uint32_t *record)
+{
+    for (size_t i = 0; i < module->RULE_count; i++) {
+        if (strcmp(tn_text(module, module->RULE_records[i].name), name) == 0) {
+            *record = (uint32_t)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static tartan_status unknown(const tn_module *module, const char *name, tartan_error *error)
+{
+    const char **names = malloc((module->RULE_count + 1) * sizeof *names);
+    for (size_t i = 0; names && i < module->RULE_count; i++)
+        names[i] = tn_text(module, module->RULE_records[i].name);
+    return tn_api_unknown(error, "rule", name, names, module->RULE_count);
+}
+
+/* Fills records with the rules asked for. */
+static tartan_status choose(tartan_rules *rules, const char *const *names, size_t count, tartan_error *error)
+{
+    const tn_module *module = rules->module;
+    rules->records = calloc((count > module->RULE_count ? count : module->RULE_count) + 1, sizeof *rules->records);
+    if (!rules->records)
+        return out_of_memory(error);
+    for (size_t i = 0; i < count; i++)
+        if (!find(module, names[i], &rules->records[rules->count++]))
+            return unknown(module, names[i], error);
+    for (size_t i = 0; count == 0 && i < module->RULE_count; i++)
+        if (!(module->RULE_records[i].flags & TN_IMPORTED))
+            rules->records[rules->count++] = (uint32_t)i;
+    if (rules->count == 0)
+        return tn_api_refuse(error, TARTAN_INVALID, "the module has no rules of its own");
+    return TARTAN_OK;
+}
+
+static tartan_status prepare(tartan_rules *rules, tartan_error *error)
+{
+    const tn_rule_record *records = rules->module->RULE_records;
+    const tn_rule_record *first = &records[rules->records[0]];
+    const tn_rules_options options = {.any = true};
+    uint32_t *functions = malloc(rules->count * sizeof *functions);
+    if (!functions)
+        return out_of_memory(error);
+    for (size_t i = 0; i < rules->count; i++) {
+        const tn_rule_record *rule = &records[rules->records[i]];
+        functions[i] = rule->holds;
+        if (rule->schema != first->schema) {
+            free(functions);
+            return tn_api_refuse(error, TARTAN_INVALID, "rules `%s` and `%s` are of different schemas",
+                                 tn_text(rules->module, first->name), tn_text(rules->module, rule->name));
+        }
+    }
+    tn_error found;
+    tn_status status = tn_schema_new(rules->module, first->schema, 0, &rules->schema, &found);
+    if (status == TN_OK)
+        status = tn_rules_new(rules->schema, functions, rules->count, &options, &rules->rules, &found);
+    free(functions);
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+}
+
+tartan_status tartan_rules_new(const tartan_module *module, const char *const *names, size_t count,
+                               tartan_rules **rules, tartan_error *error)
+{
+    tartan_rules *made = calloc(1, sizeof *made);
+    if (!made)
+        return out_of_memory(error);
+    made->module = module->module;
+    tartan_status status = choose(made, names, count, error);
+    if (status == TARTAN_OK)
+        status = prepare(made, error);
+    if (status != TARTAN_OK) {
+        tartan_rules_free(made);
+        return status;
+    }
+    *rules = made;
+    return TARTAN_OK;
+}
+
+void tartan_rules_free(tartan_rules *rules)
+{
+    if (!rules)
+        return;
+    tn_rules_free(rules->rules);
+    tn_schema_free(rules->schema);
+    free(rules->records);
+    free(rules);
+}
+
+size_t tartan_rules_count(const tartan_rules *rules)
+{
+    return rules->count;
+}
+
+const char *tartan_rules_name(const tartan_rules *rules, size_t i)
+{
+    return i < rules->count ? tn_text(rules->module, rules->module->RULE_records[rules->records[i]].name) : NULL;
+}
+
+const tartan_schema *tartan_rules_schema(const tartan_rules *rules)
+{
+    return tn_api_public_schema(rules->schema);
+}
+
+size_t tartan_rules_words(const tartan_rules *rules)
+{
+    return (rules->count + 63) / 64;
+}
+
+tartan_status tartan_matcher_new(const tartan_rules *rules, tartan_matcher **matcher, tartan_error *error)
+{
+    tartan_matcher *made = malloc(sizeof *made);
+    if (!made)
+        return out_of_memory(error);
+    *made = (tartan_matcher){.rules = rules};
+    tn_error found;
+    if (tn_matcher_new(rules->rules, &made->matcher, &found) != TN_OK) {
+        free(made);
+        return tn_api_fail(&found, error);
+    }
+    *matcher = made;
+    return TARTAN_OK;
+}
+
+void tartan_matcher_free(tartan_matcher *matcher)
+{
+    if (!matcher)
+        return;
+    tn_matcher_free(matcher->matcher);
+    free(matcher);
+}
+
+tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *trays, size_t length, uint64_t *bits,
+                           tartan_error *error)
+{
+    tn_error found;
+    tn_status status = tn_api_trays(matcher->rules->schema, trays, length, &found);
+    if (status == TN_OK)
+        status = tn_match(matcher->matcher, trays, length, bits, &found);
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+}
+
+/* Plans that a thread takes at a time, so that it decides for some tens of microseconds. What comes of a share is the
+ * same whoever takes it. */
+enum { SHARE = 4096 };
+
+/* Many plans to be matched. */
+typedef struct request {
+    const tartan_rules *rules;
+    const uint32_t *trays;
+    const size_t *ends;
+    size_t count;
+    tn_matcher **matchers; /* of each thread, once it has something to do */
+    uint64_t *bits;        /* which rules; NULL: asked whether any does */
+    uint8_t *matches;      /* whether any does */
+} request;
+
+/* Says which plan an error is about. */
+static void name_plan(size_t plan, tn_error *error)
+{
+    char message[sizeof error->message];
+    memcpy(message, error->message, sizeof message);
+    snprintf(error->message, sizeof error->message, "plan %zu: %s", plan + 1, message);
+}
+
+/* How many of the plans have trays of the schema, up to the first that has not, which is the error's. */
+static size_t valid_plans(const tn_schema *schema, const tn_plan_array *plans, tn_error *error)
+{
+    size_t start = plans->begin;
+    for (size_t i = 0; i < plans->count; start = plans->ends[i++])
+        if (tn_api_trays(schema, plans->trays + start, plans->ends[i] - start, error) != TN_OK)
+            return i;
+    return plans->count;
+}
+
+static tn_status match_share(void *context, unsigned thread, size_t share, tn_error *error)
+{
+    const request *asked = context;
+    size_t begin = share * SHARE, left = asked->count - begin, done = 0;
+    tn_plan_array plans = {asked->trays, begin ? asked->ends[begin - 1] : 0, asked->ends + begin,
+                           left < SHARE ? left : SHARE};
+    tn_matcher **matcher = &asked->matchers[thread];
+    tn_status status = *matcher ? TN_OK : tn_matcher_new(asked->rules->rules, matcher, error);
+    if (status != TN_OK)
+        return status;
+    size_t asked_count = plans.count;
+    plans.count = valid_plans(asked->rules->schema, &plans, error);
+    status = plans.count < asked_count ? TN_INVALID : TN_OK;
+    tn_error found;
+    tn_status matched =
+        asked->bits
+            ? tn_match_all(*matcher, &plans, asked->bits + begin * tartan_rules_words(asked->rules), &done, &found)
+            : tn_match_any(*matcher, &plans, asked->matches + begin, &done, &found);
+    if (matched != TN_OK)
+        *error = found;
+    if (matched != TN_OK || status != TN_OK)
+        name_plan(begin + done, error);
+    return matched != TN_OK ? matched : status;
+}
+
+static tn_status match_shares(request *asked, unsigned threads, tn_error *error)
+{
+    size_t shares = asked->count / SHARE + (asked->count % SHARE > 0);
+    unsigned workers = threads ? threads : tn_crew_default();
+    if (workers > TARTAN_THREADS_MAX)
+        workers = TARTAN_THREADS_MAX;
+    if (workers > shares)
+        workers = shares ? (unsigned)shares : 1;
+    asked->matchers = calloc(workers, sizeof *asked->matchers);
+    tn_crew *crew = asked->matchers ? tn_crew_new(workers) : NULL;
+    tn_status status = crew ? tn_crew_run(crew, shares, 1, match_share, asked, error) : tn_fail_memory(error);
+    tn_crew_free(crew);
+    for (unsigned i = 0; asked->matchers && i < workers; i++)
+        tn_matcher_free(asked->matchers[i]);
+    free(asked->matchers);
+    return status;
+}
+
+static tartan_status match_plans(request *asked, unsigned threads, tartan_error *error)
+{
+    for (size_t i = 1; i < asked->count; i++)
+        if (asked->ends[i] < asked->ends[i - 1])
+            return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
+    tn_error found;
+    return match_shares(asked, threads, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+}
+
+tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
+                               unsigned threads, uint64_t *bits, tartan_error *error)
+{
+    request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .bits = bits};
+    return match_plans(&asked, threads, error);
+}
+
+tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
+                               unsigned threads, uint8_t *matches, tartan_error *error)
+{
+    request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .matches = matches};
+    return match_plans(&asked, threads, error);
+}

@@ -1,0 +1,13 @@
+/* Help, written from the tables of options.h. */
+#ifndef TARTAN_CLI_COMMON_HELP_H
+#define TARTAN_CLI_COMMON_HELP_H
+
+#include "cli/common/options.h"
+
+/* What `tartan` alone and `tartan help` show: the commands. */
+void tn_help_overview(FILE *out);
+
+/* What `tartan help COMMAND` and `tartan COMMAND --help` show. */
+void tn_help_command(const tn_command *command, FILE *out);
+
+#endif

@@ -1,0 +1,81 @@
+/* One run of a command: the file it works on, what there is to report, and the exit code in the end.
+ *
+ * Commands begin a job, open their file, call the library, and return what tn_job_end returns. Anything that
+ * fails goes through tn_job_fail, which turns it into a diagnostic and remembers the exit code.
+ */
+#ifndef TARTAN_CLI_COMMON_JOB_H
+#define TARTAN_CLI_COMMON_JOB_H
+
+#include "cli/common/options.h"
+#include "driver/open/findings.h"
+#include "driver/open/open.h"
+#include "runtime/base/file.h"
+
+enum {
+    TN_EXIT_DONE = 0,
+    TN_EXIT_INVALID = 1,
+    TN_EXIT_USAGE = 2,
+    TN_EXIT_IO = 3,
+    TN_EXIT_LIMIT = 4,
+    TN_EXIT_INTERNAL = 70,
+    TN_EXIT_INTERRUPTED = 130, /* as shells report SIGINT */
+};
+
+typedef struct tn_job {
+    const tn_settings *settings;
+    tn_opened opened;
+    bool open;
+    int exit_code;           /* the gravest so far */
+    bool reader_gone;        /* standard output's reader went away: end quietly */
+    size_t errors, warnings; /* shown so far */
+} tn_job;
+
+void tn_job_begin(tn_job *job, const tn_settings *settings);
+
+/* Opens a rule file or module; false where that failed (then end the job). */
+bool tn_job_open(tn_job *job, const char *path);
+
+/* Says what there is to say about the file that is open, and closes it: for commands that take several. */
+void tn_job_next(tn_job *job);
+
+/* Opens another file for the same command, after what there was to say about the one before is said. */
+bool tn_job_reopen(tn_job *job, const char *path);
+
+/* Where diagnostics go. */
+tn_diagnostics *tn_job_diagnostics(tn_job *job);
+
+/* Records a failure. A closed pipe is not one: it ends the command quietly. */
+void tn_job_fail(tn_job *job, const tn_error *error);
+
+/* Takes note of a status whose diagnostic is there already. */
+void tn_job_status(tn_job *job, tn_status status);
+
+/* Records wrong usage, found after the options were read. */
+tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Adds a plain note. */
+void tn_job_note(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Shows what has been collected so far (as text; JSON is one array at the end). Before long work. */
+void tn_job_show(tn_job *job);
+
+/* Shows the rest, frees everything and returns the exit code. */
+int tn_job_end(tn_job *job);
+
+/* The exit code for a status. */
+int tn_exit_code(tn_status status);
+
+/* Is the path of a text output (NULL: standard output) not the name of a picture? Otherwise wrong usage is recorded. */
+bool tn_job_takes_text(tn_job *job, const char *path);
+
+/* An output by option: NULL is standard output. False where it cannot be opened, or has the name of a picture. */
+bool tn_job_output(tn_job *job, const char *path, tn_output *output);
+
+/* Puts the output in place. A failure is recorded. */
+void tn_job_commit(tn_job *job, tn_output *output);
+
+/* The same where the work came to its end; otherwise a file is given up (its target stays as it was), and standard
+ * output keeps what was written. */
+void tn_job_close(tn_job *job, tn_output *output, bool complete);
+
+#endif

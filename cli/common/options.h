@@ -1,0 +1,150 @@
+/* The command line: each command is a row of data (tn_command) with a table of its options, from which parsing,
+ * `--help`, the manual pages and the shells' completion all come.
+ *
+ * Parsing writes into a tn_settings at the offset that the option's row names. Texts are borrowed from argv.
+ */
+#ifndef TARTAN_CLI_COMMON_OPTIONS_H
+#define TARTAN_CLI_COMMON_OPTIONS_H
+
+#include <stdio.h>
+
+#include "runtime/base/error.h"
+
+typedef struct tn_option_list {
+    const char **items;
+    size_t count;
+} tn_option_list;
+
+typedef struct tn_option_number {
+    bool given;
+    uint64_t value;
+} tn_option_number;
+
+typedef struct tn_option_real {
+    bool given;
+    double value;
+} tn_option_real;
+
+typedef struct tn_option_range {
+    bool given;
+    uint64_t low, high;
+} tn_option_range;
+
+/* What a row writes into the settings. */
+typedef enum tn_option_kind {
+    TN_OPTION_FLAG,   /* bool */
+    TN_OPTION_TEXT,   /* const char * */
+    TN_OPTION_LIST,   /* tn_option_list; may be repeated */
+    TN_OPTION_NUMBER, /* tn_option_number, from `low` to `high` */
+    TN_OPTION_RANGE,  /* tn_option_range, written a..b or a, from `low` to `high` */
+    TN_OPTION_RANK,   /* const char *: decimal digits, as many as one likes */
+    TN_OPTION_CHOICE, /* int: index of the word among `choices` */
+    TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the
+                         first */
+    TN_OPTION_REAL,   /* tn_option_real */
+} tn_option_kind;
+
+typedef struct tn_option {
+    const char *name;     /* without the dashes */
+    char letter;          /* of the short form, or 0 */
+    const char *argument; /* what help calls the argument; NULL for a flag */
+    const char *help;
+    tn_option_kind kind;
+    size_t offset;       /* in tn_settings */
+    const char *choices; /* "text|json" */
+    uint64_t low, high;  /* bounds; high 0: none */
+} tn_option;
+
+/* Every option's value, zero where it was not given. */
+typedef struct tn_settings {
+    tn_option_list operands;
+    bool help;
+    int diagnostics; /* 0 text, 1 json */
+    bool werror;
+
+    const char *library;
+    tn_option_list rules;
+    tn_option_range trays;
+    tn_option_number max_length, max_states, threads;
+    int engine; /* a tn_engine */
+    int format, input_format;
+    int on_error; /* 0 stop, 1 skip */
+
+    const char *output, *dropped;
+    bool json, mirror, resume, check, diff;
+    bool no_analysis, relations, examples; /* of check */
+    int notation;                          /* 0: what the file's name says; otherwise one more than a tn_notation */
+    const char *from, *to;
+    tn_option_number limit, seed, length, per_length, sample;
+
+    tn_option_number columns, scale, dpi, max_plans;
+    const char *paper, *title;
+
+    /* grow: what a study can say too is kept as the words of its statement */
+    const char *steps, *growth_scale, *start, *start_length, *growth_seed, *branch_angle, *branch_length, *edge_limit,
+        *until;
+    tn_option_list attractors, repellers, gravity, boundaries, fitness;
+    bool fixed_centre, fixed_perimeter, facing, grow_mirror;
+    bool each_step, sheet, groups, normals, triangulate, lines, explain;
+    int stats, up, mesh_format;
+    tn_option_number smooth, subdivide, decimate, memory_limit, width;
+    tn_option_real azimuth, elevation;
+
+    /* genomes */
+    const char *genome, *genomes, *tree, *invert;
+    tn_option_number random, codons, wraps, max_depth, max_steps, max_items;
+    bool trace;
+
+    /* evolution */
+    tn_option_number generations;
+    tn_option_list changes;
+    bool durable, figures;
+
+    /* explaining */
+    bool full, coverage;
+    bool prolog, regex;
+    const char *plan_file;
+    tn_option_number nearest;
+} tn_settings;
+
+typedef struct tn_command {
+    const char *name;
+    const char *summary;     /* one line, no full stop */
+    const char *usage;       /* the words after "tartan NAME", one form a line */
+    const char *description; /* paragraphs; wrapped by help */
+    const char *example;     /* lines, commands start with "$ " */
+    const tn_option *options;
+    size_t option_count;
+    const char *operands; /* what an operand is called in errors */
+    size_t operands_min, operands_max;
+    int (*run)(const struct tn_command *command, const tn_settings *settings);
+} tn_command;
+
+/* All commands, in the order that help lists them. */
+extern const tn_command *const tn_commands[];
+extern const size_t tn_commands_count;
+
+/* The command named so, or NULL. */
+const tn_command *tn_command_find(const char *name);
+
+/* Options that every command has; parsing and help add them to the command's own. */
+extern const tn_option tn_common_options[];
+extern const size_t tn_common_option_count;
+
+/* A command's options, its own first, then those. */
+size_t tn_option_total(const tn_command *command);
+const tn_option *tn_option_at(const tn_command *command, size_t i);
+
+/* Reads the words after the command's name. TN_INVALID (E0904) says what is wrong and what was probably meant; what was
+ * read before stays in the settings. Clear the settings in any case. */
+tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error);
+
+/* What --diagnostics says among the words, 0 where it does not: for what is wrong with the command line itself. */
+int tn_options_diagnostics(int count, char *const *words);
+
+void tn_settings_clear(tn_settings *settings);
+
+/* Reads a number or a range as the options do; false where the text is not one. */
+bool tn_number_read(const char *text, uint64_t *value);
+
+#endif

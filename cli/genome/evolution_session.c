@@ -1,0 +1,107 @@
+#include "cli/genome/evolution_session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+
+/* study.study -> study.run, in the folder that the command is given in. */
+static char *default_dir(const char *study)
+{
+    const char *slash = strrchr(study, '/'), *name = slash ? slash + 1 : study, *dot = strrchr(name, '.');
+    size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    char *dir = malloc(length + 5);
+    if (dir)
+        sprintf(dir, "%.*s.run", (int)length, name);
+    return dir;
+}
+
+/* What a setting names is to blame: in the file itself, where that has the place, or else where the study names it. */
+static void report(tn_evolution_session *e, const tn_evolution_study *study, const tn_error *error)
+{
+    const tn_evolution_job *job = &e->job;
+    const tn_setting_value *value = job->blamed < TN_SETTING_COUNT ? &study->of[job->blamed] : NULL;
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    if (!value || !value->written || error->status == TN_MEMORY) {
+        tn_job_fail(e->command, error);
+        return;
+    }
+    tn_job_status(e->command, error->status);
+    tn_diagnostic *diagnostic = tn_report_error(list, error, job->blamed_path, NULL, 0);
+    if (error->line)
+        return;
+    diagnostic->has_span = true;
+    diagnostic->span = (tn_span){value->file, value->begin, value->end};
+}
+
+static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
+{
+    const tn_settings *settings = e->command->settings;
+    const char *path = settings->operands.items[0];
+    const tn_module *module = e->command->opened.module;
+    tn_evolution_job_options options = {
+        .threads = (unsigned)settings->threads.value, .says_seed = settings->seed.given, .seed = settings->seed.value};
+    tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
+    const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
+                           *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
+    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text), tn_text(module, grammar->path),
+                          tn_text(module, grammar->text)};
+    e->generations =
+        (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
+    if (tn_evolution_job_make(study, path, module, &options, &e->job, error) != TN_OK) {
+        report(e, study, error);
+        return false;
+    }
+    bool begun = tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+    for (size_t i = 0; begun && i < settings->changes.count; i++)
+        begun = tn_run_set(&e->run, settings->changes.items[i], error) == TN_OK;
+    if (!begun)
+        tn_job_fail(e->command, error);
+    return begun;
+}
+
+static bool open_session(tn_job *command, tn_evolution_session *e)
+{
+    const char *path = command->settings->operands.items[0];
+    tn_error error = {0};
+    tn_evolution_study study;
+    *e = (tn_evolution_session){.command = command};
+    if (command->settings->changes.count && !command->settings->resume) {
+        tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
+        return false;
+    }
+    if (!tn_job_open(command, path))
+        return false;
+    if (!tn_evolution_study_of(command->opened.module, &study)) {
+        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
+        tn_error_help(&error, "%s",
+                      tn_opened_help(&command->opened,
+                                     "a study to be evolved is a .study file with a block `evolution { ... }`"));
+        tn_job_fail(command, &error);
+        return false;
+    }
+    char *own = command->settings->output ? NULL : default_dir(path);
+    const char *dir = command->settings->output ? command->settings->output : own;
+    bool begun = dir && begin(e, &study, dir, &error);
+    if (!dir) {
+        tn_fail_memory(&error);
+        tn_job_fail(command, &error);
+    }
+    free(own);
+    return begun;
+}
+
+int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution))
+{
+    tn_job command;
+    tn_evolution_session evolution;
+    tn_job_begin(&command, settings);
+    if (open_session(&command, &evolution)) {
+        tn_job_show(&command);
+        tn_interrupt_watch();
+        work(&evolution);
+    }
+    tn_run_clear(&evolution.run); /* before the job ends, which owns the study's texts */
+    tn_evolution_job_clear(&evolution.job);
+    return tn_job_end(&command);
+}

@@ -1,0 +1,30 @@
+/* What the commands that evolve share: opening a study and the run it is to make. */
+#ifndef TARTAN_CLI_GENOME_EVOLUTION_SESSION_H
+#define TARTAN_CLI_GENOME_EVOLUTION_SESSION_H
+
+#include "cli/common/job.h"
+#include "cli/common/option_rows.h"
+#include "driver/breed/evolve.h"
+
+/* The options of all of them; what the number of generations means is told by each. */
+#define OPTIONS_RUN(generations_help)                                                                                  \
+    TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
+        FLAG("resume", 0, resume, "go on with the run in the folder, if there is one"),                                \
+        NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
+        LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
+             "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated"),      \
+        NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS,                         \
+        FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
+
+typedef struct tn_evolution_session {
+    tn_job *command;
+    tn_evolution_job job;
+    tn_run run;
+    uint32_t generations; /* to be bred, after the first */
+} tn_evolution_session;
+
+/* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
+ * command's exit code. */
+int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution));
+
+#endif

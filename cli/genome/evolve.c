@@ -1,0 +1,121 @@
+/* tartan evolve: breeds sentences of a grammar towards what a study wants. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <time.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
+#include "cli/genome/evolution_session.h"
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+/* What there is to see while it runs. */
+static void describe(const tn_evolution_session *e, uint64_t evaluated_before, double start, char *text, size_t size)
+{
+    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
+    uint32_t invalid = s.no_sentence + s.failed + s.limited, members = invalid + s.scored;
+    double seconds = now() - start;
+    snprintf(text, size, "generations; best %.5g, mean %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s",
+             s.best[0], s.mean, members ? 100.0 * invalid / members : 0, s.distinct,
+             seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
+}
+
+static void evolve(tn_evolution_session *e)
+{
+    tn_progress progress;
+    tn_error error;
+    char text[200] = "generations";
+    double start = now();
+    uint64_t before = e->run.generations ? tn_evolution_stats(e->run.evolution).evaluations : 0;
+    tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
+    tn_status status = TN_OK;
+    while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
+        status = tn_run_step(&e->run, NULL, 0, &error);
+        if (status == TN_OK && progress.shows)
+            describe(e, before, start, text, sizeof text);
+        tn_progress_update(&progress, e->run.generations);
+    }
+    tn_progress_end(&progress);
+    if (status == TN_OK && e->run.generations)
+        status = tn_run_results(&e->run, &error);
+    if (status != TN_OK) {
+        tn_job_fail(e->command, &error);
+    } else if (e->run.new_changes) {
+        tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
+                    e->run.generations);
+    } else if (tn_interrupted()) {
+        tn_job_note(e->command, "interrupted after %u generations; --resume goes on from there", e->run.generations);
+        e->command->exit_code = TN_EXIT_INTERRUPTED;
+    }
+}
+
+static const char *why_no_score(const tn_individual *individual)
+{
+    return individual->reason != TN_MAP_VALID ? tn_map_reason_text(individual->reason) : individual->message;
+}
+
+static void summarise(const tn_evolution_session *e, FILE *out)
+{
+    size_t count;
+    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
+    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
+    if (e->run.generations == 0)
+        return;
+    fprintf(out, "%u generation%s, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation,
+            s.generation == 1 ? "" : "s", s.evaluations, s.births);
+    if (s.scored)
+        fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct", s.best[0], s.mean, s.distinct);
+    else
+        fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
+    fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
+    if (count && members[0]->score.state == TN_SCORED)
+        fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
+    fprintf(out, "results are in %s\n", e->run.dir);
+}
+
+static void evolve_and_tell(tn_evolution_session *e)
+{
+    tn_output output;
+    evolve(e);
+    if (tn_job_output(e->command, NULL, &output)) {
+        summarise(e, output.stream);
+        tn_job_commit(e->command, &output);
+    }
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    return tn_evolution_session_run(settings, evolve_and_tell);
+}
+
+static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number")};
+
+const tn_command tn_command_evolve = {
+    .name = "evolve",
+    .summary = "breed sentences of a grammar towards what a study wants",
+    .usage = "STUDY.study [-o DIR] [--resume] [--generations N]",
+    .description = "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and "
+                   "breeds the next generation "
+                   "from the best, as often as the study says. The same study and seed give the same run on every "
+                   "machine and with any number of "
+                   "threads.\n\n"
+                   "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with "
+                   "pictures of their surfaces, rules or derivations), "
+                   "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run "
+                   "goes on with --resume and "
+                   "ends with the same bytes as one that was not. With --resume and a larger --generations a finished "
+                   "run is extended.",
+    .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one STUDY.study",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,182 @@
+/* tartan runs: looks at runs that were made. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/job.h"
+#include "cli/common/option_rows.h"
+#include "driver/breed/evolve.h"
+
+/* What a run's database says of it. */
+typedef struct record {
+    tn_generation_stats *stats;
+    size_t count;
+    tn_run_event *events;
+    size_t event_count;
+    char *identity; /* NULL: not begun */
+} record;
+
+static void clear_record(record *r)
+{
+    free(r->stats);
+    free(r->identity);
+    tn_run_events_free(r->events, r->event_count);
+}
+
+static bool read_run(tn_job *job, const char *dir, record *r)
+{
+    tn_run_store *store = NULL;
+    tn_error error;
+    char *path = tn_run_database(dir);
+    *r = (record){0};
+    tn_status status = path ? tn_run_store_open(path, false, true, &store, &error) : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(store, "identity", &r->identity, &error);
+    if (status == TN_OK)
+        status = tn_run_store_stats(store, &r->stats, &r->count, &error);
+    if (status == TN_OK)
+        status = tn_run_store_events(store, &r->events, &r->event_count, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_run_store_free(store);
+    free(path);
+    return status == TN_OK;
+}
+
+/* What a person decided before a generation was bred. */
+static void show_events(const record *r, uint32_t generation, FILE *out)
+{
+    for (size_t i = 0; i < r->event_count; i++)
+        if (r->events[i].generation == generation)
+            fprintf(out, "           %s %s\n",
+                    strcmp(r->events[i].kind, "set") == 0 ? "changed:" : "chosen:", r->events[i].text);
+}
+
+static void show(tn_job *job, const char *dir, FILE *out)
+{
+    record r;
+    if (read_run(job, dir, &r)) {
+        fprintf(out, "%s%s\n", dir, r.identity ? "" : ": not begun");
+        for (const char *line = r.identity; line && *line; line += strcspn(line, "\n") + 1)
+            fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
+        fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
+                "evaluations", "births");
+        for (size_t i = 0; i < r.count; i++) {
+            const tn_generation_stats *s = &r.stats[i];
+            show_events(&r, s->generation, out);
+            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", s->generation, s->best[0], s->mean,
+                    s->distinct, s->no_sentence + s->failed + s->limited, s->evaluations, s->births);
+        }
+    }
+    clear_record(&r);
+}
+
+/* One run a line: where each came, and after how many evaluations it first had its best. */
+static void compare(tn_job *job, FILE *out)
+{
+    const tn_option_list *dirs = &job->settings->operands;
+    fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations",
+            "best first at");
+    for (size_t d = 1; d < dirs->count; d++) {
+        record r;
+        size_t first = 0;
+        bool read = read_run(job, dirs->items[d], &r);
+        if (read && r.count == 0)
+            fprintf(out, "%-30s %10s\n", dirs->items[d], "none");
+        if (read && r.count) {
+            const tn_generation_stats *last = &r.stats[r.count - 1];
+            while (first + 1 < r.count && r.stats[first].best[0] > last->best[0])
+                first++;
+            fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation,
+                    last->best[0], last->mean, last->evaluations, r.stats[first].generation);
+        }
+        clear_record(&r);
+    }
+}
+
+static void replay(tn_job *job, const char *dir, const char *id_text, FILE *out)
+{
+    tn_evolution_job evolved = {0};
+    tn_run run = {0};
+    tn_opened opened = {0};
+    const tn_individual *individual;
+    tn_error error = {0};
+    uint64_t id;
+    if (!tn_number_read(id_text, &id)) {
+        tn_job_usage(job, "an individual is a number, not `%.60s`", id_text);
+        return;
+    }
+    if (tn_run_replay(dir, id, &opened, &evolved, &run, &individual, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+    } else {
+        fprintf(out, "# individual %" PRIu64, id);
+        if (individual->parents[0] != TN_NO_PARENT)
+            fprintf(out, ", of %" PRIu64 " and %" PRIu64, individual->parents[0], individual->parents[1]);
+        if (individual->score.state == TN_SCORED)
+            fprintf(out, ", score %.17g", individual->score.objectives[0]);
+        else
+            fputs(", not scored", out);
+        fputs("\n# genome:", out);
+        for (size_t i = 0; i < individual->genome.count; i++)
+            fprintf(out, " %" PRIu64, individual->genome.codons[i]);
+        fprintf(out, "\n%s\n", individual->sentence);
+    }
+    tn_run_clear(&run);
+    tn_evolution_job_clear(&evolved);
+    tn_close(&opened);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_output output;
+    const tn_option_list *words = &settings->operands;
+    const char *what = words->items[0];
+    tn_job_begin(&job, settings);
+    bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0,
+         replays = strcmp(what, "replay") == 0;
+    if (!shows && !compares && !replays) {
+        static const char *const known[] = {"show", "compare", "replay"};
+        const char *near = tn_nearest(what, known, sizeof known / sizeof *known);
+        tn_diagnostic *d =
+            tn_job_usage(&job, "`tartan runs` shows, compares or replays; it does not know `%.60s`", what);
+        if (near)
+            tn_help(tn_job_diagnostics(&job), d, "did you mean `tartan runs %s`?", near);
+        else
+            tn_help(tn_job_diagnostics(&job), d, "write `tartan runs show %.60s` if that is the run's folder", what);
+    } else if (replays && words->count != 3)
+        tn_job_usage(&job, "`tartan runs replay` takes a run's folder and the number of an individual");
+    else if (shows && words->count != 2)
+        tn_job_usage(&job, "`tartan runs show` takes one run's folder");
+    else if (tn_job_output(&job, settings->output, &output)) {
+        if (shows)
+            show(&job, words->items[1], output.stream);
+        else if (compares)
+            compare(&job, output.stream);
+        else
+            replay(&job, words->items[1], words->items[2], output.stream);
+        tn_job_commit(&job, &output);
+    }
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {OPTION_OUTPUT};
+
+const tn_command tn_command_runs = {
+    .name = "runs",
+    .summary = "show, compare and replay runs of evolution",
+    .usage = "show DIR\ncompare DIR...\nreplay DIR INDIVIDUAL",
+    .description = "show lists a run's generations. compare puts several runs side by side: how far each came, and "
+                   "when. replay makes a run again, "
+                   "without scoring, up to the individual with that number, and writes its genome and its sentence: "
+                   "bit for bit what they were.",
+    .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "show, compare or replay, and a run's folder",
+    .operands_min = 2,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

@@ -1,0 +1,257 @@
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/growth/grow.h"
+#include "runtime/geometry/write.h"
+#include "runtime/growth/surface.h"
+#include "runtime/mesh/openmesh.h"
+
+static bool is_picture(tn_grow_format format)
+{
+    return format >= TN_GROW_SVG;
+}
+
+/* Options that say something about some formats only: used with another one they would do nothing. */
+static bool check_use(tn_job *job, tn_grow_format format)
+{
+    enum { MESH = 1, SURFACE = 2, LINES = 4, NORMALS = 8, GROUPS = 16, AXIS = 32, PICTURE = 64 };
+    static const unsigned can[TN_GROW_FORMAT_COUNT] = {
+        [TN_GROW_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_GROW_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_GROW_STL] = MESH | SURFACE | AXIS,
+        [TN_GROW_OFF] = MESH | SURFACE | AXIS,
+        [TN_GROW_OM] = MESH | SURFACE | AXIS,
+        [TN_GROW_GLB] = MESH | SURFACE | NORMALS | GROUPS,
+        [TN_GROW_DXF] = MESH | LINES | GROUPS | AXIS,
+        [TN_GROW_SVG] = PICTURE,
+        [TN_GROW_PNG] = PICTURE,
+        [TN_GROW_PDF] = PICTURE,
+    };
+    const tn_settings *s = job->settings;
+    const struct {
+        bool given;
+        unsigned needs;
+        const char *name, *help;
+    } uses[] = {
+        {s->subdivide.given, SURFACE, "subdivide", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->decimate.given, SURFACE, "decimate", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->smooth.given, MESH, "smooth", "write a mesh: .obj, .ply, .stl, .off, .om, .glb or .dxf"},
+        {s->triangulate, SURFACE, "triangulate", "write a surface: .obj, .ply, .stl, .off, .om or .glb"},
+        {s->lines, LINES, "lines", "only .obj, .ply and .dxf hold lines"},
+        {s->normals, NORMALS, "normals", "only .obj, .ply and .glb hold normals of vertices"},
+        {s->groups, GROUPS, "groups", "only .obj, .ply, .glb and .dxf hold groups"},
+        {s->up != 0, AXIS, "up", "a .glb has y up always; a picture is turned with --azimuth and --elevation"},
+        {s->azimuth.given, PICTURE, "azimuth", "write a picture: .svg, .png or .pdf"},
+        {s->elevation.given, PICTURE, "elevation", "write a picture: .svg, .png or .pdf"},
+        {s->width.given, PICTURE, "width", "write a picture: .svg, .png or .pdf"},
+        {s->columns.given, PICTURE, "columns", "write a --sheet: .svg, .png or .pdf"},
+        {s->dpi.given, PICTURE, "dpi", "write a picture: .png"},
+        {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
+        {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
+        {s->each_step, PICTURE | MESH, "each-step", "name one with -o"},
+        {s->mesh_format != 0, PICTURE | MESH, "format", "name one with -o"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || (can[format] & uses[i].needs))
+            continue;
+        tn_diagnostic *d = tn_job_usage(
+            job, s->output ? "--%s does nothing for this kind of file" : "--%s does nothing without a file",
+            uses[i].name);
+        tn_help(tn_job_diagnostics(job), d, "%s", s->output ? uses[i].help : "name one with -o");
+        return false;
+    }
+    if ((s->subdivide.given || s->decimate.given) && (s->lines || s->groups)) {
+        tn_diagnostic *d = tn_job_usage(job, "--subdivide and --decimate make new faces, which have no edges of the "
+                                             "rules: --lines and --groups have nothing to show");
+        tn_help(tn_job_diagnostics(job), d, "leave one or the other out");
+        return false;
+    }
+    return true;
+}
+
+bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
+{
+    static const char *const words[TN_GROW_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
+                                                            "glb", "dxf", "svg", "png", "pdf"};
+    const tn_settings *settings = job->settings;
+    const char *path = settings->output, *dot = path ? strrchr(path, '.') : NULL;
+    *format = (tn_grow_format)settings->mesh_format;
+    if (!path)
+        return check_use(job, TN_GROW_NONE);
+    for (int f = TN_GROW_OBJ; *format == TN_GROW_NONE && dot && f < TN_GROW_FORMAT_COUNT; f++)
+        if (strcasecmp(dot + 1, words[f]) == 0)
+            *format = (tn_grow_format)f;
+    if (*format == TN_GROW_NONE) {
+        tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
+        tn_help(tn_job_diagnostics(job), d,
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
+        return false;
+    }
+    if (!check_use(job, *format))
+        return false;
+    if (strcmp(path, "-") == 0 && (settings->each_step || settings->stats)) {
+        tn_job_usage(job, "standard output takes one thing only: name a file with -o");
+        return false;
+    }
+    if (settings->sheet && settings->each_step) {
+        tn_job_usage(job, "a --sheet has every step already: leave --each-step out");
+        return false;
+    }
+    return true;
+}
+
+tn_camera tn_grow_camera(const tn_settings *settings)
+{
+    tn_camera camera = tn_camera_default();
+    if (settings->azimuth.given)
+        camera.azimuth = settings->azimuth.value;
+    if (settings->elevation.given)
+        camera.elevation = settings->elevation.value;
+    if (settings->width.given)
+        camera.width = (double)settings->width.value;
+    return camera;
+}
+
+/* One line on how it was made, the same wherever it is made. */
+static void describe(const tn_job *job, const tn_growth *growth, char *text, size_t size)
+{
+    const tn_module *module = job->opened.module;
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    snprintf(text, size, "%.60s, step %u, seed %" PRIu64 ", rules %016" PRIx64 ", %.40s", tn_growth_rules(growth)->name,
+             tn_growth_steps(growth), tn_growth_settings(growth)->seed, producer ? (uint64_t)producer->sources_hash : 0,
+             producer ? tn_text(module, producer->version) : "tartan");
+}
+
+/* ---- meshes */
+
+static tn_status rework(const tn_settings *settings, tn_grow_format format, tn_mesh *mesh, tn_error *error)
+{
+    tn_status status = TN_OK;
+    if (settings->subdivide.given)
+        status = tn_openmesh_subdivide(mesh, (unsigned)settings->subdivide.value, error);
+    if (status == TN_OK && settings->smooth.given)
+        status = tn_openmesh_smooth(mesh, (unsigned)settings->smooth.value, error);
+    if (status == TN_OK && settings->decimate.given)
+        status = tn_openmesh_decimate(mesh, (size_t)settings->decimate.value, error);
+    if (status == TN_OK && (settings->triangulate || format == TN_GROW_GLB || format == TN_GROW_STL))
+        status = tn_mesh_triangulate(mesh, error);
+    return status;
+}
+
+static tn_status write_by_openmesh(const tn_mesh *mesh, tn_grow_format format, bool y_up, FILE *out, tn_error *error)
+{
+    unsigned char *bytes;
+    size_t size;
+    tn_openmesh_format kind = format == TN_GROW_OFF   ? TN_OPENMESH_OFF
+                              : format == TN_GROW_STL ? TN_OPENMESH_STL
+                                                      : TN_OPENMESH_OM;
+    tn_status status = tn_openmesh_write(mesh, kind, y_up, &bytes, &size, error);
+    if (status == TN_OK)
+        fwrite(bytes, 1, size, out); /* failing shows when the output is committed */
+    free(bytes);
+    return status;
+}
+
+static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn_grow_format format, const char *note,
+                            FILE *out, tn_error *error)
+{
+    tn_mesh_style style = {.notes = &note, .note_count = 1, .normals = settings->normals, .y_up = settings->up == 1};
+    switch (format) {
+    case TN_GROW_OBJ:
+        return tn_mesh_write_obj(mesh, &style, out, error);
+    case TN_GROW_PLY:
+        return tn_mesh_write_ply(mesh, &style, out, error);
+    case TN_GROW_GLB:
+        return tn_mesh_write_glb(mesh, &style, out, error);
+    case TN_GROW_DXF:
+        return tn_mesh_write_dxf(mesh, &style, out, error);
+    default:
+        return write_by_openmesh(mesh, format, style.y_up, out, error);
+    }
+}
+
+static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format format, const char *path)
+{
+    const tn_settings *settings = job->settings;
+    bool dxf = format == TN_GROW_DXF;
+    tn_surface_options options = {
+        .groups = settings->groups, .lines = settings->lines || dxf, .layers = dxf && !settings->groups};
+    tn_mesh mesh;
+    tn_output output;
+    tn_error error;
+    char note[240];
+    describe(job, growth, note, sizeof note);
+    tn_status status = tn_surface_mesh(growth, &options, &mesh, &error);
+    if (status == TN_OK)
+        status = rework(settings, format, &mesh, &error);
+    if (status == TN_OK && tn_job_output(job, path, &output)) {
+        status = write_mesh(settings, &mesh, format, note, output.stream, &error);
+        if (status == TN_OK)
+            tn_job_commit(job, &output);
+        else
+            tn_output_discard(&output);
+    }
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_mesh_clear(&mesh);
+}
+
+/* ---- pictures */
+
+static void note_depth(tn_job *job, const tn_view *view)
+{
+    if (tn_view_by_depth(view) > 0)
+        tn_job_note(job, "%u faces pass through one another so often that they are drawn by their depth alone",
+                    tn_view_by_depth(view));
+}
+
+void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
+                   tn_grow_format format)
+{
+    char caption[240];
+    tn_error error;
+    describe(job, growth, caption, sizeof caption);
+    const tn_settings *settings = job->settings;
+    for (size_t i = 0; i < count; i++)
+        note_depth(job, views[i]);
+    tn_view_options options = {.title = settings->title ? settings->title : study->title,
+                               .caption = caption,
+                               .columns = (uint32_t)settings->columns.value,
+                               .dpi = (uint32_t)settings->dpi.value,
+                               .system = tn_growth_rules(growth)};
+    if (count && tn_views_draw(views, count, &options, settings->output, (tn_canvas_format)(format - TN_GROW_SVG),
+                               &error) != TN_OK)
+        tn_job_fail(job, &error);
+}
+
+static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format,
+                          const char *path)
+{
+    tn_camera camera = tn_grow_camera(job->settings);
+    tn_view *view;
+    tn_error error;
+    char caption[240];
+    describe(job, growth, caption, sizeof caption);
+    tn_view_options options = {.title = job->settings->title ? job->settings->title : study->title,
+                               .caption = caption,
+                               .dpi = (uint32_t)job->settings->dpi.value,
+                               .system = tn_growth_rules(growth)};
+    tn_status status = tn_view_take(growth, &camera, &view, &error);
+    if (status == TN_OK)
+        note_depth(job, view);
+    if (status == TN_OK)
+        status = tn_views_draw(&view, 1, &options, path, (tn_canvas_format)(format - TN_GROW_SVG), &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_view_free(view);
+}
+
+void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format, const char *path)
+{
+    if (is_picture(format))
+        write_picture(job, growth, study, format, path);
+    else
+        write_surface(job, growth, format, path);
+}

@@ -1,0 +1,110 @@
+/* Options of `grow` that a study can say too are turned into a study of their own, so that both mean the same and are
+ * checked and explained alike. */
+#include <stdlib.h>
+
+#include "cli/growth/grow.h"
+#include "compiler/study/study.h"
+#include "driver/open/stdlib_find.h"
+
+static void say_quoted(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            fputc('\\', out);
+        fputc(*text, out);
+    }
+    fputs("\"\n", out);
+}
+
+static bool say_text(FILE *out, const char *word, const char *text)
+{
+    if (text)
+        fprintf(out, "%s %s\n", word, text);
+    return text != NULL;
+}
+
+static bool say_flag(FILE *out, const char *word, bool flag)
+{
+    if (flag)
+        fprintf(out, "%s\n", word);
+    return flag;
+}
+
+static bool say_list(FILE *out, const char *word, const tn_option_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        fprintf(out, "%s %s\n", word, list->items[i]);
+    return list->count > 0;
+}
+
+/* Writes the statements; false where there are none. */
+static bool say_statements(FILE *out, const tn_settings *s)
+{
+    bool any = say_text(out, "steps", s->steps);
+    any |= say_text(out, "scale", s->growth_scale);
+    any |= say_text(out, "start", s->start);
+    any |= say_text(out, "start-length", s->start_length);
+    any |= say_text(out, "seed", s->growth_seed);
+    any |= say_text(out, "branch-angle", s->branch_angle);
+    any |= say_text(out, "branch-length", s->branch_length);
+    any |= say_text(out, "edge-limit", s->edge_limit);
+    any |= say_flag(out, "fixed-centre", s->fixed_centre);
+    any |= say_flag(out, "fixed-perimeter", s->fixed_perimeter);
+    any |= say_flag(out, "facing", s->facing);
+    any |= say_flag(out, "mirror", s->grow_mirror);
+    any |= say_list(out, "attractor", &s->attractors);
+    any |= say_list(out, "repeller", &s->repellers);
+    any |= say_list(out, "gravity", &s->gravity);
+    any |= say_list(out, "boundary", &s->boundaries);
+    any |= say_list(out, "fitness", &s->fitness);
+    return any;
+}
+
+static bool open_study(tn_job *job, const char *path, bool has_source, char *text, size_t size)
+{
+    if (has_source) {
+        tn_job_status(
+            job, tn_open_bytes("<options>.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
+        return job->opened.module != NULL;
+    }
+    if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)
+        return job->opened.module != NULL;
+    tn_diagnostic *d = tn_job_usage(job, "a module is grown as it was compiled");
+    tn_help(tn_job_diagnostics(job), d, "for other steps, scales or surroundings name the .hemls or .study file");
+    return false;
+}
+
+bool tn_grow_open(tn_job *job)
+{
+    const char *path = job->settings->operands.items[0];
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    tn_error error;
+    tn_stdlib_file found = {0};
+    if (!out || (tn_stdlib_may_mean(path) && tn_stdlib_find(path, &found, &error) != TN_OK)) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        if (out)
+            fclose(out);
+        free(text);
+        return false;
+    }
+    const char *named = found.path ? found.recorded : path;
+    bool is_hemls = tn_is_hemls(named), has_source = is_hemls || tn_is_study(named);
+    tn_stdlib_file_clear(&found);
+    fputs(is_hemls ? "rules " : "use ", out);
+    say_quoted(out, path);
+    bool any = say_statements(out, job->settings), written = !ferror(out);
+    fclose(out);
+    bool opened = false;
+    if (!written) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    } else {
+        opened = any ? open_study(job, path, has_source, text, size) : tn_job_open(job, path);
+    }
+    free(text);
+    return opened;
+}

@@ -1,0 +1,311 @@
+/* tartan count: how many plans a library holds, exactly, without making one. */
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "driver/open/digits.h"
+#include "driver/open/findings.h"
+
+/* All counts of a library: one a length, and one (at the end) of all. */
+typedef struct length_counts {
+    mpz_t generated, kept, mirror;
+} length_counts;
+
+/* Of a clause: how many plans it keeps out, and only it; negative where that is not counted. */
+typedef struct clause_counts {
+    uint32_t states;
+    mpz_t out, only;
+} clause_counts;
+
+typedef struct counts {
+    const tn_ready_library *ready;
+    bool mirror;
+    uint32_t low;
+    length_counts *lengths; /* the last is the total */
+    size_t length_count;
+    clause_counts *clauses;
+    uint32_t clause_count;
+} counts;
+
+static bool counts_new(const tn_ready_library *ready, bool mirror, counts *c)
+{
+    uint32_t low = tn_library_min(ready->library), high = tn_library_max(ready->library);
+    *c = (counts){.ready = ready,
+                  .mirror = mirror,
+                  .low = low,
+                  .length_count = (size_t)high - low + 1,
+                  .clause_count = ready->record->clause_count};
+    c->lengths = malloc(sizeof *c->lengths * (c->length_count + 1));
+    c->clauses = malloc(sizeof *c->clauses * ((size_t)c->clause_count + 1));
+    if (!c->lengths || !c->clauses) {
+        free(c->lengths);
+        free(c->clauses);
+        *c = (counts){0};
+        return false;
+    }
+    for (size_t i = 0; i <= c->length_count; i++)
+        mpz_inits(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
+    for (size_t i = 0; i < c->clause_count; i++)
+        mpz_inits(c->clauses[i].out, c->clauses[i].only, NULL);
+    return true;
+}
+
+static void counts_free(counts *c)
+{
+    for (size_t i = 0; c->lengths && i <= c->length_count; i++)
+        mpz_clears(c->lengths[i].generated, c->lengths[i].kept, c->lengths[i].mirror, NULL);
+    for (size_t i = 0; c->clauses && i < c->clause_count; i++)
+        mpz_clears(c->clauses[i].out, c->clauses[i].only, NULL);
+    free(c->lengths);
+    free(c->clauses);
+}
+
+static const tn_clause_record *clause_record(const counts *c, uint32_t i)
+{
+    return &c->ready->schema->module->CLAUSE_records[c->ready->record->clause_first + i];
+}
+
+static const char *clause_name(const counts *c, uint32_t i)
+{
+    return tn_text(c->ready->schema->module, clause_record(c, i)->name);
+}
+
+/* A clause past a limit leaves the other counts as they are: a note says which it is. */
+static tn_status count_clause(counts *c, tn_opened *opened, uint32_t i, tn_error *error)
+{
+    clause_counts *clause = &c->clauses[i];
+    tn_status status = tn_library_effect(c->ready->library, i, clause->out, clause->only, &clause->states, error);
+    if (status != TN_LIMIT)
+        return status;
+    tn_finding_uncounted(opened, clause_name(c, i), error);
+    return TN_OK;
+}
+
+static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
+{
+    const tn_library *library = c->ready->library;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i <= c->length_count; i++) {
+        uint32_t length = i == c->length_count ? TN_ALL_LENGTHS : c->low + (uint32_t)i;
+        tn_library_kept(library, length, c->lengths[i].kept);
+        status = tn_library_generated(library, length, c->lengths[i].generated, error);
+        if (status == TN_OK && c->mirror)
+            status = tn_library_kept_mirror(library, length, c->lengths[i].mirror, error);
+    }
+    for (uint32_t i = 0; status == TN_OK && i < c->clause_count; i++)
+        status = count_clause(c, opened, i, error);
+    return status;
+}
+
+/* How wide a column of numbers has to be for its largest. */
+static int column_width(const mpz_t largest, const char *heading)
+{
+    int digits = (int)mpz_sizeinbase(largest, 10), heading_width = (int)strlen(heading);
+    int width = digits + (digits - 1) / 3;
+    return width > heading_width ? width : heading_width;
+}
+
+static void write_number(const mpz_t number, int width, FILE *out)
+{
+    char *text = tn_digits(number, true);
+    fprintf(out, "  %*s", width, mpz_sgn(number) < 0 ? "-" : text ? text : "?");
+    free(text);
+}
+
+static void write_lengths(const counts *c, FILE *out)
+{
+    const length_counts *total = &c->lengths[c->length_count];
+    int generated = column_width(total->generated, "generated"), kept = column_width(total->kept, "kept"),
+        mirror = column_width(total->mirror, "up to mirror");
+    fprintf(out, "%8s  %*s  %*s", "trays", generated, "generated", kept, "kept");
+    if (c->mirror)
+        fprintf(out, "  %*s", mirror, "up to mirror");
+    fputc('\n', out);
+    for (size_t i = 0; i <= c->length_count; i++) {
+        if (i < c->length_count)
+            fprintf(out, "%8zu", c->low + i);
+        else
+            fprintf(out, "%8s", "total");
+        write_number(c->lengths[i].generated, generated, out);
+        write_number(c->lengths[i].kept, kept, out);
+        if (c->mirror)
+            write_number(c->lengths[i].mirror, mirror, out);
+        fputc('\n', out);
+    }
+}
+
+/* The requirements, or the prunes. */
+static void write_clauses(const counts *c, bool prunes, const char *what, const char *out_heading, FILE *out)
+{
+    int names = (int)strlen(what), outs = (int)strlen(out_heading), onlys = (int)strlen("only by it");
+    bool any = false;
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
+        int name = (int)strlen(clause_name(c, i)), wide = column_width(c->clauses[i].out, out_heading),
+            alone = column_width(c->clauses[i].only, "only by it");
+        names = name > names ? name : names;
+        outs = wide > outs ? wide : outs;
+        onlys = alone > onlys ? alone : onlys;
+        any = true;
+    }
+    if (any)
+        fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, what, outs, out_heading, onlys, "only by it", "states");
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
+        fprintf(out, "%-*s", names, clause_name(c, i));
+        write_number(c->clauses[i].out, outs, out);
+        write_number(c->clauses[i].only, onlys, out);
+        fprintf(out, "  %6u\n", c->clauses[i].states);
+    }
+}
+
+static void write_text(const counts *c, FILE *out)
+{
+    const tn_module *module = c->ready->schema->module;
+    const char *doc = tn_text(module, c->ready->record->doc);
+    const length_counts *total = &c->lengths[c->length_count];
+    mpz_t pruned;
+    mpz_init(pruned);
+    mpz_sub(pruned, total->generated, total->kept);
+    char *text = tn_digits(pruned, true);
+    fprintf(out, "%s%s%s\npruned: %s\nstates: %u%s\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
+            text ? text : "?", tn_library_states(c->ready->library),
+            tn_library_within(c->ready->library) ? " within these lengths" : "");
+    free(text);
+    mpz_clear(pruned);
+    write_lengths(c, out);
+    write_clauses(c, false, "requirement", "keeps out", out);
+    write_clauses(c, true, "rule", "prunes", out);
+}
+
+static void set_number(json_t *object, const char *key, const mpz_t number)
+{
+    char *text = tn_digits(number, false);
+    json_object_set_new(object, key, mpz_sgn(number) < 0 ? json_null() : json_string(text ? text : ""));
+    free(text);
+}
+
+static json_t *lengths_json(const counts *c)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < c->length_count; i++) {
+        json_t *item = json_object();
+        json_object_set_new(item, "length", json_integer((json_int_t)(c->low + i)));
+        set_number(item, "generated", c->lengths[i].generated);
+        set_number(item, "kept", c->lengths[i].kept);
+        if (c->mirror)
+            set_number(item, "mirror", c->lengths[i].mirror);
+        json_array_append_new(list, item);
+    }
+    return list;
+}
+
+static json_t *clauses_json(const counts *c, bool prunes, const char *out_key)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < c->clause_count; i++) {
+        if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
+            continue;
+        json_t *item = json_object();
+        json_object_set_new(item, "name", json_string(clause_name(c, i)));
+        set_number(item, out_key, c->clauses[i].out);
+        set_number(item, "only", c->clauses[i].only);
+        json_object_set_new(item, "states", json_integer(c->clauses[i].states));
+        json_array_append_new(list, item);
+    }
+    return list;
+}
+
+static void write_json(const counts *c, FILE *out)
+{
+    const length_counts *total = &c->lengths[c->length_count];
+    char hash[33];
+    json_t *root = json_object();
+    mpz_t pruned;
+    mpz_init(pruned);
+    mpz_sub(pruned, total->generated, total->kept);
+    tn_library_hash(c->ready->library, hash);
+    json_object_set_new(root, "library", json_string(tn_text(c->ready->schema->module, c->ready->record->name)));
+    json_object_set_new(root, "hash", json_string(hash));
+    bool within = tn_library_within(c->ready->library);
+    json_object_set_new(root, "states", within ? json_null() : json_integer(tn_library_states(c->ready->library)));
+    set_number(root, "generated", total->generated);
+    set_number(root, "pruned", pruned);
+    set_number(root, "kept", total->kept);
+    if (c->mirror)
+        set_number(root, "mirror", total->mirror);
+    json_object_set_new(root, "by_length", lengths_json(c));
+    json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
+    json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
+    json_dumpf(root, out, JSON_INDENT(2));
+    fputc('\n', out);
+    json_decref(root);
+    mpz_clear(pruned);
+}
+
+static void count(tn_job *job, const tn_ready_library *ready)
+{
+    const tn_settings *settings = job->settings;
+    counts c;
+    tn_error error;
+    tn_output output;
+    if (!counts_new(ready, settings->mirror, &c)) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return;
+    }
+    tn_job_show(job);
+    if (count_all(&c, &job->opened, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, settings->output, &output)) {
+        (settings->json ? write_json : write_text)(&c, output.stream);
+        tn_job_commit(job, &output);
+    }
+    counts_free(&c);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_ready_library ready;
+    tn_job_begin(&job, settings);
+    if (tn_job_library(&job, settings->operands.items[0], &ready))
+        count(&job, &ready);
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
+    OPTION_OUTPUT,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_count = {
+    .name = "count",
+    .summary = "count the plans of a library, exactly",
+    .usage = "FILE [--library NAME] [--json] [--mirror]",
+    .description =
+        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
+        "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
+        "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
+        "many more plans there would be without them. Counts are exact whatever their size: they are "
+        "computed over the library's automaton, and no plan is made.",
+    .example = "$ tartan count lahave-houses --json",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

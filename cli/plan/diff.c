@@ -1,0 +1,201 @@
+/* tartan diff: what an edit does to a library. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/diff_report.h"
+#include "cli/plan/library_job.h"
+#include "driver/open/digits.h"
+#include "runtime/draw/canvas.h"
+#include "runtime/plan/picture/draw.h"
+
+enum { SHOWN = 3, SHOWN_MAX = 1000, NOTE_SIZE = 400 };
+
+/* ---- the picture: removed plans, added ones, kept ones, each under a heading */
+
+typedef struct sheet {
+    tn_drawn_plan *plans; /* trays and numbers owned */
+    size_t count;
+} sheet;
+
+static void sheet_clear(sheet *s)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        free((tn_tray *)(uintptr_t)s->plans[i].trays);
+        free((char *)(uintptr_t)s->plans[i].number);
+    }
+    free(s->plans);
+}
+
+/* Its rank among those of its part stands under a plan. */
+static tn_status add_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, const char *heading,
+                          sheet *s, tn_error *error)
+{
+    const tn_library *library = tn_library_diff_part(report->diff, part);
+    tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
+    char *digits = mpz_get_str(NULL, 10, rank);
+    uint32_t length = 0;
+    if (!trays || !digits || !tn_library_unrank(library, rank, trays, &length)) {
+        free(trays);
+        free(digits);
+        return tn_fail_memory(error);
+    }
+    s->plans[s->count++] = (tn_drawn_plan){trays, length, digits, heading};
+    return TN_OK;
+}
+
+static void describe(const tn_diff_report *report, tn_diff_part part, char *note)
+{
+    mpz_t count;
+    mpz_init(count);
+    tn_library_kept(tn_library_diff_part(report->diff, part), TN_ALL_LENGTHS, count);
+    char *digits = tn_digits(count, true);
+    snprintf(note, NOTE_SIZE, "%s: %zu of %s plans", tn_diff_part_names[part], report->samples[part].count,
+             digits ? digits : "?");
+    free(digits);
+    mpz_clear(count);
+}
+
+/* headings: of the three parts. */
+static tn_status collect(const tn_diff_report *report, char headings[TN_DIFF_PARTS][NOTE_SIZE], sheet *s,
+                         tn_error *error)
+{
+    size_t all = 0;
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        all += report->samples[part].count;
+    s->plans = calloc(all + 1, sizeof *s->plans);
+    if (!s->plans)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++)
+            status = add_plan(report, (tn_diff_part)part, report->samples[part].ranks[i], i ? NULL : headings[part], s,
+                              error);
+    return status;
+}
+
+static tn_status draw(const tn_diff_report *report, const tn_settings *settings, tn_error *error)
+{
+    char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
+    const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
+    sheet s = {0};
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        describe(report, (tn_diff_part)part, headings[part]);
+    tn_status status = collect(report, headings, &s, error);
+    snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, report->paths[0], report->paths[1],
+             settings->seed.value);
+    snprintf(title, sizeof title, "%.160s: what changes", tn_text(report->modules[1], report->records[1]->name));
+    tn_draw_options options = {.title = settings->title ? settings->title : title,
+                               .number_name = "rank",
+                               .notes = lines,
+                               .note_count = TN_DIFF_PARTS + 1};
+    if (status == TN_OK)
+        status = tn_plans_draw(tn_library_schema(tn_library_diff_part(report->diff, TN_DIFF_KEPT)), s.plans, s.count,
+                               &options, settings->output, error);
+    sheet_clear(&s);
+    return status;
+}
+
+/* ---- the command */
+
+static void deliver(tn_job *job, tn_diff_report *report)
+{
+    const tn_settings *settings = job->settings;
+    size_t count = settings->sample.given ? (size_t)settings->sample.value : SHOWN;
+    tn_output output;
+    tn_error error;
+    tn_status status = tn_diff_samples_take(report, count, settings->seed.value, &error);
+    tn_job_show(job);
+    if (status == TN_OK && settings->output)
+        status = draw(report, settings, &error);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
+    if (!tn_job_output(job, NULL, &output))
+        return;
+    status = (settings->json ? tn_diff_write_json : tn_diff_write_text)(report, output.stream, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_job_close(job, &output, status == TN_OK);
+}
+
+static void compare(tn_job *job, const tn_ready_library *before, const tn_ready_library *after)
+{
+    const tn_settings *settings = job->settings;
+    tn_library_diff *diff;
+    tn_error error;
+    if (tn_library_diff_new(before->library, after->library, (uint32_t)settings->max_states.value, &diff, &error) !=
+        TN_OK) {
+        error.code_offset = TN_NO_OFFSET;
+        tn_job_fail(job, &error);
+        return;
+    }
+    tn_diff_report report = {.diff = diff,
+                             .paths = {settings->operands.items[0], settings->operands.items[1]},
+                             .modules = {before->schema->module, after->schema->module},
+                             .records = {before->record, after->record}};
+    deliver(job, &report);
+    tn_diff_samples_clear(&report);
+    tn_library_diff_free(diff);
+}
+
+static bool check_options(tn_job *job)
+{
+    tn_canvas_format format;
+    tn_error error;
+    if (!job->settings->output || tn_canvas_format_of(job->settings->output, &format, &error) == TN_OK)
+        return true;
+    tn_job_fail(job, &error);
+    return false;
+}
+
+/* Two files are open at once, each with diagnostics of its own. */
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job jobs[2];
+    tn_ready_library before = {0}, after = {0};
+    tn_job_begin(&jobs[0], settings);
+    tn_job_begin(&jobs[1], settings);
+    if (check_options(&jobs[0]) && tn_job_library(&jobs[0], settings->operands.items[0], &before) &&
+        tn_job_library(&jobs[1], settings->operands.items[1], &after))
+        compare(&jobs[1], &before, &after);
+    tn_library_close(&before);
+    tn_library_close(&after);
+    int first = tn_job_end(&jobs[0]), second = tn_job_end(&jobs[1]);
+    return first > second ? first : second;
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    NUMBER("sample", 0, "N", sample, 0, SHOWN_MAX, "show the first plan of each and N at random (default 3)"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "which random ones (default 0)"),
+    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    TEXT("output", 'o', "FILE", output, "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
+    TEXT("title", 0, "TEXT", title, "the picture's title"),
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_diff = {
+    .name = "diff",
+    .summary = "say what an edit does to a library",
+    .usage = "OLD NEW [--library NAME] [--json] [-o SHEET.svg]",
+    .description =
+        "Compares the plans of a library before and after an edit: how many it removes, adds and keeps, exactly, for "
+        "each number of trays and in all; the first of each and some at random; and which clauses are responsible. "
+        "Clauses are matched by their names. For each that is not the same, `removes` says how many of the removed "
+        "plans it keeps out now, and `adds` how many of the added ones it kept out before; several clauses may keep "
+        "out one plan. The two libraries must be of the same trays.",
+    .example = "$ tartan diff before.plan after.plan\n$ tartan diff before.plan after.plan --sample 12 -o edit.pdf",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "two files, OLD and NEW",
+    .operands_min = 2,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,367 @@
+/* tartan draw: plans as a picture sheet, rules as a picture. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/plan_input.h"
+#include "cli/plan/sampled.h"
+#include "driver/open/digits.h"
+#include "runtime/draw/canvas.h"
+#include "runtime/plan/picture/draw.h"
+#include "runtime/plan/picture/draw_rule.h"
+
+enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
+
+/* The plans of a sheet, gathered before any is drawn, since all share one scale. */
+typedef struct sheet {
+    tn_job *job;
+    const tn_schema *schema;
+    const tn_library_record *library; /* or NULL */
+    tn_drawn_plan *plans;             /* trays and numbers owned */
+    size_t count, room;
+    bool ranked; /* numbers are ranks, not lines */
+    char notes[NOTE_COUNT][NOTE_SIZE];
+    size_t note_count;
+} sheet;
+
+static size_t max_plans(const tn_settings *settings)
+{
+    return settings->max_plans.given ? (size_t)settings->max_plans.value : TN_DRAW_PLANS_DEFAULT;
+}
+
+/* Takes over `number`; the trays are copied. */
+static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *number, tn_error *error)
+{
+    if (s->count == s->room) {
+        size_t room = s->room ? s->room * 2 : 64;
+        tn_drawn_plan *plans = realloc(s->plans, sizeof *plans * room);
+        if (!plans) {
+            free(number);
+            return tn_fail_memory(error);
+        }
+        s->plans = plans;
+        s->room = room;
+    }
+    tn_tray *copy = malloc(sizeof *copy * (length + 1));
+    if (!copy || !number) {
+        free(copy);
+        free(number);
+        return tn_fail_memory(error);
+    }
+    if (length)
+        memcpy(copy, trays, sizeof *copy * length);
+    s->plans[s->count++] = (tn_drawn_plan){copy, length, number, NULL};
+    return TN_OK;
+}
+
+static void sheet_clear(sheet *s)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        free((tn_tray *)(uintptr_t)s->plans[i].trays);
+        free((char *)(uintptr_t)s->plans[i].number);
+    }
+    free(s->plans);
+}
+
+/* The number below a plan that was read: its rank where the file gives one, otherwise its line. */
+static char *number_of(sheet *s, const tn_plan_reader *reader)
+{
+    char *text = NULL;
+    mpz_t rank;
+    mpz_init(rank);
+    if (s->count == 0)
+        s->ranked = tn_plan_reader_rank(reader, rank);
+    if (s->ranked && tn_plan_reader_rank(reader, rank)) {
+        text = mpz_get_str(NULL, 10, rank);
+    } else {
+        char line[24];
+        snprintf(line, sizeof line, "%" PRIu64, tn_plan_reader_line(reader));
+        text = strdup(line);
+    }
+    mpz_clear(rank);
+    return text;
+}
+
+/* Reads the plans, one more than the limit at most, which drawing then refuses. False where the sheet is not to be
+ * drawn. */
+static bool read_plans(sheet *s, const char *path)
+{
+    tn_plan_reader *reader;
+    const tn_plan *plan;
+    tn_error error;
+    bool going = tn_job_reader(s->job, s->schema, path, &reader);
+    if (!going)
+        return false;
+    while (going && s->count <= max_plans(s->job->settings)) {
+        tn_status status = tn_plan_reader_next(reader, &plan, &error);
+        if (status == TN_OK && !plan)
+            break;
+        if (status == TN_OK)
+            status = add_plan(s, plan->trays, plan->length, number_of(s, reader), &error);
+        else if (error.line > 0) {
+            size_t size = 0;
+            const char *text = tn_plan_reader_text(reader, &size);
+            going = tn_job_bad_plan(s->job, path, &error, text, size);
+            continue;
+        }
+        if (status != TN_OK) {
+            tn_job_fail(s->job, &error);
+            going = false;
+        }
+    }
+    tn_plan_reader_free(reader);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plan%s from %s", s->count, s->count == 1 ? "" : "s",
+             strcmp(path, "-") == 0 ? "standard input" : path);
+    return going;
+}
+
+static bool unrank_all(sheet *s, const tn_ready_library *ready, const tn_sampled *sampled)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    tn_error error;
+    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
+    for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
+        uint32_t length = 0;
+        tn_library_unrank(ready->library, sampled->ranks[i], trays, &length);
+        status = add_plan(s, trays, length, mpz_get_str(NULL, 10, sampled->ranks[i]), &error);
+    }
+    free(trays);
+    if (status != TN_OK)
+        tn_job_fail(s->job, &error);
+    return status == TN_OK;
+}
+
+static void note_sample(sheet *s, const tn_ready_library *ready)
+{
+    char hash[33];
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
+    char *digits = tn_digits(kept, true);
+    tn_library_hash(ready->library, hash);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
+             digits ? digits : "?", s->job->settings->seed.value);
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
+    free(digits);
+    mpz_clear(kept);
+}
+
+static bool sample_plans(sheet *s, const tn_ready_library *ready)
+{
+    tn_sampled sampled;
+    bool drawn = tn_job_sample(s->job, ready, (size_t)s->job->settings->sample.value, &sampled) &&
+                 unrank_all(s, ready, &sampled);
+    tn_sampled_clear(&sampled);
+    s->ranked = true;
+    if (drawn)
+        note_sample(s, ready);
+    return drawn;
+}
+
+/* The last note: which rules, by which compiler. Only the file's name, so that the same sheet can be made anywhere. */
+static void note_rules(sheet *s)
+{
+    const tn_module *module = s->job->opened.module;
+    const char *path = s->job->settings->operands.items[0], *slash = strrchr(path, '/');
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    int used = snprintf(s->notes[s->note_count], NOTE_SIZE, "%.160s", slash ? slash + 1 : path);
+    if (producer && used < NOTE_SIZE)
+        snprintf(s->notes[s->note_count] + used, (size_t)(NOTE_SIZE - used), ", rules %016" PRIx64 ", %.60s",
+                 (uint64_t)producer->sources_hash, tn_text(module, producer->version));
+    s->note_count++;
+}
+
+static void draw_sheet(sheet *s)
+{
+    const tn_settings *settings = s->job->settings;
+    const tn_module *module = s->job->opened.module;
+    const char *notes[NOTE_COUNT];
+    tn_error error;
+    note_rules(s);
+    for (size_t i = 0; i < s->note_count; i++)
+        notes[i] = s->notes[i];
+    tn_string name = s->library ? s->library->name : s->schema->record->name,
+              doc = s->library ? s->library->doc : s->schema->record->doc;
+    tn_draw_options options = {.title = settings->title ? settings->title : tn_text(module, name),
+                               .doc = doc ? tn_text(module, doc) : NULL,
+                               .number_name = s->ranked ? "rank" : "line",
+                               .notes = notes,
+                               .note_count = s->note_count,
+                               .paper = settings->paper,
+                               .scale = (uint32_t)settings->scale.value,
+                               .columns = (uint32_t)settings->columns.value,
+                               .dpi = (uint32_t)settings->dpi.value,
+                               .max_plans = max_plans(settings)};
+    tn_job_show(s->job);
+    if (tn_plans_draw(s->schema, s->plans, s->count, &options, settings->output, &error) != TN_OK)
+        tn_job_fail(s->job, &error);
+}
+
+static void draw_sample(tn_job *job)
+{
+    tn_ready_library ready;
+    if (tn_job_library(job, job->settings->operands.items[0], &ready)) {
+        sheet s = {.job = job, .schema = ready.schema, .library = ready.record};
+        if (sample_plans(&s, &ready))
+            draw_sheet(&s);
+        sheet_clear(&s);
+    }
+    tn_library_close(&ready);
+}
+
+static void draw_file(tn_job *job, const char *path)
+{
+    tn_schema *schema = NULL;
+    uint32_t index, library = UINT32_MAX;
+    tn_error error;
+    if (!tn_job_open(job, job->settings->operands.items[0]))
+        return;
+    tn_status status = tn_schema_choose(&job->opened, job->settings->library, &index, &library);
+    tn_job_status(job, status);
+    if (status != TN_OK)
+        return;
+    if (tn_schema_new(job->opened.module, index, 0, &schema, &error) == TN_OK) {
+        sheet s = {.job = job, .schema = schema};
+        if (library != UINT32_MAX)
+            s.library = &job->opened.module->LIBRARY_records[library];
+        if (read_plans(&s, path)) {
+            if (s.count == 0 && job->exit_code == TN_EXIT_DONE)
+                tn_job_note(job, "no plans came from %.200s: the sheet is empty",
+                            strcmp(path, "-") == 0 ? "standard input" : path);
+            draw_sheet(&s);
+        }
+        sheet_clear(&s);
+    } else {
+        tn_job_fail(job, &error);
+    }
+    tn_schema_free(schema);
+}
+
+/* Rules rather than plans: one picture of those asked for, which are about the same trays. */
+static void draw_rules(tn_job *job)
+{
+    const tn_option_list *asked = &job->settings->rules;
+    tn_schema *schema = NULL;
+    tn_error error;
+    if (!tn_job_open(job, job->settings->operands.items[0]))
+        return;
+    const tn_module *module = job->opened.module;
+    tn_drawn_rule *rules = malloc(sizeof *rules * (asked->count + 1));
+    tn_status status = rules ? TN_OK : tn_fail_memory(&error);
+    uint32_t trays = 0;
+    for (size_t i = 0; status == TN_OK && i < asked->count; i++) {
+        uint32_t rule;
+        status = tn_rule_choose(&job->opened, asked->items[i], &rule);
+        tn_job_status(job, status);
+        if (status != TN_OK)
+            break;
+        rules[i] = tn_drawn_rule_of(module, rule);
+        if (i > 0 && module->RULE_records[rule].schema != trays) {
+            tn_job_usage(job, "the rules of one picture are about the same trays");
+            status = TN_INVALID;
+        }
+        trays = module->RULE_records[rule].schema;
+    }
+    if (status == TN_OK) {
+        status = tn_schema_new(module, trays, 0, &schema, &error);
+        tn_picture to = {.path = job->settings->output, .dpi = (uint32_t)job->settings->dpi.value};
+        if (status == TN_OK)
+            status = tn_rules_draw(schema, rules, asked->count, &to, &error);
+        if (status != TN_OK)
+            tn_job_fail(job, &error);
+    }
+    if (!rules)
+        tn_job_fail(job, &error);
+    tn_schema_free(schema);
+    free(rules);
+}
+
+static bool is_sampled(const tn_settings *settings)
+{
+    return settings->sample.given || settings->per_length.given;
+}
+
+static bool check_options(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_canvas_format format;
+    tn_error error;
+    if (!settings->output)
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    else if (settings->rules.count && (is_sampled(settings) || settings->operands.count > 1))
+        tn_job_usage(job, "draw either rules or plans, not both");
+    else if (is_sampled(settings) && settings->operands.count > 1)
+        tn_job_usage(job, "draw either a file of plans or a --sample, not both");
+    else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->trays.given))
+        tn_job_usage(job, "--seed, --length and --trays say what is sampled: give --sample N too");
+    else
+        return true;
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_job_begin(&job, settings);
+    if (!check_options(&job))
+        return tn_job_end(&job);
+    if (settings->rules.count) {
+        draw_rules(&job);
+    } else {
+        const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
+        if (path)
+            draw_file(&job, path);
+        else if (job.exit_code == TN_EXIT_DONE)
+            draw_sample(&job);
+    }
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
+    LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
+    OPTION_LIBRARY,
+    NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
+    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
+    NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
+    TEXT("paper", 0, "SIZE", paper,
+         "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
+    NUMBER("scale", 0, "N", scale, 1, 1000000, "draw at 1:N (default: the largest usual scale that fits)"),
+    NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
+    NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
+    NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_draw = {
+    .name = "draw",
+    .summary = "draw plans on a sheet, to scale",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg",
+    .description =
+        "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
+        "zones, marks and "
+        "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
+        "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
+        "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
+        "of "
+        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.",
+    .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
+               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a rule file and a file of plans",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,251 @@
+/* tartan enumerate: every plan of a library, once, in rank order. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
+#include "cli/plan/plan_output.h"
+#include "driver/open/digits.h"
+
+/* How often the loop looks at the clock and for interruptions. */
+enum { LOOK_EVERY = 4096 };
+
+/* One enumeration: the ranks [rank, to) that are left. */
+typedef struct enumeration {
+    tn_job *job;
+    const tn_ready_library *ready;
+    tn_plan_writer *writer;
+    mpz_t rank, to;
+    mpz_t first;             /* the first of all ranks, before anything was resumed */
+    uint64_t written, limit; /* plans in the file, those resumed included; 0: no limit */
+    bool limited;
+} enumeration;
+
+static void refuse_range(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_diagnostic *d = tn_job_usage(job, "no rank is from %.60s on and before %.60s", settings->from, settings->to);
+    tn_help(tn_job_diagnostics(job), d, "write the smaller rank after --from");
+}
+
+static void note_end(tn_job *job, const mpz_t kept)
+{
+    char *digits = tn_digits(kept, false);
+    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?",
+                job->settings->from);
+    free(digits);
+}
+
+/* The ranks asked for, no further than the library goes. False where no stretch was asked for. */
+static bool find_range(enumeration *e)
+{
+    const tn_settings *settings = e->job->settings;
+    mpz_t kept, zero;
+    mpz_inits(kept, zero, NULL);
+    tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
+    tn_job_rank(settings->from, zero, e->rank);
+    tn_job_rank(settings->to, kept, e->to);
+    bool backwards = settings->to && mpz_cmp(e->rank, e->to) > 0;
+    if (backwards)
+        refuse_range(e->job);
+    else if (mpz_sgn(kept) > 0 && mpz_cmp(e->rank, kept) >= 0)
+        note_end(e->job, kept);
+    if (mpz_cmp(e->to, kept) > 0)
+        mpz_set(e->to, kept);
+    if (mpz_cmp(e->rank, e->to) > 0)
+        mpz_set(e->rank, e->to);
+    mpz_set(e->first, e->rank);
+    mpz_clears(kept, zero, NULL);
+    return !backwards;
+}
+
+/* What decides the result. The limit is left out: a library can be resumed to go on past it. */
+static char *describe(const tn_settings *settings)
+{
+    const char *from = settings->from ? settings->from : "0", *to = settings->to ? settings->to : "";
+    size_t size = strlen(from) + strlen(to) + 80;
+    char *text = malloc(size);
+    if (!text)
+        return NULL;
+    int used = snprintf(text, size, "enumerate --from %s%s%s%s", from, *to ? " --to " : "", to,
+                        settings->mirror ? " --mirror" : "");
+    if (settings->trays.given)
+        snprintf(text + used, size - (size_t)used, " --trays %" PRIu64 "..%" PRIu64, settings->trays.low,
+                 settings->trays.high);
+    return text;
+}
+
+static void resume(enumeration *e)
+{
+    mpz_t last;
+    mpz_init(last);
+    e->written = tn_plan_writer_resumed(e->writer, last);
+    if (e->written > 0) {
+        mpz_add_ui(e->rank, last, 1);
+        tn_job_note(e->job, "%" PRIu64 " plans are there already; going on after them", e->written);
+        tn_job_show(e->job);
+    }
+    mpz_clear(last);
+}
+
+static bool is_done(const enumeration *e)
+{
+    return e->limited && e->written >= e->limit;
+}
+
+/* Keeps what was written: whole batches of a database, every plan of anything else. */
+static void interrupt(enumeration *e)
+{
+    if (tn_plan_writer_resumes(e->writer)) {
+        tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+    } else {
+        tn_job_plan_close(e->job, e->writer);
+        e->writer = NULL;
+        char *rank = mpz_get_str(NULL, 10, e->rank);
+        if (rank)
+            tn_job_note(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
+                        e->written, rank);
+        free(rank);
+    }
+    e->job->exit_code = TN_EXIT_INTERRUPTED;
+}
+
+/* ---- progress: plans, where there is a limit of them, else ranks */
+
+static double ranks_from_first(const enumeration *e, const mpz_t rank)
+{
+    mpz_t ranks;
+    mpz_init(ranks);
+    mpz_sub(ranks, rank, e->first);
+    double count = mpz_get_d(ranks);
+    mpz_clear(ranks);
+    return count;
+}
+
+static double done(const enumeration *e)
+{
+    return e->limited ? (double)e->written : ranks_from_first(e, e->rank);
+}
+
+static void begin_progress(const enumeration *e, tn_progress *progress)
+{
+    const tn_settings *settings = e->job->settings;
+    bool to_stdout = !settings->output || strcmp(settings->output, "-") == 0;
+    double ranks = ranks_from_first(e, e->to), plans = (double)e->limit;
+    bool enough = settings->mirror || plans < ranks; /* as far as can be known */
+    tn_progress_begin(progress, settings->mirror && !e->limited ? "ranks" : "plans", done(e),
+                      e->limited && enough ? plans : ranks);
+    progress->shows = progress->shows && !(to_stdout && isatty(STDOUT_FILENO)); /* not between the plans */
+}
+
+static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
+{
+    bool mirror = e->job->settings->mirror;
+    const tn_tray *trays;
+    uint32_t length;
+    uint64_t seen = 0;
+    tn_progress progress;
+    tn_status status = TN_OK;
+    begin_progress(e, &progress);
+    while (status == TN_OK && !is_done(e) && tn_cursor_next(cursor, &trays, &length)) {
+        if (!mirror || tn_library_mirror_first(e->ready->library, trays, length)) {
+            status = tn_plan_writer_write(e->writer, e->rank, trays, length, error);
+            e->written++;
+        }
+        mpz_add_ui(e->rank, e->rank, 1);
+        if (++seen % LOOK_EVERY == 0) {
+            tn_progress_update(&progress, done(e));
+            if (tn_interrupted())
+                break;
+        }
+    }
+    tn_progress_end(&progress);
+    return status;
+}
+
+static void enumerate(enumeration *e)
+{
+    tn_cursor *cursor;
+    tn_error error;
+    resume(e);
+    tn_status status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, &error);
+    if (status == TN_OK) {
+        tn_interrupt_watch();
+        status = write_plans(e, cursor, &error);
+        tn_cursor_free(cursor);
+    }
+    if (status != TN_OK)
+        tn_job_fail(e->job, &error);
+    else if (tn_interrupted())
+        interrupt(e);
+    if (e->writer)
+        tn_job_plan_close(e->job, e->writer);
+}
+
+static bool check_options(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    if (!settings->resume || (settings->output && strcmp(settings->output, "-") != 0))
+        return true;
+    tn_job_usage(job, "--resume needs the database that it is to go on with: -o FILE.sqlite");
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_ready_library ready = {0};
+    tn_job_begin(&job, settings);
+    if (check_options(&job) && tn_job_library(&job, settings->operands.items[0], &ready)) {
+        enumeration e = {
+            .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
+        char *made = describe(settings);
+        mpz_inits(e.rank, e.to, e.first, NULL);
+        if (find_range(&e) && made && tn_job_plan_writer(&job, &ready, made, &e.writer))
+            enumerate(&e);
+        mpz_clears(e.rank, e.to, e.first, NULL);
+        free(made);
+    }
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    RANK("from", 0, "RANK", from, "the first rank (default 0)"),
+    RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
+    NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
+    FLAG("mirror", 0, mirror,
+         "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
+    OPTION_PLAN_FORMAT,
+    OPTION_PLAN_OUTPUT,
+    FLAG("resume", 0, resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_enumerate = {
+    .name = "enumerate",
+    .summary = "write every plan of a library, once",
+    .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]",
+    .description =
+        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. Any "
+        "stretch of ranks "
+        "can be asked for, and ranks may have any number of digits. A database (-o FILE.sqlite) is written in batches "
+        "that survive a crash; --resume goes on where one ended. Anything else that is interrupted keeps the plans "
+        "written, and a note says "
+        "from which rank to go on.",
+    .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,319 @@
+/* tartan explain: why a plan is kept or dropped, rule by rule, tray by tray. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/chosen_rules.h"
+#include "cli/plan/library_job.h"
+#include "cli/plan/plan_input.h"
+#include "driver/plan/explain.h"
+#include "runtime/draw/canvas.h"
+
+#define NEAREST_DEFAULT 3
+
+/* What is explained, and against what. */
+typedef struct explaining {
+    tn_job *job;
+    const tn_settings *settings;
+    const tn_library_record *record; /* or NULL: rules by themselves */
+    tn_chosen_rules rules;
+    tn_schema *schema;
+    tn_library *library;    /* for ranks; NULL where they are not asked for, or it passed a limit */
+    tn_near_finder *finder; /* NULL where nobody asked, or a clause passed a limit */
+    bool tried_library, tried_nearest;
+    tn_output output;
+} explaining;
+
+static void fail_memory(tn_job *job)
+{
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+}
+
+/* The library that --library names, or the only one; without any, or with --rule, rules by themselves. */
+static bool choose(explaining *e)
+{
+    tn_opened *opened = &e->job->opened;
+    uint32_t schema, library = UINT32_MAX;
+    tn_error error;
+    bool rules = e->settings->rules.count > 0;
+    if (!rules && !e->settings->library && opened->module->LIBRARY_count > 0) {
+        tn_status status = tn_library_choose(opened, NULL, &library);
+        tn_job_status(e->job, status);
+        if (status != TN_OK)
+            return false;
+        schema = opened->module->LIBRARY_records[library].schema;
+    } else if (!rules && e->settings->library) {
+        tn_status status = tn_schema_choose(opened, e->settings->library, &schema, &library);
+        tn_job_status(e->job, status);
+        if (status != TN_OK)
+            return false;
+    } else {
+        static const char otherwise[] = "name one of those it uses with --rule";
+        if (!tn_job_choose_rules(e->job, otherwise, &e->rules))
+            return false;
+        schema = e->rules.schema;
+    }
+    e->record = library == UINT32_MAX ? NULL : &opened->module->LIBRARY_records[library];
+    if (tn_schema_new(opened->module, schema, 0, &e->schema, &error) == TN_OK)
+        return true;
+    tn_job_fail(e->job, &error);
+    return false;
+}
+
+/* A limit that is passed while finding out what can be done without. */
+static void note_limit(explaining *e, const tn_error *error, const char *consequence)
+{
+    tn_diagnostic *note = tn_finding_note(&e->job->opened, error);
+    tn_note(tn_job_diagnostics(e->job), note, NULL, "%s", consequence);
+}
+
+static uint32_t library_index(const explaining *e)
+{
+    return (uint32_t)(e->record - e->job->opened.module->LIBRARY_records);
+}
+
+/* The library's automaton, for ranks: made once, and done without where it passes a limit. */
+static void make_library(explaining *e)
+{
+    tn_error error;
+    if (e->tried_library || !e->record)
+        return;
+    e->tried_library = true;
+    tn_library_options options = {.max_states = (uint32_t)e->settings->max_states.value,
+                                  .max_length = (uint32_t)e->settings->max_length.value};
+    tn_status status = tn_library_new(e->schema, library_index(e), &options, &e->library, &error);
+    if (status == TN_LIMIT)
+        note_limit(e, &error, "so ranks are not known");
+    else if (status != TN_OK)
+        tn_job_fail(e->job, &error);
+}
+
+static void make_nearest(explaining *e)
+{
+    tn_error error;
+    if (e->tried_nearest)
+        return;
+    e->tried_nearest = true;
+    const tn_near_options options = {.max_states = (uint32_t)e->settings->max_states.value};
+    tn_status status = tn_near_finder_new(e->schema, library_index(e), &options, &e->finder, &error);
+    if (status == TN_LIMIT)
+        note_limit(e, &error, "so nearest plans are not known");
+    else if (status != TN_OK)
+        tn_job_fail(e->job, &error);
+}
+
+static void find_near(explaining *e, tn_explained *explained)
+{
+    tn_error error;
+    size_t most = e->settings->nearest.given ? (size_t)e->settings->nearest.value : NEAREST_DEFAULT;
+    if (most == 0 || !e->record || explained->kept)
+        return;
+    make_nearest(e);
+    if (!e->finder)
+        return;
+    tn_status status = tn_explained_near(explained, e->finder, most, &error);
+    if (status == TN_LIMIT)
+        tn_finding_note(&e->job->opened, &error);
+    else if (status != TN_OK)
+        tn_job_fail(e->job, &error);
+}
+
+static void write_explained(explaining *e, const tn_explained *explained)
+{
+    tn_error error;
+    tn_buffer text = {0};
+    const tn_settings *settings = e->settings;
+    if (settings->output) {
+        tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
+        if (tn_explained_draw(explained, settings->full, &to, &error) != TN_OK)
+            tn_job_fail(e->job, &error);
+    } else if (!(settings->json ? tn_explained_json(explained, &text)
+                                : tn_explained_text(explained, settings->full, &text))) {
+        fail_memory(e->job);
+    } else {
+        fwrite(text.data, 1, text.size, e->output.stream);
+    }
+    free(text.data);
+}
+
+static void explain_plan(explaining *e, const tn_tray *trays, size_t length)
+{
+    tn_explained explained;
+    tn_error error;
+    size_t longest = e->settings->max_length.given ? (size_t)e->settings->max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
+    tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules.indices,
+                                         e->rules.count, trays, length, longest, &error);
+    if (e->settings->json || e->settings->full) /* ranks take several times as long as all the rest */
+        make_library(e);
+    explained.automaton = e->library;
+    if (status == TN_OK)
+        find_near(e, &explained);
+    else
+        tn_job_fail(e->job, &error);
+    if (status == TN_OK && e->job->exit_code == TN_EXIT_DONE)
+        write_explained(e, &explained);
+    tn_explained_clear(&explained);
+}
+
+static void explain_rank(explaining *e, const char *digits)
+{
+    mpz_t rank;
+    uint32_t length;
+    if (!*digits || strspn(digits, "0123456789") != strlen(digits)) {
+        tn_job_usage(e->job, "a rank is # and a whole number from 0, not `#%.60s`", digits);
+        return;
+    }
+    if (!e->record) {
+        tn_job_usage(e->job, "#%.60s is a plan's rank in a library, and rules alone are explained here", digits);
+        return;
+    }
+    make_library(e);
+    if (!e->library) {
+        tn_job_status(e->job, TN_LIMIT);
+        return;
+    }
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(e->library) + 1));
+    mpz_init_set_str(rank, digits, 10);
+    if (!trays)
+        fail_memory(e->job);
+    else if (tn_library_unrank(e->library, rank, trays, &length))
+        explain_plan(e, trays, length);
+    else
+        tn_job_no_rank(e->job, e->library, e->record, digits);
+    mpz_clear(rank);
+    free(trays);
+}
+
+static void explain_text(explaining *e, const char *text)
+{
+    size_t longest = tn_job_max_length(e->settings);
+    tn_plan plan = {0};
+    tn_error error;
+    tn_status status = text[strspn(text, " ")] == '{'
+                           ? tn_plan_parse_json(e->schema, text, strlen(text), longest, &plan, &error)
+                           : tn_plan_parse_line(e->schema, text, strlen(text), longest, &plan, &error);
+    if (status == TN_OK) {
+        explain_plan(e, plan.trays, plan.length);
+    } else {
+        tn_error_place(&error, 1, error.column, error.column_end);
+        tn_report_error(tn_job_diagnostics(e->job), &error, "PLAN", text, strlen(text));
+        tn_job_status(e->job, status);
+    }
+    free(plan.trays);
+}
+
+/* Every plan of a file, kept apart by a line that says which it is. */
+static void explain_file(explaining *e, const char *path)
+{
+    tn_plan_reader *reader;
+    const tn_plan *plan = NULL;
+    tn_error error;
+    if (!tn_job_reader(e->job, e->schema, path, &reader))
+        return;
+    for (size_t count = 0; e->job->exit_code == TN_EXIT_DONE; count++) {
+        tn_status status = tn_plan_reader_next(reader, &plan, &error);
+        if (status == TN_OK && !plan)
+            break;
+        size_t size = 0;
+        const char *text = status == TN_OK ? NULL : tn_plan_reader_text(reader, &size);
+        if (status != TN_OK) {
+            tn_job_bad_plan(e->job, path, &error, text, size);
+            break;
+        }
+        if (e->settings->output && count > 0) {
+            tn_job_usage(e->job, "a picture shows one plan, and %.200s holds more", path);
+            break;
+        }
+        if (!e->settings->json && !e->settings->output)
+            fprintf(e->output.stream, "%s%s:%" PRIu64 ": ", count ? "\n" : "", path, tn_plan_reader_line(reader));
+        explain_plan(e, plan->trays, plan->length);
+    }
+    tn_plan_reader_free(reader);
+}
+
+static bool check_options(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_canvas_format format;
+    tn_error error;
+    if ((settings->operands.count > 1) == (settings->plan_file != NULL))
+        tn_job_usage(job, "say which plan: a plan line, #RANK, or --plan FILE");
+    else if (settings->output && settings->json)
+        tn_job_usage(job, "either a picture (-o) or --json, not both");
+    else if (settings->output && tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    else
+        return true;
+    return false;
+}
+
+static void explain(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    explaining e = {.job = job, .settings = settings};
+    const char *text = settings->operands.count > 1 ? settings->operands.items[1] : NULL;
+    if (choose(&e) && tn_job_output(job, NULL, &e.output)) {
+        tn_job_show(job);
+        if (!text)
+            explain_file(&e, settings->plan_file);
+        else if (text[0] == '#')
+            explain_rank(&e, text + 1);
+        else
+            explain_text(&e, text);
+        tn_job_commit(job, &e.output);
+    }
+    tn_near_finder_free(e.finder);
+    tn_library_free(e.library);
+    tn_schema_free(e.schema);
+    tn_chosen_rules_clear(&e.rules);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_job_begin(&job, settings);
+    if (check_options(&job) && tn_job_open(&job, settings->operands.items[0]))
+        explain(&job);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    TEXT("plan", 0, "FILE", plan_file, "explain every plan of FILE; - is standard input"),
+    LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
+    OPTION_LIBRARY,
+    FLAG("full", 0, full, "every clause and every part, not only what decides"),
+    FLAG("json", 0, json, "write JSON, everything in it"),
+    TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),
+    NUMBER("nearest", 0, "N", nearest, 0, 1000, "how many of the nearest kept plans to show (default 3)"),
+    NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
+    OPTION_INPUT_FORMAT,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+};
+
+const tn_command tn_command_explain = {
+    .name = "explain",
+    .summary = "say why a plan is kept or dropped, and by which trays",
+    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME",
+    .description =
+        "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
+        "with "
+        "its trays, - where it does not, with what comes closest; what is counted, and what lies between for a "
+        "distance. "
+        "(A distance asks for some source that is far from every destination: one is enough.) Of a rule that does not "
+        "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
+        "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
+        "the "
+        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.",
+    .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a FILE and a PLAN",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

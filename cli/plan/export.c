@@ -1,0 +1,134 @@
+/* tartan export: rules in other notations. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/text/export_prolog.h"
+#include "runtime/plan/text/export_regex.h"
+
+typedef struct exporting {
+    tn_job *job;
+    const tn_module *module;
+    tn_schema *schema;
+    uint32_t rule;
+    tn_buffer text;
+} exporting;
+
+/* ---- patterns */
+
+static tn_status export_regex(exporting *e, tn_error *error)
+{
+    uint32_t function = e->module->RULE_records[e->rule].holds;
+    tn_classes *classes = NULL;
+    tn_lowering *lowering = NULL;
+    tn_dfa *dfa = NULL;
+    tn_status status = tn_classes_new(e->schema, &function, 1, &classes, error);
+    if (status == TN_OK)
+        status = tn_lowering_new(classes, (uint32_t)e->job->settings->max_states.value, &lowering, error);
+    if (status == TN_OK)
+        status = tn_lower(lowering, function, &dfa, error);
+    tn_buffer pattern = {0};
+    if (status == TN_OK)
+        status = tn_export_regex(dfa, &pattern, error);
+    if (status == TN_OK && !tn_buffer_printf(&e->text, "# %s, a letter for each tray:\n",
+                                             tn_text(e->module, e->module->RULE_records[e->rule].name)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_regex_legend(dfa, classes, &e->text, error);
+    if (status == TN_OK && !tn_buffer_printf(&e->text, "%s\n", pattern.size ? pattern.data : "# matches no plan"))
+        status = tn_fail_memory(error);
+    free(pattern.data);
+    tn_dfa_free(dfa);
+    tn_lowering_free(lowering);
+    tn_classes_free(classes);
+    return status;
+}
+
+/* ---- the command */
+
+/* The rule asked for, and the schema: the rule's, the library's, or the only one. */
+static bool choose(exporting *e, uint32_t *schema)
+{
+    const tn_settings *settings = e->job->settings;
+    uint32_t library;
+    tn_status status;
+    if (settings->regex) {
+        status = tn_rule_choose(&e->job->opened, settings->rules.count ? settings->rules.items[0] : "", &e->rule);
+        if (status == TN_OK)
+            *schema = e->module->RULE_records[e->rule].schema;
+    } else {
+        status = tn_schema_choose(&e->job->opened, settings->library, schema, &library);
+    }
+    tn_job_status(e->job, status);
+    return status == TN_OK;
+}
+
+static void export(tn_job *job)
+{
+    exporting e = {.job = job, .module = job->opened.module};
+    uint32_t schema;
+    tn_error error;
+    tn_output output;
+    if (!choose(&e, &schema))
+        return;
+    tn_status status = tn_schema_new(e.module, schema, 0, &e.schema, &error);
+    if (status == TN_OK)
+        status = job->settings->regex ? export_regex(&e, &error) : tn_export_prolog(e.schema, &e.text, &error);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, job->settings->output, &output)) {
+        fwrite(e.text.data, 1, e.text.size, output.stream);
+        tn_job_commit(job, &output);
+    }
+    free(e.text.data);
+    tn_schema_free(e.schema);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_job_begin(&job, settings);
+    if (settings->prolog == settings->regex)
+        tn_job_usage(&job, settings->prolog ? "--prolog and --regex are one or the other: leave one out"
+                                            : "say what to write: --prolog or --regex");
+    else if (settings->regex && settings->rules.count != 1)
+        tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
+    else if (settings->prolog && settings->rules.count)
+        tn_job_usage(&job, "--prolog writes all rules; --rule is for --regex");
+    else if (tn_job_open(&job, settings->operands.items[0]))
+        export(&job);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
+    FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
+    LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
+    OPTION_LIBRARY,
+    OPTION_OUTPUT,
+    OPTION_MAX_STATES,
+};
+
+const tn_command tn_command_export = {
+    .name = "export",
+    .summary = "write rules in other notations",
+    .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME",
+    .description =
+        "Writes rules for other engines. --prolog: a program of ISO Prolog that stands alone, in which a plan is a "
+        "list "
+        "of terms tray(V1, ..., Vn) of the values that a plan line has. --regex: an expression that matches exactly "
+        "the "
+        "plans that the rule matches, written with a letter for each tray; the legend says which letter is which. It "
+        "is made from the minimal automaton, and refused where it would pass 2,000 characters or 62 letters.",
+    .example =
+        "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a rule file",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,69 @@
+#include "cli/plan/library_job.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#include "runtime/plan/match/vm.h"
+
+int tn_job_threads(const tn_settings *settings)
+{
+    if (settings->threads.given)
+        omp_set_num_threads((int)settings->threads.value);
+    return omp_get_max_threads();
+}
+
+size_t tn_job_max_length(const tn_settings *settings)
+{
+    return settings->max_length.given ? (size_t)settings->max_length.value : TN_VM_LENGTH_DEFAULT;
+}
+
+void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number)
+{
+    if (!text || !*text || mpz_set_str(number, text, 10) != 0)
+        mpz_set(number, otherwise);
+}
+
+static bool ready_library(tn_job *job, const char *path, const tn_library_options *options, tn_ready_library *ready)
+{
+    *ready = (tn_ready_library){0};
+    tn_job_threads(job->settings);
+    if (!tn_job_open(job, path))
+        return false;
+    tn_status status = tn_library_ready(&job->opened, job->settings->library, options, ready);
+    tn_job_status(job, status);
+    return status == TN_OK;
+}
+
+bool tn_job_library(tn_job *job, const char *path, tn_ready_library *ready)
+{
+    const tn_settings *settings = job->settings;
+    tn_library_options options = {.max_states = (uint32_t)settings->max_states.value,
+                                  .override_trays = settings->trays.given,
+                                  .trays_min = (uint32_t)settings->trays.low,
+                                  .trays_max = (uint32_t)settings->trays.high,
+                                  .max_length = (uint32_t)settings->max_length.value};
+    return ready_library(job, path, &options, ready);
+}
+
+bool tn_job_library_schema(tn_job *job, const char *path, tn_ready_library *ready)
+{
+    return ready_library(job, path, NULL, ready);
+}
+
+void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, TN_ALL_LENGTHS, kept);
+    char *digits = mpz_get_str(NULL, 10, kept);
+    tn_diagnostics *list = tn_job_diagnostics(job);
+    tn_diagnostic *past = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
+                                         tn_text(job->opened.module, record->name), rank);
+    if (mpz_sgn(kept) == 0)
+        tn_help(list, past, "it holds no plans");
+    else
+        tn_help(list, past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
+    tn_job_status(job, TN_INVALID);
+    free(digits);
+    mpz_clear(kept);
+}

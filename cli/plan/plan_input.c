@@ -1,0 +1,102 @@
+#include "cli/plan/plan_input.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/plan/library_job.h"
+#include "driver/open/suggest_file.h"
+
+const char *tn_job_plans_path(tn_job *job)
+{
+    const tn_option_list *operands = &job->settings->operands;
+    const char *path = operands->count > 1 ? operands->items[1] : "-";
+    if (strcmp(path, "-") == 0 && strcmp(operands->items[0], "-") == 0) {
+        tn_job_usage(job, "the rules and the plans cannot both come from standard input");
+        return NULL;
+    }
+    return path;
+}
+
+bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader)
+{
+    tn_reader_options options = {.format = (tn_plan_format)job->settings->input_format,
+                                 .max_length = tn_job_max_length(job->settings)};
+    tn_error error;
+    if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
+        return true;
+    tn_suggest_file(path, &error);
+    tn_job_fail(job, &error);
+    return false;
+}
+
+bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size)
+{
+    tn_report_error(tn_job_diagnostics(job), error, strcmp(path, "-") == 0 ? "standard input" : path, text, size);
+    tn_job_status(job, error->status);
+    return job->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
+}
+
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
+{
+    const tn_sifting *s = context;
+    return s->plan(s->context, plan, texts);
+}
+
+static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_RELAY_TEXTS])
+{
+    tn_sifting *s = context;
+    bool written = true;
+    for (size_t t = 0; t < TN_RELAY_TEXTS && written; t++)
+        written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
+    s->done += plans;
+    tn_progress_update(&s->progress, (double)s->done);
+    return written;
+}
+
+/* Not between answers that are shown on the same terminal. */
+static void begin_progress(tn_sifting *s)
+{
+    tn_progress_begin(&s->progress, "plans", 0, 0);
+    for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
+        s->progress.shows &= !s->streams[t] || !*s->streams[t] || !isatty(fileno(*s->streams[t]));
+}
+
+static bool complain(void *context, const tn_error *error, const char *text, size_t size)
+{
+    tn_sifting *s = context;
+    s->stopped = !tn_job_bad_plan(s->job, s->path, error, text, size);
+    return !s->stopped;
+}
+
+bool tn_job_sift(tn_sifting *s)
+{
+    tn_plan_reader *reader;
+    tn_error error;
+    if (!tn_job_reader(s->job, s->schema, s->path, &reader))
+        return false;
+    bool opened = s->open(s->context);
+    tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
+    if (opened)
+        begin_progress(s);
+    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->job->settings), &calls, &error) != TN_OK) {
+        tn_job_fail(s->job, &error);
+        s->stopped = true;
+    }
+    tn_progress_end(&s->progress);
+    tn_plan_reader_free(reader);
+    return opened;
+}
+
+void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),
+                      const void *context)
+{
+    for (size_t i = 0; i < tn_rules_count(rules); i++) {
+        const tn_error *reason = tn_rules_fallback(rules, i);
+        if (!reason)
+            continue;
+        tn_diagnostic *note = tn_finding_note(&job->opened, reason);
+        tn_note(tn_job_diagnostics(job), note, NULL, "`%s` is matched by the interpreter, which is slower",
+                name(context, i));
+    }
+    tn_job_show(job);
+}

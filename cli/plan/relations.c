@@ -1,0 +1,179 @@
+#include "cli/plan/relations.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/text/text.h"
+
+/* How a relation is written: the sign in the matrix, and a word. */
+typedef struct sign {
+    char letter;
+    const char *word, *meaning;
+} sign;
+
+static const sign signs[] = {
+    [TN_RULES_UNKNOWN] = {'?', "unknown", "not analysed"},
+    [TN_RULES_EQUAL] = {'=', "equal", "the same plans"},
+    [TN_RULES_APART] = {'/', "apart", "no plan in common"},
+    [TN_RULES_INSIDE] = {'<', "inside", "the column's rule matches all that the row's does"},
+    [TN_RULES_CONTAINS] = {'>', "contains", "the row's rule matches all that the column's does"},
+    [TN_RULES_OVERLAP] = {'x', "overlap", "some plans in common"},
+};
+
+static const char *rule_name(const tn_plan_analyses *analyses, size_t a, size_t i)
+{
+    const tn_module *module = analyses->schemas[a]->module;
+    return tn_text(module, module->RULE_records[tn_plan_analysis_rule(analyses->items[a], i)].name);
+}
+
+static int name_width(const tn_plan_analyses *analyses, size_t a)
+{
+    int width = 0;
+    for (size_t i = 0; i < tn_plan_analysis_rule_count(analyses->items[a]); i++) {
+        int length = (int)strlen(rule_name(analyses, a, i));
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+/* Each rule has a number, which heads its column. */
+static void write_matrix(const tn_plan_analyses *analyses, size_t a, FILE *out)
+{
+    const tn_plan_analysis *analysis = analyses->items[a];
+    size_t count = tn_plan_analysis_rule_count(analysis);
+    int width = name_width(analyses, a), digits = snprintf(NULL, 0, "%zu", count);
+    size_t cells[sizeof signs / sizeof *signs] = {0};
+    fprintf(out, "%*s", digits + 1 + width, "");
+    for (size_t j = 0; j < count; j++)
+        fprintf(out, " %*zu", digits, j + 1);
+    fputc('\n', out);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(out, "%*zu %-*s", digits, i + 1, width, rule_name(analyses, a, i));
+        for (size_t j = 0; j < count; j++) {
+            tn_rule_relation relation = tn_plan_analysis_relation(analysis, i, j);
+            cells[relation] += i != j;
+            fprintf(out, " %*c", digits, i == j ? '.' : signs[relation].letter);
+        }
+        fputc('\n', out);
+    }
+    for (size_t s = 0; s < sizeof signs / sizeof *signs; s++)
+        if (cells[s]) /* inside and contains are one relation seen from both rules */
+            fprintf(out, "%c %s: %s (%zu)\n", signs[s].letter, signs[s].word, signs[s].meaning,
+                    s == TN_RULES_INSIDE || s == TN_RULES_CONTAINS ? cells[s] : cells[s] / 2);
+}
+
+static tn_status write_example(const tn_schema *schema, const char *who, const tn_shown_plan *plan, FILE *out,
+                               tn_error *error)
+{
+    if (!plan->shown)
+        return TN_OK;
+    tn_buffer line = {0};
+    bool ok = tn_plan_write_line(schema, plan->trays, plan->length, &line);
+    if (ok)
+        fprintf(out, "  %s: %s\n", who, line.data ? line.data : "");
+    free(line.data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status write_pair(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, FILE *out, tn_error *error)
+{
+    tn_shown_plan examples[3];
+    char only[2][TN_NAME_MAX + 8];
+    snprintf(only[0], sizeof only[0], "only %s", rule_name(analyses, a, i));
+    snprintf(only[1], sizeof only[1], "only %s", rule_name(analyses, a, j));
+    const char *who[3] = {"both", only[0], only[1]};
+    tn_status status = tn_plan_analysis_examples(analyses->items[a], i, j, examples, error);
+    fprintf(out, "\n%s, %s: %s\n", rule_name(analyses, a, i), rule_name(analyses, a, j),
+            signs[tn_plan_analysis_relation(analyses->items[a], i, j)].word);
+    for (int e = 0; e < 3; e++) {
+        if (status == TN_OK)
+            status = write_example(analyses->schemas[a], who[e], &examples[e], out, error);
+        tn_shown_plan_clear(&examples[e]);
+    }
+    return status;
+}
+
+static tn_status write_text(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
+                            tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t a = 0; status == TN_OK && a < analyses->count; a++) {
+        size_t count = tn_plan_analysis_rule_count(analyses->items[a]);
+        if (count == 0)
+            continue;
+        if (analyses->count > 1)
+            fprintf(out, "%s%s\n", a ? "\n" : "",
+                    tn_text(analyses->schemas[a]->module, analyses->schemas[a]->record->name));
+        write_matrix(analyses, a, out);
+        for (size_t i = 0; options->examples && i < count; i++)
+            for (size_t j = i + 1; status == TN_OK && j < count; j++)
+                status = write_pair(analyses, a, i, j, out, error);
+    }
+    return status;
+}
+
+static tn_status set_plan(json_t *object, const char *key, const tn_schema *schema, const tn_shown_plan *plan,
+                          tn_error *error)
+{
+    tn_buffer line = {0};
+    bool ok = !plan->shown || tn_plan_write_line(schema, plan->trays, plan->length, &line);
+    if (ok)
+        json_object_set_new(object, key, plan->shown ? json_string(line.data ? line.data : "") : json_null());
+    free(line.data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples, json_t *list,
+                           tn_error *error)
+{
+    static const char *const keys[3] = {"both", "only_a", "only_b"};
+    json_t *pair = json_object();
+    tn_status status = TN_OK;
+    json_object_set_new(pair, "a", json_string(rule_name(analyses, a, i)));
+    json_object_set_new(pair, "b", json_string(rule_name(analyses, a, j)));
+    json_object_set_new(pair, "relation", json_string(signs[tn_plan_analysis_relation(analyses->items[a], i, j)].word));
+    if (examples) {
+        tn_shown_plan plans[3];
+        status = tn_plan_analysis_examples(analyses->items[a], i, j, plans, error);
+        for (int e = 0; e < 3; e++) {
+            if (status == TN_OK)
+                status = set_plan(pair, keys[e], analyses->schemas[a], &plans[e], error);
+            tn_shown_plan_clear(&plans[e]);
+        }
+    }
+    json_array_append_new(list, pair);
+    return status;
+}
+
+static tn_status write_json(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
+                            tn_error *error)
+{
+    json_t *root = json_array();
+    tn_status status = TN_OK;
+    for (size_t a = 0; status == TN_OK && a < analyses->count; a++) {
+        const tn_schema *schema = analyses->schemas[a];
+        size_t count = tn_plan_analysis_rule_count(analyses->items[a]);
+        json_t *item = json_object(), *rules = json_array(), *pairs = json_array();
+        for (size_t i = 0; i < count; i++) {
+            json_array_append_new(rules, json_string(rule_name(analyses, a, i)));
+            for (size_t j = i + 1; status == TN_OK && j < count; j++)
+                status = pair_json(analyses, a, i, j, options->examples, pairs, error);
+        }
+        json_object_set_new(item, "schema", json_string(tn_text(schema->module, schema->record->name)));
+        json_object_set_new(item, "rules", rules);
+        json_object_set_new(item, "relations", pairs);
+        json_array_append_new(root, item);
+    }
+    if (status == TN_OK) {
+        json_dumpf(root, out, JSON_INDENT(2));
+        fputc('\n', out);
+    }
+    json_decref(root);
+    return status;
+}
+
+tn_status tn_relations_write(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
+                             tn_error *error)
+{
+    return (options->json ? write_json : write_text)(analyses, options, out, error);
+}

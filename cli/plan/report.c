@@ -1,0 +1,105 @@
+/* tartan report: a library as an HTML page. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "driver/report/report.h"
+
+#define SAMPLES_DEFAULT 24
+#define SAMPLES_MAX 2000
+
+static bool make_folder(tn_job *job, const char *path)
+{
+    tn_error error;
+    if (tn_folder_make(path, &error) == TN_OK)
+        return true;
+    tn_job_fail(job, &error);
+    return false;
+}
+
+static void write_page(tn_job *job, const char *path, const tn_buffer *page)
+{
+    tn_output output;
+    if (!tn_job_output(job, path, &output))
+        return;
+    fwrite(page->data, 1, page->size, output.stream);
+    tn_job_commit(job, &output);
+}
+
+static void report(tn_job *job, const tn_ready_library *ready, const char *folder)
+{
+    const tn_settings *settings = job->settings;
+    char path[4096];
+    tn_buffer page = {0};
+    tn_error error;
+    snprintf(path, sizeof path, "%s/index.html", folder);
+    tn_report_options options = {.seed = settings->seed.value,
+                                 .samples = settings->sample.given ? settings->sample.value : SAMPLES_DEFAULT,
+                                 .max_states = (uint32_t)settings->max_states.value};
+    const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
+                                          .max_states = options.max_states,
+                                          .imported = true};
+    tn_plan_analyses analyses = {0};
+    tn_covered covered = {0};
+    tn_status status = tn_plan_analyse(&job->opened, options.max_states, &analyses);
+    if (status == TN_OK)
+        status = tn_coverage_measure(&job->opened, &coverage, &covered);
+    tn_job_status(job, status);
+    if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &covered, &options, &page, &error) == TN_OK)
+        write_page(job, path, &page);
+    else if (status == TN_OK)
+        tn_job_fail(job, &error);
+    tn_covered_clear(&covered);
+    tn_plan_analyses_free(&analyses);
+    free(page.data);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_ready_library ready;
+    tn_job_begin(&job, settings);
+    const char *folder = settings->output;
+    if (!folder || strcmp(folder, "-") == 0 || strlen(folder) > 4000) {
+        tn_job_usage(&job, "report needs -o FOLDER, a folder to write into");
+        return tn_job_end(&job);
+    }
+    if (tn_job_library(&job, settings->operands.items[0], &ready) && make_folder(&job, folder))
+        report(&job, &ready, folder);
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    TEXT("output", 'o', "FOLDER", output, "write FOLDER/index.html; the folder is made where it is not there"),
+    NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
+           "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
+    OPTION_LIBRARY,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+    OPTION_WERROR,
+};
+
+const tn_command tn_command_report = {
+    .name = "report",
+    .summary = "write a library as an HTML page",
+    .usage = "FILE -o FOLDER",
+    .description =
+        "Writes one page that needs no server and no network: the library's counts by length as a chart; every rule "
+        "with its picture, its text, how many plans it prunes or (required) keeps out and how many only it does, or "
+        "(neither) how many it matches, how it lies to the others, the plans that show it, and which of its parts the "
+        "tests notice; "
+        "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
+        "filtered.",
+    .example = "$ tartan report lahave-houses -o report",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,119 @@
+/* tartan sample: plans drawn evenly from a library. */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/plan_output.h"
+#include "cli/plan/sampled.h"
+
+static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sampled *sampled, tn_plan_writer *writer)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    tn_error error;
+    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
+    for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
+        uint32_t length;
+        if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
+            status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
+        else
+            status = tn_fail(&error, TN_INTERNAL, 0, "a sampled rank is not in the library");
+    }
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    free(trays);
+}
+
+/* What decides the result, for the record in the file. */
+static void describe(const tn_settings *settings, size_t wanted, char *text, size_t size)
+{
+    int used = settings->per_length.given
+                   ? snprintf(text, size, "sample --per-length %" PRIu64, settings->per_length.value)
+                   : snprintf(text, size, "sample %zu", wanted);
+    used += snprintf(text + used, size - (size_t)used, " --seed %" PRIu64, settings->seed.value);
+    if (settings->length.given)
+        snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->length.value);
+}
+
+static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
+{
+    tn_sampled sampled;
+    tn_plan_writer *writer;
+    char made[128];
+    describe(job->settings, wanted, made, sizeof made);
+    if (tn_job_sample(job, ready, wanted, &sampled)) {
+        tn_job_show(job);
+        if (tn_job_plan_writer(job, ready, made, &writer)) {
+            write_plans(job, ready, &sampled, writer);
+            tn_job_plan_close(job, writer);
+        }
+    }
+    tn_sampled_clear(&sampled);
+}
+
+/* The operand N; it and --per-length say the same thing in two ways. */
+static bool read_wanted(tn_job *job, size_t *wanted)
+{
+    const tn_settings *settings = job->settings;
+    uint64_t number = 0;
+    if ((settings->operands.count > 1) == settings->per_length.given) {
+        tn_job_usage(job, "say how many plans: either N after the file, or --per-length N");
+        return false;
+    }
+    if (settings->per_length.given && settings->length.given) {
+        tn_job_usage(job, "--length and --per-length exclude each other");
+        return false;
+    }
+    if (settings->operands.count > 1 &&
+        (!tn_number_read(settings->operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
+        tn_diagnostic *d = tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
+                                        settings->operands.items[1]);
+        tn_help(tn_job_diagnostics(job), d, "the file comes first: tartan sample FILE N");
+        return false;
+    }
+    *wanted = (size_t)number;
+    return true;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_ready_library ready = {0};
+    size_t wanted;
+    tn_job_begin(&job, settings);
+    if (read_wanted(&job, &wanted) && tn_job_library(&job, settings->operands.items[0], &ready))
+        sample(&job, &ready, wanted);
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
+    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
+    NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
+    OPTION_PLAN_FORMAT,
+    OPTION_PLAN_OUTPUT,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_sample = {
+    .name = "sample",
+    .summary = "draw plans evenly from a library",
+    .usage = "FILE N [--seed S] [--length L]\nFILE --per-length N [--seed S]",
+    .description = "Draws N different plans of the library, every plan as likely as every other, and writes them in "
+                   "the order of their ranks. "
+                   "Nearly all plans of a library have its greatest number of trays, and so have samples: --length and "
+                   "--per-length "
+                   "draw from the others. The same file, seed and options give the same plans on every machine.",
+    .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a FILE and a number N",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,85 @@
+#include "cli/plan/sampled.h"
+
+#include <stdlib.h>
+
+static bool out_of_memory(tn_job *job)
+{
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    return false;
+}
+
+static bool grow(tn_sampled *sampled, size_t more)
+{
+    if (sampled->room - sampled->count >= more && sampled->ranks)
+        return true;
+    size_t room = sampled->count + more;
+    mpz_t *ranks = realloc(sampled->ranks, sizeof *ranks * (room + 1));
+    if (!ranks)
+        return false;
+    sampled->ranks = ranks;
+    for (size_t i = sampled->room; i < room; i++)
+        mpz_init(ranks[i]);
+    sampled->room = room;
+    return true;
+}
+
+/* What the library holds in a length where that is fewer than wanted: no room is needed for more. */
+static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, length, kept);
+    if (mpz_cmp_ui(kept, wanted) < 0)
+        wanted = (size_t)mpz_get_ui(kept);
+    mpz_clear(kept);
+    return wanted;
+}
+
+static bool draw(tn_job *job, const tn_library *library, uint32_t length, size_t wanted, tn_sampled *sampled)
+{
+    size_t count = at_most(library, length, wanted), found = 0;
+    tn_error error;
+    if (!grow(sampled, count))
+        return out_of_memory(job);
+    if (tn_library_sample(library, job->settings->seed.value, length, count, sampled->ranks + sampled->count, &found,
+                          &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
+    sampled->count += found;
+    if (found == wanted)
+        return true;
+    const char *plural = found == 1 ? "" : "s";
+    if (length == TN_ALL_LENGTHS)
+        tn_job_note(job, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found, plural,
+                    wanted);
+    else
+        tn_job_note(job, "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all",
+                    found, plural, length, wanted);
+    return true;
+}
+
+bool tn_job_sample(tn_job *job, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled)
+{
+    const tn_settings *settings = job->settings;
+    const tn_library *library = ready->library;
+    *sampled = (tn_sampled){0};
+    if (settings->per_length.given) {
+        for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++)
+            if (!draw(job, library, length, (size_t)settings->per_length.value, sampled))
+                return false;
+        return true;
+    }
+    uint32_t length = settings->length.given ? (uint32_t)settings->length.value : TN_ALL_LENGTHS;
+    return draw(job, library, length, wanted, sampled);
+}
+
+void tn_sampled_clear(tn_sampled *sampled)
+{
+    for (size_t i = 0; i < sampled->room; i++)
+        mpz_clear(sampled->ranks[i]);
+    free(sampled->ranks);
+    *sampled = (tn_sampled){0};
+}

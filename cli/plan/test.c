@@ -1,0 +1,122 @@
+/* tartan test: runs the test blocks of rule files. */
+#include <stdlib.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "driver/plan/coverage.h"
+#include "driver/plan/tests.h"
+
+/* What is written when all files are done: a line, or in JSON everything. */
+typedef struct test_report {
+    tn_test_counts counts;
+    tn_buffer files; /* JSON: of each file */
+} test_report;
+
+static void write_text(const tn_test_counts *counts, FILE *out)
+{
+    fprintf(out, "%zu passed, %zu failed", counts->passed, counts->failed);
+    if (counts->todo)
+        fprintf(out, ", %zu to do", counts->todo);
+    fputc('\n', out);
+}
+
+static void write_json(const test_report *report, FILE *out)
+{
+    const tn_test_counts *counts = &report->counts;
+    fprintf(out, "{\"passed\":%zu,\"failed\":%zu,\"todo\":%zu", counts->passed, counts->failed, counts->todo);
+    if (report->files.size)
+        fprintf(out, ",\"coverage\":[%s]", report->files.data);
+    fputs("}\n", out);
+}
+
+static void write_report(tn_job *job, const test_report *report)
+{
+    tn_output output;
+    if (!tn_job_output(job, NULL, &output))
+        return;
+    if (job->settings->json)
+        write_json(report, output.stream);
+    else
+        write_text(&report->counts, output.stream);
+    tn_job_commit(job, &output);
+}
+
+/* The coverage of the file that is open: in JSON it waits for the others. */
+static void write_coverage(tn_job *job, test_report *report)
+{
+    const tn_coverage_options options = {.library = job->settings->library,
+                                         .max_states = (uint32_t)job->settings->max_states.value};
+    tn_covered covered;
+    tn_buffer text = {0};
+    tn_output output;
+    tn_error error;
+    tn_status status = tn_coverage_measure(&job->opened, &options, &covered);
+    tn_job_status(job, status);
+    bool json = job->settings->json, written = true;
+    if (status == TN_OK && json)
+        written = (!report->files.size || tn_buffer_append(&report->files, ",", 1)) &&
+                  tn_covered_json(&covered, &report->files);
+    else if (status == TN_OK)
+        written = tn_covered_text(&covered, &text);
+    if (!written) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    } else if (text.size && tn_job_output(job, NULL, &output)) {
+        fwrite(text.data, 1, text.size, output.stream);
+        tn_job_commit(job, &output);
+    }
+    free(text.data);
+    tn_covered_clear(&covered);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    test_report report = {0};
+    tn_job_begin(&job, settings);
+    for (size_t i = 0; i < settings->operands.count; i++) {
+        const char *path = settings->operands.items[i];
+        if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
+            continue;
+        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->max_states.value, &report.counts));
+        if (settings->coverage && job.opened.compilation.program)
+            write_coverage(&job, &report);
+    }
+    tn_job_show(&job);
+    if (job.exit_code <= TN_EXIT_INVALID)
+        write_report(&job, &report);
+    free(report.files.data);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    FLAG("coverage", 0, coverage,
+         "say of each part of each rule how many plans it decides, and whether a test notices"),
+    FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
+    OPTION_LIBRARY,
+    OPTION_MAX_STATES,
+    OPTION_WERROR,
+};
+
+const tn_command tn_command_test = {
+    .name = "test",
+    .summary = "run the test blocks of rule files",
+    .usage = "FILE...",
+    .description =
+        "Runs every test block of the files, each case by the interpreter and by the automata. A failure "
+        "shows the plan, what "
+        "was expected of it, the rule with its place, and how the rule's parts came out. A case marked "
+        "`todo` is expected to fail; once it passes, that is a failure. The last line says how many passed "
+        "and failed; the exit code is 1 where one failed. With --coverage, for each part of each rule and clause: how "
+        "many of the plans that the library generates (without a library: of all plans of up to 4 trays) "
+        "would be decided otherwise if it never matched, counted exactly, and whether a test case would "
+        "notice. Tests of files that are only used (`use`) do not run.",
+    .example = "$ tartan test lahave",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "at least one FILE",
+    .operands_min = 1,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

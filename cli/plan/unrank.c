@@ -1,0 +1,81 @@
+/* tartan unrank: the plan at a place in its library. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "runtime/plan/text/text.h"
+
+static void write_plan(tn_job *job, const tn_ready_library *ready, const tn_tray *trays, uint32_t length)
+{
+    tn_buffer line = {0};
+    tn_output output;
+    tn_error error;
+    bool written = job->settings->json ? tn_plan_write_json(ready->schema, trays, length, &line)
+                                       : tn_plan_write_line(ready->schema, trays, length, &line);
+    if (!written || !tn_buffer_append(&line, "\n", 1)) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, NULL, &output)) {
+        fwrite(line.data, 1, line.size, output.stream);
+        tn_job_commit(job, &output);
+    }
+    free(line.data);
+}
+
+static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    uint32_t length;
+    mpz_t rank;
+    tn_error error;
+    if (!trays) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return;
+    }
+    mpz_init_set_str(rank, text, 10);
+    if (tn_library_unrank(ready->library, rank, trays, &length))
+        write_plan(job, ready, trays, length);
+    else
+        tn_job_no_rank(job, ready->library, ready->record, text);
+    mpz_clear(rank);
+    free(trays);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_ready_library ready = {0};
+    const char *text = settings->operands.items[1];
+    tn_job_begin(&job, settings);
+    if (!*text || strspn(text, "0123456789") != strlen(text)) {
+        tn_diagnostic *d = tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
+        tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan unrank FILE RANK");
+    } else if (tn_job_library(&job, settings->operands.items[0], &ready))
+        unrank(&job, &ready, text);
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    OPTION_LIBRARY,    FLAG("json", 0, json, "write the plan as a JSON object"),
+    OPTION_TRAYS,      OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES, OPTION_THREADS,
+};
+
+const tn_command tn_command_unrank = {
+    .name = "unrank",
+    .summary = "write the plan that has a place in its library",
+    .usage = "FILE RANK [--library NAME]",
+    .description =
+        "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank.",
+    .example = "$ tartan unrank lahave-houses 123456789",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "a FILE and a RANK",
+    .operands_min = 2,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,127 @@
+/* tartan check: says what is wrong with rule files, and what their rules mean. */
+#include "cli/common/job.h"
+#include "cli/common/option_rows.h"
+#include "cli/plan/library_job.h"
+#include "cli/plan/relations.h"
+#include "driver/breed/grammar_report.h"
+
+static void report_grammar(tn_job *job)
+{
+    tn_error error;
+    if (tn_grammar_report(&job->opened, job->settings->figures, &error) != TN_OK)
+        tn_job_fail(job, &error);
+}
+
+static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
+{
+    tn_relations_options options = {.json = job->settings->json, .examples = job->settings->examples};
+    tn_output output;
+    tn_error error;
+    tn_job_show(job);
+    if (!tn_job_output(job, job->settings->output, &output))
+        return;
+    tn_status status = tn_relations_write(analyses, &options, output.stream, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_job_close(job, &output, status == TN_OK);
+}
+
+static void analyse(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_plan_analyses analyses;
+    tn_status status = tn_plan_analyse(&job->opened, (uint32_t)settings->max_states.value, &analyses);
+    tn_job_status(job, status);
+    if (status == TN_OK && settings->relations)
+        write_relations(job, &analyses);
+    tn_plan_analyses_free(&analyses);
+}
+
+static bool check_options(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    if (settings->relations && settings->no_analysis)
+        tn_job_usage(job, "--relations is part of the analysis that --no-analysis leaves out");
+    else if (settings->relations && settings->operands.count > 1)
+        tn_job_usage(job, "--relations takes one FILE");
+    else if (!settings->relations && (settings->examples || settings->json || settings->output))
+        tn_job_usage(job, "%s is about --relations: give that too",
+                     settings->examples ? "--examples"
+                     : settings->json   ? "--json"
+                                        : "--output");
+    else
+        return true;
+    return false;
+}
+
+static bool is_empty(const tn_module *module)
+{
+    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count + module->GROWTH_count +
+               module->GRAMMAR_count ==
+           0;
+}
+
+static void check(tn_job *job, const char *path)
+{
+    const tn_settings *settings = job->settings;
+    const tn_module *module = job->opened.module;
+    if (settings->figures && module->GRAMMAR_count == 0)
+        tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
+    else if (settings->relations && module->RULE_count == 0)
+        tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
+    else if (module->GRAMMAR_count)
+        report_grammar(job);
+    else if (is_empty(module))
+        tn_job_note(job, "there is nothing in %.200s", path);
+    else if (!settings->no_analysis)
+        analyse(job);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_job_begin(&job, settings);
+    tn_job_threads(settings);
+    bool going = check_options(&job);
+    for (size_t i = 0; going && i < settings->operands.count; i++) {
+        const char *path = settings->operands.items[i];
+        if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
+            check(&job, path);
+    }
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
+    FLAG("relations", 0, relations, "print how the plans that each two rules match lie to one another"),
+    FLAG("examples", 0, examples, "with --relations: the shortest plan that both match, that only one does"),
+    FLAG("json", 0, json, "with --relations: write JSON"),
+    TEXT("output", 'o', "FILE", output, "with --relations: write to FILE"),
+    FLAG("figures", 0, figures,
+         "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
+    OPTION_WERROR,
+    OPTION_MAX_STATES,
+    OPTION_THREADS,
+};
+
+const tn_command tn_command_check = {
+    .name = "check",
+    .summary = "say what is wrong with rule files",
+    .usage = "FILE... [--no-analysis] [--figures]\nFILE --relations [--examples] [--json]",
+    .description =
+        "Compiles each rule file and all that it uses, and shows every error and warning with its place and a "
+        "suggestion. Then says what the file's rules and libraries mean where that is surely not meant: a rule that "
+        "matches no plan or every plan, or just what another one does; a pruning rule or requirement that changes "
+        "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
+        "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
+        "the shortest plan. A module (.tnb) is checked as it is for loading. "
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end.",
+    .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "at least one FILE",
+    .operands_min = 1,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

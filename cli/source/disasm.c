@@ -1,0 +1,76 @@
+/* tartan disasm: lists what a rule file was compiled to. */
+#include "runtime/module/disasm.h"
+#include <stdlib.h>
+
+#include "cli/common/job.h"
+#include "cli/common/option_rows.h"
+#include "driver/plan/library.h"
+
+/* Finds the rules of --rule; `rules` has room for them. */
+static bool choose_rules(tn_job *job, uint32_t *rules)
+{
+    const tn_option_list *asked = &job->settings->rules;
+    tn_error error;
+    if (!rules) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return false;
+    }
+    for (size_t i = 0; i < asked->count; i++)
+        tn_job_status(job, tn_rule_choose(&job->opened, asked->items[i], &rules[i]));
+    return job->exit_code == TN_EXIT_DONE;
+}
+
+/* False, with the reason reported, where memory ran out; what fails to be written shows when the output is closed. */
+static bool write_listing(tn_job *job, const uint32_t *rules, FILE *out)
+{
+    const tn_module *module = job->opened.module;
+    bool listed = true;
+    for (size_t i = 0; i < job->settings->rules.count && listed; i++)
+        listed = tn_module_disassemble_rule(module, rules[i], out);
+    if (job->settings->rules.count == 0)
+        listed = tn_module_disassemble(module, out);
+    if (listed || ferror(out))
+        return true;
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_output output;
+    uint32_t *rules = malloc(sizeof *rules * (settings->rules.count + 1));
+    tn_job_begin(&job, settings);
+    if (tn_job_open(&job, settings->operands.items[0]) && choose_rules(&job, rules) &&
+        tn_job_output(&job, settings->output, &output)) {
+        bool complete = write_listing(&job, rules, output.stream);
+        tn_job_close(&job, &output, complete);
+    }
+    free(rules);
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    LIST("rule", 'r', "NAME", rules, "list only this rule and the functions it needs; may be repeated"),
+    OPTION_OUTPUT,
+};
+
+const tn_command tn_command_disasm = {
+    .name = "disasm",
+    .summary = "list the bytecode of a rule file or module",
+    .usage = "FILE [--rule NAME]... [-o FILE.txt]",
+    .description =
+        "Lists the tables of a module and each function's bytecode beside the source lines it comes from. Takes a rule "
+        "file (compiled on the way) or a module.",
+    .example = "$ tartan disasm houses.plan | less",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

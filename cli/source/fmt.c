@@ -1,0 +1,120 @@
+/* tartan fmt: lays rule files out the canonical way. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/job.h"
+#include "cli/common/line_diff.h"
+#include "cli/common/option_rows.h"
+#include "compiler/format.h"
+
+/* What the option says, in the order of its choices; else what the name does; else plans. */
+static tn_notation notation_of(const tn_settings *settings, const char *path)
+{
+    if (settings->notation)
+        return (tn_notation)(settings->notation - 1);
+    tn_notation notation = tn_notation_of(path);
+    return notation == TN_NOTATION_COUNT ? TN_NOTATION_PLAN : notation;
+}
+
+static void write_text(tn_job *job, const char *path, const char *text, size_t size)
+{
+    tn_output output;
+    if (!tn_job_output(job, path, &output))
+        return;
+    fwrite(text, 1, size, output.stream);
+    tn_job_commit(job, &output);
+}
+
+static void write_diff(tn_job *job, const char *path, const char *old_text, const char *new_text)
+{
+    tn_output output;
+    if (!tn_job_output(job, NULL, &output))
+        return;
+    if (tn_line_diff(path, old_text, new_text, output.stream)) {
+        tn_job_commit(job, &output);
+        return;
+    }
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    tn_output_discard(&output);
+}
+
+/* What to do with a file whose layout is `formatted`. */
+static void deliver(tn_job *job, const char *path, const char *text, const char *formatted, size_t size)
+{
+    const tn_settings *settings = job->settings;
+    bool same = strcmp(text, formatted) == 0, report = settings->check || settings->diff;
+    if (!report && strcmp(path, "-") == 0)
+        write_text(job, NULL, formatted, size);
+    else if (!report && !same)
+        write_text(job, path, formatted, size);
+    if (!report || same)
+        return;
+    tn_job_status(job, settings->check ? TN_INVALID : TN_OK);
+    if (settings->diff)
+        write_diff(job, path, text, formatted);
+    else
+        tn_job_note(job, "%.400s is not in the canonical layout", path);
+}
+
+static void format_file(tn_job *job, const char *path)
+{
+    uint8_t *bytes;
+    size_t size, formatted_size;
+    char *formatted;
+    tn_error error;
+    if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
+    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path), path,
+                                      (const char *)bytes, size, &formatted, &formatted_size));
+    if (!formatted && !job->settings->notation && tn_notation_of(path) == TN_NOTATION_COUNT)
+        tn_job_note(job, "%.200s was read as .plan, as its name says nothing else; --notation hemls, study or bnf does",
+                    path);
+    if (formatted)
+        deliver(job, path, (const char *)bytes, formatted, formatted_size);
+    free(formatted);
+    free(bytes);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_job_begin(&job, settings);
+    for (size_t i = 0; i < settings->operands.count; i++) {
+        if (i > 0)
+            tn_job_next(&job);
+        format_file(&job, settings->operands.items[i]);
+    }
+    return tn_job_end(&job);
+}
+
+static const tn_option options[] = {
+    FLAG("check", 0, check, "change nothing; say which files are laid out otherwise, and exit with 1 where one is"),
+    FLAG("diff", 0, diff, "change nothing; show what would be changed"),
+    CHOICE("notation", 0, "NAME", notation, "auto|plan|hemls|study|bnf",
+           "which notation it is: for standard input, and where a file's name does not say (auto: by the name, else "
+           "plan)"),
+};
+
+const tn_command tn_command_fmt = {
+    .name = "fmt",
+    .summary = "lay rule files out in the canonical way",
+    .usage = "FILE...",
+    .description =
+        "Lays out each rule file (.plan, .hemls, .study, .bnf) in its notation's one canonical way, in place: written "
+        "beside the file, then renamed over it. Comments, parentheses and the spelling of lengths stay as they are, "
+        "and so does, up to one, an empty line between two things. What the file means is never changed, and a file "
+        "with an error of syntax is not touched. For - standard input is laid out on standard output.",
+    .example = "$ tartan fmt houses.plan\n$ tartan fmt --check *.plan *.study\n"
+               "$ tartan fmt --notation hemls - <square.hemls",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .operands = "at least one FILE",
+    .operands_min = 1,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

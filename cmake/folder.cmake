@@ -1,0 +1,20 @@
+# One target a folder: tartan_folder(PATH USES FOLDERS... NEEDS LIBRARIES...) makes the static library of the folder's sources.
+#
+# USES names the folders whose headers it may include; docs/internals.md has the same table, and tests/structure.py holds both to the
+# includes. The archives let a test link what it tests and nothing else; the libraries that are installed are made of their objects.
+set_property(GLOBAL PROPERTY TARTAN_FOLDERS "")
+
+function(tartan_folder path)
+  cmake_parse_arguments(FOLDER "" "" "USES;NEEDS;EXTRA" ${ARGN})
+  string(REPLACE "/" "-" target ${path})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${path}/*.c ${PROJECT_SOURCE_DIR}/${path}/*.cc)
+  add_library(${target} STATIC ${sources} ${FOLDER_EXTRA})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  foreach(used ${FOLDER_USES})
+    string(REPLACE "/" "-" used ${used})
+    target_link_libraries(${target} PUBLIC ${used})
+  endforeach()
+  target_link_libraries(${target} PUBLIC ${FOLDER_NEEDS})
+  tartan_warnings(${target})
+  set_property(GLOBAL APPEND PROPERTY TARTAN_FOLDERS ${target})
+endfunction()

@@ -1,0 +1,21 @@
+/* Compiles a .bnf text, already among the sources, into a module under construction: one GRAMMAR record, its
+ * NONTERMINAL and PRODUCTION records, and their code. What is wrong is in the diagnostics; nothing is added to the
+ * builder where there is an error. */
+#ifndef TARTAN_COMPILER_BNF_BNF_H
+#define TARTAN_COMPILER_BNF_BNF_H
+
+#include "compiler/common/arena.h"
+#include "compiler/common/compilation.h"
+#include "runtime/module/builder.h"
+
+/* TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
+                         tn_builder *builder, tn_error *error);
+
+/* Is it a .bnf file, by its name? */
+bool tn_is_bnf(const char *path);
+
+/* Makes the module of a compilation whose one source is a .bnf text. What is wrong is in its diagnostics. */
+tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilation *compilation, tn_error *error);
+
+#endif

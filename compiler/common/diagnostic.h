@@ -1,0 +1,116 @@
+/* Diagnostics: every error, warning and note that a compilation finds, collected, sorted and shown at once.
+ *
+ *   file:line:col: error[E0123]: message
+ *     12 | the source line
+ *        |     ^^^^^^ label
+ *     note: file:line:col: where the other definition is
+ *     help: a likely fix
+ *
+ * Codes are the rows of codes.def. The list owns its texts; it borrows the sources.
+ */
+#ifndef TARTAN_COMPILER_COMMON_DIAGNOSTIC_H
+#define TARTAN_COMPILER_COMMON_DIAGNOSTIC_H
+
+#include <stdio.h>
+
+#include "compiler/common/source.h"
+#include "runtime/base/nearest.h"
+
+typedef enum tn_severity { TN_NOTE, TN_WARNING, TN_ERROR } tn_severity;
+
+/* E_... and W_... : one for each row of codes.def; the value is the number (E0301 -> 301, W012 -> 10012). */
+typedef enum tn_code {
+    TN_CODE_NONE = 0, /* a note that stands alone, as "rule r falls back to the VM" */
+#define ERROR(NUMBER, NAME, SUMMARY) E_##NAME = NUMBER,
+#define WARNING(NUMBER, NAME, SUMMARY) W_##NAME = 10000 + NUMBER,
+#include "runtime/base/codes.def"
+#undef ERROR
+#undef WARNING
+} tn_code;
+
+typedef struct tn_diagnostic_note {
+    bool has_span;
+    tn_span span;
+    char *text;
+} tn_diagnostic_note;
+
+typedef struct tn_diagnostic {
+    tn_severity severity;
+    uint32_t code; /* a tn_code */
+    bool has_span;
+    tn_span span;
+    char *message;
+    tn_diagnostic_note *notes;
+    size_t note_count;
+    char *help;        /* or NULL */
+    char *replacement; /* a text that, put in the span's place, applies the help; or NULL */
+    /* a place in an input that is not a source (a plan file): path and line as text; line 0 where it has none */
+    char *input_path;
+    uint64_t input_line;
+    uint32_t input_column, input_column_end;
+    char *input_text; /* that line */
+    size_t order;     /* in which it was added */
+} tn_diagnostic;
+
+typedef struct tn_diagnostics {
+    tn_sources *sources; /* borrowed */
+    tn_diagnostic *items;
+    size_t count, capacity;
+    size_t error_count, warning_count;
+    size_t error_limit;    /* further errors (and further warnings) are counted but not kept; 0: 100 */
+    size_t dropped;        /* past the limit */
+    bool failed;           /* out of memory while collecting */
+    tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
+} tn_diagnostics;
+
+void tn_diagnostics_init(tn_diagnostics *list, tn_sources *sources);
+void tn_diagnostics_clear(tn_diagnostics *list);
+
+/* Adds one and returns it for notes and help to be added to, valid until the next is added. Severity comes from the
+ * code. Never NULL: past the limit (or out of memory) a scratch item is returned and forgotten. */
+tn_diagnostic *tn_report(tn_diagnostics *list, tn_code code, tn_span span, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* One without a place in a source. `severity` TN_NOTE with TN_CODE_NONE is a plain note. */
+tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* From an error of the runtime: message, help and code. Where it has a place, input_path names the input that it is in
+ * and input_text is the line (input_size bytes, without its line end); both may be NULL. */
+tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
+                               const char *input_text, size_t input_size);
+
+void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *span, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void tn_help(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* What to put in the span's place to follow the help: for editors. */
+void tn_replace_with(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Help and replacement in one: "did you mean `...`?" and "write `...`". */
+void tn_suggest(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void tn_advise(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Orders by file, place, code; drops exact repeats. Items without a place come last, in the order they were added. */
+void tn_diagnostics_sort(tn_diagnostics *list);
+
+/* "E0301" or "W012" (buffer of 8). */
+void tn_code_name(uint32_t code, char name[8]);
+
+typedef struct tn_show_options {
+    bool json; /* one JSON array of objects */
+    bool colour;
+} tn_show_options;
+
+/* Writes all of them (library code does not choose the stream). JSON objects:
+ * {"severity","code","message","file","line",
+ * "column","end_line","end_column","notes":[{"message","file","line","column"}],"help","replacement"}; what an item
+ * does not have is null. What is not text (control characters, broken UTF-8, direction overrides) is shown as U+FFFD.
+ */
+void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out);
+
+#endif

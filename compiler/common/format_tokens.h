@@ -1,0 +1,95 @@
+/* The tokens of a file as a formatter sees them, and what the notations share in laying them out. Internal to
+ * format*.c.
+ */
+#ifndef TARTAN_COMPILER_COMMON_FORMAT_TOKENS_H
+#define TARTAN_COMPILER_COMMON_FORMAT_TOKENS_H
+
+#include "compiler/common/layout.h"
+#include "compiler/common/limits.h"
+#include "compiler/common/source.h"
+#include "compiler/common/token.h"
+
+typedef struct tn_format_comment {
+    const char *text;
+    size_t size;
+    bool blank; /* an empty line is before it */
+} tn_format_comment;
+
+typedef struct tn_format_token {
+    tn_token_kind kind;
+    const char *text;
+    size_t size, width;
+    const tn_format_comment *comments; /* on lines of their own before it */
+    size_t comment_count;
+    tn_format_comment remark; /* after it on its line; text NULL where there is none */
+    bool blank;               /* an empty line is before it, and after its comments */
+    size_t breaks;            /* line ends that have to be before it; mostly 0 */
+    size_t line_ends;         /* those before it that mean something */
+    size_t match;             /* of a bracket: the other one */
+    size_t offset;            /* in the source */
+    size_t line;              /* where it was put */
+} tn_format_token;
+
+typedef struct tn_format tn_format;
+
+/* The blanks between token i and the one before it, on one line. */
+typedef size_t tn_format_gap_before(const tn_format *format, size_t i);
+
+struct tn_format {
+    tn_layout layout;
+    tn_format_gap_before *gap_before;
+    tn_format_token *tokens; /* followed by one of no text, which has the comments at the end */
+    size_t count;
+};
+
+/* How a word of the language is written, zero-ended, in the arena; NULL where out of memory. */
+typedef const char *tn_format_spell(tn_arena *arena, const char *text, size_t size);
+tn_format_spell tn_format_small_letters;
+
+/* Makes the formatter's tokens from the lexer's: comments go to the tokens before or after them. Out of memory is the
+ * arena's to remember. */
+void tn_format_take(tn_format *format, tn_arena *arena, const tn_source *source, const tn_tokens *tokens,
+                    tn_format_spell *spell);
+
+/* Finds the pairs of brackets. False where they are nested too deep, *place is the token. */
+#define TN_FORMAT_BRACKETS_MAX (4u * TN_NESTING_MAX) /* those that mean nothing count here too */
+bool tn_format_match_brackets(tn_format *format, size_t *place);
+
+#define TN_FORMAT_TOO_WIDE ((size_t)1 << 30)
+
+/* Is token i this word of the language or sign? */
+bool tn_format_is(const tn_format *format, size_t i, const char *text);
+/* Is it one of these? The list ends in NULL. */
+bool tn_format_is_any(const tn_format *format, size_t i, const char *const *texts);
+
+/* The columns that tokens [first, last) take on one line; TN_FORMAT_TOO_WIDE where they do not fit any, or have
+ * comments between them. A comment before the first counts, one after the last does not. */
+size_t tn_format_width(const tn_format *format, size_t first, size_t last);
+
+/* Puts one token at the cursor, `gap` blanks after what is there, with its comments. */
+void tn_format_put(tn_format *format, size_t i, size_t gap);
+/* Puts tokens [first, last) on this line. */
+void tn_format_flat(tn_format *format, size_t first, size_t last);
+
+/* How a stretch can be split. */
+typedef bool tn_format_split(const tn_format *format, size_t i);
+
+/* Lays out tokens [first, last) from the cursor on, on one line where `tail` more columns fit after it; otherwise at
+ * its weakest operators, then inside its brackets. */
+void tn_format_expression(tn_format *format, size_t first, size_t last, size_t tail);
+
+/* Lays out tokens [first, last) in as few lines as they take: parts begin where `splits` says (or, where `after`, end
+ * there), and new lines are indented so. */
+void tn_format_fill(tn_format *format, size_t first, size_t last, tn_format_split *splits, bool after, size_t indent,
+                    size_t tail);
+
+/* Puts the comments before token i on lines of their own, with the empty lines between; `blank`: at least one. */
+void tn_format_gap(tn_format *format, size_t i, size_t indent, bool blank);
+
+/* Lay out a file of each notation. */
+void tn_format_plan(tn_format *format);
+void tn_format_hemls(tn_format *format);
+void tn_format_study(tn_format *format);
+void tn_format_bnf(tn_format *format);
+
+#endif

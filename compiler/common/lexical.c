@@ -1,0 +1,161 @@
+#include "compiler/common/lexical.h"
+
+#include <string.h>
+
+#include "runtime/base/length.h"
+#include "runtime/base/utf8.h"
+
+void *tn_lexer_pool_take(tn_lexer_pool *pool, size_t size)
+{
+    size_t unit = _Alignof(max_align_t), rounded = (size + unit - 1) / unit * unit;
+    if (rounded > sizeof pool->bytes - pool->used)
+        return NULL;
+    void *memory = pool->bytes + pool->used;
+    pool->used += rounded;
+    return memory;
+}
+
+bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file)
+{
+    const tn_source *source = &diagnostics->sources->files[file];
+    for (size_t i = 0, step; i < source->size; i += step) {
+        uint32_t character = tn_utf8_read(source->text + i, source->size - i, &step);
+        if (character != 0 && (character != TN_REPLACEMENT || step > 1))
+            continue;
+        unsigned byte = (unsigned char)source->text[i];
+        tn_span span = {file, (uint32_t)i, (uint32_t)(i + 1)};
+        tn_diagnostic *d =
+            tn_report(diagnostics, E_INVALID_UTF8, span, "this is not text: byte %zu of the file is %s0x%02x", i + 1,
+                      byte == 0 ? "the zero byte " : "", byte);
+        tn_help(diagnostics, d, "save the file as UTF-8 text; if it is not a rule file, it cannot be used here");
+        return false;
+    }
+    return true;
+}
+
+size_t tn_text_mark(const char *text, size_t size)
+{
+    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+bool tn_integer_read(const char *digits, size_t size, int64_t *value)
+{
+    int64_t sum = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (__builtin_mul_overflow(sum, 10, &sum) || __builtin_add_overflow(sum, digits[i] - '0', &sum)) {
+            *value = INT64_MAX;
+            return false;
+        }
+    }
+    *value = sum;
+    return true;
+}
+
+size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
+                     bool *broken)
+{
+    tn_error error = {0};
+    *nanometres = 0;
+    *broken = false;
+    size_t used = tn_length_read(text, size, true, nanometres, &error);
+    if (used > 0)
+        return used;
+    *broken = true;
+    if (error.status == TN_OK)
+        return 0;
+    tn_diagnostic *d = tn_report(diagnostics, (tn_code)error.code, span, "%s", error.message);
+    if (error.help[0])
+        tn_help(diagnostics, d, "%s", error.help);
+    return 0;
+}
+
+char *tn_string_lex(tn_arena *arena, const char *text, size_t size)
+{
+    char *copy = tn_arena_copy(arena, text, size);
+    if (!copy)
+        return NULL;
+    size_t length = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (text[i] == '\\' && i + 1 < size && (text[i + 1] == '"' || text[i + 1] == '\\'))
+            i++;
+        copy[length++] = text[i];
+    }
+    copy[length] = '\0';
+    return copy;
+}
+
+void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
+{
+    static const struct {
+        const char *found, *help;
+    } table[] = {
+        {"\xe2\x80\x98", "feet are written with a straight mark: `12'`"},
+        {"&", "write `and`"},
+        {";", "nothing has to be written at the end of a line"},
+        {"//", "a comment starts with `#`"},
+        {"/*", "a comment starts with `#`"},
+        {"%", "a remainder is written `n mod 3 = 1`; a comment starts with `#`"},
+        {".", "a range is written with two dots: `4..9`"},
+        {"'", "feet are written directly after a number: `12'`; texts stand in double quotes"},
+        {":", "write a zone's fill and depth with a blank between them: `dense 4'`"},
+    };
+    const char *text = diagnostics->sources->files[span.file].text + span.begin;
+    size_t size = span.end - span.begin;
+    bool visible = (unsigned char)text[0] > ' ' && text[0] != 0x7f;
+    tn_diagnostic *d =
+        visible ? tn_report(diagnostics, E_STRAY_CHARACTER, span, "`%.*s` means nothing here", (int)size, text)
+                : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
+                            (unsigned char)text[0]);
+    const char *help = "leave it out";
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (strlen(table[i].found) == size && memcmp(text, table[i].found, size) == 0)
+            help = table[i].help;
+    tn_help(diagnostics, d, "%s", help);
+}
+
+size_t tn_character_size(const char *text, size_t size)
+{
+    size_t count = 1;
+    if (size > 0)
+        tn_utf8_read(text, size, &count);
+    return count;
+}
+
+#define DIGITS_MAX 17 /* that make a difference to a double */
+#define EXPONENT_MAX 10000
+
+/* The whole number that decides a double's bits, and the power of ten that it is to be multiplied with; returns where
+ * the exponent begins. */
+static size_t read_mantissa(const char *text, size_t size, uint64_t *mantissa, int64_t *power)
+{
+    size_t i = size && (text[0] == '-' || text[0] == '+'), digits = 0;
+    bool fraction = false;
+    for (; i < size && text[i] != 'e' && text[i] != 'E'; i++) {
+        if (text[i] == '.') {
+            fraction = true;
+        } else if (digits < DIGITS_MAX) {
+            *mantissa = *mantissa * 10 + (uint64_t)(text[i] - '0');
+            digits += *mantissa > 0;
+            *power -= fraction;
+        } else {
+            *power += !fraction;
+        }
+    }
+    return i;
+}
+
+double tn_decimal_value(const char *text, size_t size)
+{
+    uint64_t mantissa = 0;
+    int64_t power = 0, exponent = 0;
+    size_t i = read_mantissa(text, size, &mantissa, &power);
+    bool negative = i + 1 < size && text[i + 1] == '-', has_sign = negative || (i + 1 < size && text[i + 1] == '+');
+    for (i += has_sign ? 2 : 1; i < size && exponent < EXPONENT_MAX; i++)
+        exponent = exponent * 10 + (text[i] - '0');
+    power += negative ? -exponent : exponent;
+    double value = (double)mantissa, scale = 1;
+    for (int64_t n = power < 0 ? -power : power; n > 0 && scale < 1e290; n--)
+        scale *= 10;
+    value = power < 0 ? value / scale : value * scale;
+    return size && text[0] == '-' ? -value : value;
+}

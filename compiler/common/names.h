@@ -1,0 +1,23 @@
+/* A table from texts to pointers. It lives in an arena and borrows the texts. */
+#ifndef TARTAN_COMPILER_COMMON_NAMES_H
+#define TARTAN_COMPILER_COMMON_NAMES_H
+
+#include "compiler/common/arena.h"
+
+typedef struct tn_name_entry {
+    const char *text; /* NULL: free */
+    void *value;
+} tn_name_entry;
+
+typedef struct tn_names {
+    tn_arena *arena;
+    tn_name_entry *entries;
+    size_t capacity, count; /* capacity: a power of two, or 0 */
+} tn_names;
+
+void *tn_names_get(const tn_names *names, const char *text); /* NULL where it is not there */
+
+/* Adds or replaces. Does nothing where out of memory, which the arena remembers. */
+void tn_names_put(tn_names *names, const char *text, void *value);
+
+#endif

@@ -1,0 +1,140 @@
+#include "compiler/common/source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const byte_order_mark = "\xEF\xBB\xBF";
+
+static tn_status grow(tn_sources *sources, tn_error *error)
+{
+    if (sources->count < sources->capacity)
+        return TN_OK;
+    size_t capacity = sources->capacity ? sources->capacity * 2 : 8;
+    tn_source *files = realloc(sources->files, capacity * sizeof *files);
+    if (!files)
+        return tn_fail_memory(error);
+    sources->files = files;
+    sources->capacity = capacity;
+    return TN_OK;
+}
+
+tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file,
+                         tn_error *error)
+{
+    if (size > TN_SOURCE_BYTES_MAX)
+        return tn_fail(error, TN_LIMIT, 804, "%s is %zu bytes long; the limit for a source file is %u", path, size,
+                       TN_SOURCE_BYTES_MAX);
+    if (size > TN_SOURCES_BYTES_MAX - sources->bytes)
+        return tn_fail(error, TN_LIMIT, 804, "with %s the source files together pass the limit of %u bytes", path,
+                       TN_SOURCES_BYTES_MAX);
+    tn_status status = grow(sources, error);
+    if (status != TN_OK)
+        return status;
+    tn_source source = {.path = strdup(path), .text = calloc(size + 2, 1), .size = size};
+    if (!source.path || !source.text) {
+        free(source.path);
+        free(source.text);
+        return tn_fail_memory(error);
+    }
+    if (size > 0)
+        memcpy(source.text, text, size);
+    sources->bytes += size;
+    *file = (uint32_t)sources->count;
+    sources->files[sources->count++] = source;
+    return TN_OK;
+}
+
+void tn_sources_clear(tn_sources *sources)
+{
+    for (size_t i = 0; i < sources->count; i++) {
+        free(sources->files[i].path);
+        free(sources->files[i].text);
+        free(sources->files[i].line_starts);
+    }
+    free(sources->files);
+    *sources = (tn_sources){0};
+}
+
+/* A byte order mark is no part of the first line: editors do not count it either. */
+static size_t first_line(const tn_source *source)
+{
+    return source->size >= 3 && memcmp(source->text, byte_order_mark, 3) == 0 ? 3 : 0;
+}
+
+/* Finds where the lines start. Out of memory leaves the table empty, and find_line then walks the text. */
+static void index_lines(tn_source *source)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < source->size; i++)
+        count += source->text[i] == '\n';
+    uint32_t *starts = malloc(count * sizeof *starts);
+    if (!starts)
+        return;
+    starts[0] = (uint32_t)first_line(source);
+    size_t line = 1;
+    for (size_t i = 0; i < source->size; i++)
+        if (source->text[i] == '\n')
+            starts[line++] = (uint32_t)(i + 1);
+    source->line_starts = starts;
+    source->line_count = count;
+}
+
+/* The line (from 0) that holds an offset, and where it starts. */
+static size_t find_line(const tn_source *source, size_t offset, size_t *start)
+{
+    if (!source->line_starts) {
+        size_t line = 0;
+        *start = first_line(source);
+        for (size_t i = 0; i < offset; i++) {
+            if (source->text[i] == '\n') {
+                line++;
+                *start = i + 1;
+            }
+        }
+        return line;
+    }
+    size_t low = 0, high = source->line_count; /* starts[low] <= offset < starts[high] */
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (source->line_starts[middle] <= offset)
+            low = middle;
+        else
+            high = middle;
+    }
+    *start = source->line_starts[low];
+    return low;
+}
+
+/* Bytes of the line that starts there, without its line end ("\n" or "\r\n"). */
+static size_t line_size(const tn_source *source, size_t start)
+{
+    const char *text = source->text + start;
+    const char *end = memchr(text, '\n', source->size - start);
+    size_t size = end ? (size_t)(end - text) : source->size - start;
+    return size > 0 && text[size - 1] == '\r' ? size - 1 : size;
+}
+
+tn_place tn_sources_place(tn_sources *sources, tn_span span)
+{
+    if (span.file >= sources->count)
+        return (tn_place){.path = "", .line_text = ""};
+    tn_source *source = &sources->files[span.file];
+    if (!source->line_starts)
+        index_lines(source);
+    size_t begin = span.begin < source->size ? span.begin : source->size;
+    size_t end = span.end < source->size ? span.end : source->size;
+    if (end < begin)
+        end = begin;
+    size_t start, end_start;
+    size_t line = find_line(source, begin, &start);
+    size_t end_line = find_line(source, end, &end_start);
+    return (tn_place){
+        .path = source->path,
+        .line = line + 1,
+        .column = (begin > start ? begin - start : 0) + 1,
+        .end_line = end_line + 1,
+        .end_column = (end > end_start ? end - end_start : 0) + 1,
+        .line_text = source->text + start,
+        .line_size = line_size(source, start),
+    };
+}

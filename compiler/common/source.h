@@ -1,0 +1,63 @@
+/* Source texts and places in them.
+ *
+ * A tn_sources holds every file of a compilation. A span is a byte range in one of them; line and column are found
+ * only when a diagnostic is shown. The set owns the texts; spans are plain values.
+ */
+#ifndef TARTAN_COMPILER_COMMON_SOURCE_H
+#define TARTAN_COMPILER_COMMON_SOURCE_H
+
+#include "runtime/base/error.h"
+
+typedef struct tn_span {
+    uint32_t file;  /* index into the sources */
+    uint32_t begin; /* byte offsets */
+    uint32_t end;
+} tn_span;
+
+typedef struct tn_source {
+    char *path; /* as the user wrote it, or as it was found: shown in diagnostics */
+    char *text; /* followed by two zero bytes (flex scans in place) */
+    size_t size;
+    uint32_t *line_starts; /* byte offset of each line; found when first needed */
+    size_t line_count;
+} tn_source;
+
+/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the
+ * disk counts. */
+typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
+
+typedef struct tn_sources {
+    tn_source *files;
+    size_t count, capacity;
+    size_t bytes;        /* of all texts */
+    tn_overlay *overlay; /* or NULL */
+    void *overlay_context;
+} tn_sources;
+
+#define TN_SOURCE_BYTES_MAX (16u << 20)  /* of one text */
+#define TN_SOURCES_BYTES_MAX (64u << 20) /* of all together: with it, a compilation's memory is bounded */
+
+/* Adds a copy of a text; its index in *file. TN_LIMIT (E0804) past TN_SOURCE_BYTES_MAX or
+ * TN_SOURCES_BYTES_MAX. */
+tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file,
+                         tn_error *error);
+void tn_sources_clear(tn_sources *sources);
+
+typedef struct tn_place {
+    const char *path;
+    size_t line, column;         /* of the span's begin, from 1; columns count bytes */
+    size_t end_line, end_column; /* of its end */
+    const char *line_text;       /* the line of `begin`, without its line end, not zero-ended */
+    size_t line_size;
+} tn_place;
+
+/* Where a span is. Spans past the end of the text are cut there; a byte order mark is not counted; the place in a file
+ * that is not there is line 0. */
+tn_place tn_sources_place(tn_sources *sources, tn_span span);
+
+static inline tn_span tn_span_join(tn_span first, tn_span last)
+{
+    return (tn_span){first.file, first.begin, last.end > first.end ? last.end : first.end};
+}
+
+#endif

@@ -1,0 +1,228 @@
+/* The HEMLS notation: syntax tree, checking, and what is emitted (docs/growth.md).
+ *
+ * A line is a sequence of symbols, perhaps with successors: the grammar is permissive, and what a line must be to mean
+ * something is checked, so that mistakes are explained in terms of edges and turtles. Everything lives in the
+ * compilation's arena.
+ */
+#ifndef TARTAN_COMPILER_HEMLS_HEMLS_H
+#define TARTAN_COMPILER_HEMLS_HEMLS_H
+
+#include "compiler/common/arena.h"
+#include "compiler/common/diagnostic.h"
+#include "compiler/common/lexical.h"
+#include "compiler/common/token.h"
+#include "runtime/growth/model/records.h"
+#include "runtime/module/builder.h"
+
+/* ---- syntax */
+
+typedef enum tn_hemls_kind {
+    TN_HEMLS_EDGE,
+    TN_HEMLS_TURN, /* + - & ^ \ / : `sign` says which */
+    TN_HEMLS_TILDE,
+    TN_HEMLS_OPEN,
+    TN_HEMLS_CLOSE,
+    TN_HEMLS_LESS,
+    TN_HEMLS_GREATER,
+} tn_hemls_kind;
+
+typedef struct tn_hemls_symbol {
+    tn_hemls_kind kind;
+    tn_span span;
+    char sign;         /* of a turn */
+    const char *name;  /* of an edge, without its age: "Edge0" or "A" */
+    bool letter;       /* of an edge: "A" rather than "Edge0" */
+    bool broken;       /* of an edge: it was complained of already */
+    uint32_t number;   /* of an EdgeN; letters are numbered by checking */
+    tn_age_change age; /* of an edge */
+    struct tn_hemls_symbol *next;
+} tn_hemls_symbol;
+
+typedef struct tn_hemls_symbols {
+    tn_hemls_symbol *first, *last;
+} tn_hemls_symbols;
+
+/* What follows a successor. */
+typedef struct tn_hemls_choice {
+    bool weighted;
+    tn_comparison comparison; /* TN_ALWAYS: no condition */
+    double value;             /* the weight or the bound */
+    tn_span span;
+} tn_hemls_choice;
+
+typedef struct tn_hemls_alternative {
+    tn_hemls_symbols symbols;
+    tn_hemls_choice choice;
+    tn_span span;
+    struct tn_hemls_alternative *next;
+} tn_hemls_alternative;
+
+typedef struct tn_hemls_alternatives {
+    tn_hemls_alternative *first, *last;
+} tn_hemls_alternatives;
+
+typedef enum tn_hemls_line_kind {
+    TN_HEMLS_AXIOM,
+    TN_HEMLS_RULE,
+    TN_HEMLS_ANGLE,
+    TN_HEMLS_BRANCH_ANGLE,
+    TN_HEMLS_SYNC
+} tn_hemls_line_kind;
+
+typedef struct tn_hemls_line {
+    tn_hemls_line_kind kind;
+    tn_span span;
+    tn_hemls_symbols symbols;           /* a seed, or a rule's predecessor */
+    tn_hemls_alternatives alternatives; /* of a rule */
+    double number;                      /* of an angle */
+    struct tn_hemls_line *next;
+} tn_hemls_line;
+
+typedef struct tn_hemls_file {
+    tn_hemls_line *first, *last;
+    bool damaged; /* lines are missing because of errors already reported */
+} tn_hemls_file;
+
+/* A number as the lexers of growth read it. */
+typedef struct tn_decimal {
+    double value;
+    tn_span span;
+} tn_decimal;
+
+/* One run of a parser of growth notations over one source. */
+typedef struct tn_growth_parse {
+    tn_arena *arena;
+    tn_diagnostics *diagnostics;
+    const char *text;
+    size_t size;
+    uint32_t file;
+    uint32_t offset;      /* of the next byte */
+    uint32_t token_start; /* of a token that is read in pieces */
+    uint32_t stray_end;   /* where the last stray character ended: a run of them is reported once */
+    int last_token, token_before;
+    const char *meant; /* what an unknown word was probably meant to be, or NULL */
+    bool evolves;      /* the last unknown word is a setting of an evolution */
+    bool reported;     /* the line at hand was complained of already */
+    void *result;      /* tn_hemls_file or tn_study_file */
+    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
+    tn_lexer_pool pool;
+} tn_growth_parse;
+
+/* The lexers, for their parsers: NULL where out of memory. */
+void *tn_hemls_lexer_new(tn_growth_parse *parse);
+void tn_hemls_lexer_free(void *scanner);
+void *tn_study_lexer_new(tn_growth_parse *parse);
+void tn_study_lexer_free(void *scanner);
+
+/* Parses the source as a .hemls file. NULL where out of memory; errors are in the diagnostics. Its tokens go to
+ * `tokens` where that is not NULL. */
+tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
+
+/* Constructors; NULL where out of memory. */
+tn_hemls_symbol *tn_hemls_symbol_new(tn_growth_parse *parse, tn_hemls_kind kind, tn_span span);
+tn_hemls_symbols tn_hemls_symbols_add(tn_hemls_symbols list, tn_hemls_symbol *symbol);
+tn_hemls_alternative *tn_hemls_alternative_new(tn_growth_parse *parse, tn_span span, tn_hemls_symbols symbols,
+                                               tn_hemls_choice choice);
+tn_hemls_alternatives tn_hemls_alternatives_add(tn_hemls_alternatives list, tn_hemls_alternative *one);
+tn_hemls_line *tn_hemls_line_new(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span span);
+void tn_hemls_add_line(tn_growth_parse *parse, tn_hemls_line *line);
+void tn_hemls_lost_line(tn_growth_parse *parse);
+
+/* ---- what the lexers of growth share */
+
+/* Is the source text at all (E0004)? */
+bool tn_growth_readable(tn_growth_parse *parse);
+
+/* Moves on to a token of `size` bytes; its place in *span. */
+void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size);
+
+/* A decimal number; an error (E0005) where it is too large. */
+tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span);
+
+/* Reports a character that no token starts with. */
+void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);
+
+/* Reports E0001: what was found, what could have stood there. */
+void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
+                            size_t count, const char *help);
+
+/* ---- meaning */
+
+typedef struct tn_checked_segment {
+    uint32_t label; /* index into the sorted labels, once all are known */
+    uint32_t number;
+    tn_age_change age;
+    bool reversed;
+    double end[3];
+} tn_checked_segment;
+
+typedef struct tn_checked_branch {
+    uint32_t at, number;
+    tn_age_change age;
+    tn_side side;
+    bool reversed;
+    double turn, direction[3];
+} tn_checked_branch;
+
+typedef struct tn_checked_template {
+    tn_checked_segment *segments;
+    tn_checked_branch *branches;
+    uint32_t segment_count, branch_count;
+    tn_span span;
+} tn_checked_template;
+
+typedef struct tn_checked_alternative {
+    tn_checked_template *template;
+    tn_hemls_choice choice;
+    struct tn_checked_alternative *next;
+} tn_checked_alternative;
+
+typedef struct tn_checked_rewrite {
+    uint32_t left, right; /* numbers of the context, or TN_NO_LABEL */
+    uint32_t *numbers;    /* the predecessor's edges */
+    uint32_t number_count;
+    tn_checked_alternative *alternatives;
+    uint32_t alternative_count;
+    tn_span span;
+    struct tn_checked_rewrite *next;
+    struct tn_checked_rewrite *next_in_group; /* most specific first */
+} tn_checked_rewrite;
+
+typedef struct tn_checked_group {
+    tn_checked_rewrite *rules;
+    uint32_t rule_count;
+    struct tn_checked_group *next;
+} tn_checked_group;
+
+typedef struct tn_checked_label {
+    uint32_t number;
+    const char *name;
+    bool made; /* some seed or successor draws it */
+    struct tn_checked_label *next;
+} tn_checked_label;
+
+typedef struct tn_checked_growth {
+    const char *name;
+    tn_checked_label *labels; /* ascending numbers */
+    uint32_t label_count;
+    uint32_t *axiom;
+    bool *axiom_reversed;
+    uint32_t axiom_count;
+    tn_checked_group *groups;
+    double angle, branch_angle;
+    bool sync;
+    tn_span span;
+} tn_checked_growth;
+
+/* Draws a successor once, with the turtle. Errors are reported; false then, or where out of memory. */
+bool tn_hemls_draw(tn_arena *arena, tn_diagnostics *diagnostics, const tn_hemls_symbols *symbols, tn_span span,
+                   double angle, tn_checked_template *template);
+
+/* Checks a file; NULL where there were errors (which are in the diagnostics) or no memory. */
+tn_checked_growth *tn_check_hemls(tn_arena *arena, tn_diagnostics *diagnostics, const tn_hemls_file *file,
+                                  uint32_t source);
+
+/* Writes the system's records. */
+void tn_emit_growth(tn_builder *builder, const tn_checked_growth *growth);
+
+#endif

@@ -1,0 +1,311 @@
+/* The syntax tree of a .plan file, and its constructors, one for each action of grammar/plan.y.
+ *
+ * Every node starts with a tn_ast_node: its span and its neighbour in the list that it is in. Nodes live in the parse's
+ * arena. A constructor returns NULL where out of memory, and takes NULL for parts that could not be made:
+ * tn_arena_failed tells in the end. Fields marked "checked" are filled by check_*.c.
+ */
+#ifndef TARTAN_COMPILER_PLAN_AST_H
+#define TARTAN_COMPILER_PLAN_AST_H
+
+#include "compiler/plan/parse.h"
+#include "compiler/plan/program.h"
+
+typedef struct tn_ast_node {
+    struct tn_ast_node *next;
+    tn_span span;
+} tn_ast_node;
+
+typedef struct tn_ast_list {
+    tn_ast_node *first, *last;
+    size_t count;
+} tn_ast_list;
+
+typedef enum tn_operator { TN_LESS, TN_AT_MOST, TN_EQUAL, TN_UNEQUAL, TN_AT_LEAST, TN_GREATER } tn_operator;
+
+typedef enum tn_word_kind {
+    TN_WORD_NAME,
+    TN_WORD_NUMBER,
+    TN_WORD_LENGTH,
+    TN_WORD_STRING,
+    TN_WORD_NOT,
+    TN_WORD_OPERATOR
+} tn_word_kind;
+
+/* A name, a number, a length, a string; in specifiers also `not` and comparison signs. */
+typedef struct tn_ast_word {
+    tn_ast_node node;
+    tn_word_kind kind;
+    tn_operator op;
+    bool broken;      /* already reported as wrong: say nothing more about it */
+    const char *text; /* a name, or what a string says; otherwise as written */
+    int64_t value;    /* of a number or (nanometres) length */
+} tn_ast_word;
+
+/* ---- conditions: the E of `quantity`, `sum` and `occurrences` */
+
+typedef enum tn_cond_kind {
+    TN_COND_COMPARE,
+    TN_COND_WITHIN,
+    TN_COND_REMAINDER,
+    TN_COND_AND,
+    TN_COND_OR,
+    TN_COND_NOT
+} tn_cond_kind;
+
+typedef struct tn_ast_range {
+    const tn_ast_word *low, *high; /* the same word where only one was written */
+    tn_span span;
+} tn_ast_range;
+
+typedef struct tn_ast_cond {
+    tn_ast_node node;
+    tn_cond_kind kind;
+    tn_operator op;                  /* compare, remainder */
+    const tn_ast_word *left, *right; /* compare: both sides; remainder: variable and remainder; within: variable */
+    const tn_ast_word *modulus;
+    tn_ast_range range;
+    tn_ast_list parts; /* and, or, not: tn_ast_cond */
+    uint32_t depth;
+} tn_ast_cond;
+
+/* ---- tray specifiers */
+
+typedef struct tn_ast_alternative {
+    tn_ast_node node;
+    tn_ast_list words;
+} tn_ast_alternative;
+
+typedef struct tn_ast_item {
+    tn_ast_node node;
+    tn_ast_list alternatives;
+} tn_ast_item;
+
+/* ---- rule expressions */
+
+typedef enum tn_expr_kind {
+    TN_EXPR_TRAY,
+    TN_EXPR_ANY,
+    TN_EXPR_NAME,
+    TN_EXPR_AND,
+    TN_EXPR_OR,
+    TN_EXPR_NOT,
+    TN_EXPR_NEIGHBOUR,
+    TN_EXPR_SYMMETRIC,
+    TN_EXPR_QUANTITY,
+    TN_EXPR_SUM,
+    TN_EXPR_OCCURRENCES,
+    TN_EXPR_MANY,
+    TN_EXPR_OPTIONAL,
+    TN_EXPR_DISTANCE,
+    TN_EXPR_BEGINNING,
+    TN_EXPR_END,
+    TN_EXPR_BROKEN, /* already reported */
+} tn_expr_kind;
+
+struct tn_checked_rule;
+struct tn_checked_spec;
+struct tn_checked_condition;
+
+typedef struct tn_ast_expr {
+    tn_ast_node node;
+    tn_expr_kind kind;
+    uint32_t depth;
+    const tn_ast_word *name;   /* of a rule; of the field of a sum */
+    const tn_ast_word *detail; /* the word after a sum's field: `depth` */
+    tn_ast_list items;         /* tray: tn_ast_item */
+    tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator */
+    tn_ast_cond *condition;
+    struct tn_checked_rule *rule;                   /* checked: what a name means */
+    struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
+    struct tn_checked_condition *condition_checked; /* checked */
+    uint32_t field;                                 /* checked: of a sum */
+    uint32_t function;                              /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+} tn_ast_expr;
+
+/* ---- items of a file */
+
+typedef enum tn_item_kind { TN_ITEM_USE, TN_ITEM_SCHEMA, TN_ITEM_RULE, TN_ITEM_LIBRARY, TN_ITEM_TEST } tn_item_kind;
+
+typedef struct tn_ast_top {
+    tn_ast_node node;
+    tn_item_kind kind;
+} tn_ast_top;
+
+typedef struct tn_ast_use {
+    tn_ast_top top;
+    const tn_ast_word *path;
+} tn_ast_use;
+
+typedef struct tn_ast_value {
+    tn_ast_node node;
+    const tn_ast_word *word;
+    bool has_depths;
+    tn_ast_list depths; /* tn_ast_word */
+    const tn_ast_word *doc, *role;
+} tn_ast_value;
+
+typedef enum tn_field_form { TN_FORM_VALUES, TN_FORM_FLAG, TN_FORM_ZONE } tn_field_form;
+
+typedef struct tn_ast_field {
+    tn_ast_node node;
+    tn_field_form form;
+    const tn_ast_word *name, *doc, *role;
+    tn_ast_list values; /* tn_ast_value */
+} tn_ast_field;
+
+typedef struct tn_ast_forbid {
+    tn_ast_node node;
+    tn_ast_expr *tray;
+} tn_ast_forbid;
+
+/* A schema's body under construction. */
+typedef struct tn_ast_body {
+    tn_ast_list fields, forbids;
+    bool broken;
+} tn_ast_body;
+
+typedef struct tn_ast_schema {
+    tn_ast_top top;
+    const tn_ast_word *name, *doc;
+    tn_ast_body body;
+} tn_ast_schema;
+
+typedef struct tn_ast_rule {
+    tn_ast_top top;
+    const tn_ast_word *name, *doc, *using;
+    tn_ast_list allow; /* tn_ast_word */
+    tn_ast_expr *body;
+} tn_ast_rule;
+
+typedef enum tn_clause_form {
+    TN_FORM_TRAYS,
+    TN_FORM_TOTAL_RANGE,
+    TN_FORM_TOTAL_COMPARE,
+    TN_FORM_REQUIRE,
+    TN_FORM_PRUNE,
+    TN_FORM_ALLOW
+} tn_clause_form;
+
+typedef struct tn_ast_clause {
+    tn_ast_node node;
+    tn_clause_form form;
+    tn_ast_range range;                /* trays, total */
+    tn_operator op;                    /* total */
+    const tn_ast_word *word;           /* total: what it is compared with */
+    const tn_ast_word *field, *detail; /* total: the word after the field: `depth` */
+    tn_ast_expr *expr;
+    const tn_ast_word *name, *doc;
+    tn_ast_list allow; /* tn_ast_word */
+} tn_ast_clause;
+
+typedef struct tn_ast_library {
+    tn_ast_top top;
+    const tn_ast_word *name, *doc, *using, *from;
+    tn_ast_list clauses; /* tn_ast_clause */
+} tn_ast_library;
+
+typedef struct tn_ast_tray {
+    tn_ast_node node;
+    tn_ast_list words;
+} tn_ast_tray;
+
+typedef struct tn_ast_case {
+    tn_ast_node node;
+    tn_ast_list expectations; /* tn_ast_word, a value of tn_expectation each: one for each subject */
+    bool todo;                /* expected to fail */
+    tn_ast_list trays;        /* tn_ast_tray */
+    const tn_ast_word *doc;
+    tn_ast_list by; /* tn_ast_word */
+} tn_ast_case;
+
+typedef struct tn_ast_test {
+    tn_ast_top top;
+    tn_ast_list subjects; /* tn_ast_word */
+    tn_ast_list cases;
+} tn_ast_test;
+
+typedef struct tn_ast_file {
+    tn_ast_list items; /* tn_ast_top */
+    bool broken;       /* an item is missing: its name could not be read */
+    bool skipped;      /* a clause is missing */
+} tn_ast_file;
+
+/* Iterates over a list whose nodes are `TYPE`s. */
+#define TN_EACH(TYPE, node, list)                                                                                      \
+    TYPE *node = (TYPE *)(list).first;                                                                                 \
+    node;                                                                                                              \
+    node = (TYPE *)((const tn_ast_node *)node)->next
+
+tn_ast_list tn_ast_empty(void);
+tn_ast_list tn_ast_append(tn_ast_list list, void *node); /* NULL adds nothing */
+tn_ast_list tn_ast_one(void *node);
+tn_ast_list tn_ast_join(tn_ast_list first, tn_ast_list second);
+tn_ast_list tn_ast_lost(tn_ast_list items, tn_parse *parse);      /* an item could not be read: notes it */
+tn_ast_list tn_ast_skipped(tn_ast_list clauses, tn_parse *parse); /* a clause could not be read: notes it */
+tn_ast_file *tn_ast_unread(tn_ast_file *file);                    /* the whole file could not be read: notes it */
+void tn_ast_too_deep(tn_parse *parse, tn_span span);              /* E0830, once */
+
+tn_ast_word *tn_ast_word_new(tn_parse *parse, tn_word_kind kind, tn_span span, const char *text, int64_t value);
+tn_ast_word *tn_ast_not_word(tn_parse *parse, tn_span span);
+tn_ast_word *tn_ast_operator(tn_parse *parse, tn_span span, tn_operator op);
+tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *number);
+
+tn_ast_range tn_ast_range_new(tn_span span, const tn_ast_word *low, const tn_ast_word *high);
+tn_ast_range tn_ast_range_dash(tn_parse *parse, tn_span span, const tn_ast_word *low,
+                               const tn_ast_word *high); /* E0412 */
+
+tn_ast_cond *tn_ast_compare(tn_parse *parse, tn_span span, const tn_ast_word *left, tn_operator op,
+                            const tn_ast_word *right);
+/* `2 <= n <= 4`: E0409, and the first comparison alone. */
+tn_ast_cond *tn_ast_chained(tn_parse *parse, tn_span span, tn_ast_cond *first, tn_operator op,
+                            const tn_ast_word *right);
+tn_ast_cond *tn_ast_within(tn_parse *parse, tn_span span, const tn_ast_word *variable, tn_ast_range range);
+tn_ast_cond *tn_ast_remainder(tn_parse *parse, tn_span span, const tn_ast_word *variable, const tn_ast_word *modulus,
+                              tn_operator op, const tn_ast_word *remainder);
+tn_ast_cond *tn_ast_cond_join(tn_parse *parse, tn_cond_kind kind, tn_ast_cond *first, tn_ast_cond *second);
+tn_ast_cond *tn_ast_cond_add(tn_parse *parse, tn_ast_cond *joined, tn_ast_cond *part);
+tn_ast_cond *tn_ast_cond_not(tn_parse *parse, tn_span span, tn_ast_cond *part);
+
+tn_ast_alternative *tn_ast_alternative_new(tn_parse *parse, tn_span span, tn_ast_list words);
+tn_ast_item *tn_ast_item_new(tn_parse *parse, tn_span span, tn_ast_list alternatives);
+
+tn_ast_expr *tn_ast_leaf(tn_parse *parse, tn_expr_kind kind, tn_span span);
+tn_ast_expr *tn_ast_tray_new(tn_parse *parse, tn_span span, tn_ast_list items);
+tn_ast_expr *tn_ast_name(tn_parse *parse, const tn_ast_word *name);
+tn_ast_expr *tn_ast_expr_join(tn_parse *parse, tn_expr_kind kind, tn_ast_expr *first, tn_ast_expr *second);
+tn_ast_expr *tn_ast_expr_add(tn_parse *parse, tn_ast_expr *joined, tn_ast_expr *part);
+tn_ast_expr *tn_ast_of(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list parts);
+tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part,
+                            tn_ast_cond *condition);
+tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_expr *part, tn_ast_cond *condition);
+tn_ast_expr *tn_ast_distance(tn_parse *parse, tn_span span, tn_ast_expr *from, tn_ast_expr *to, tn_ast_expr *by);
+
+void *tn_ast_use_new(tn_parse *parse, tn_span span, const tn_ast_word *path);
+void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_list *depths,
+                       const tn_ast_word *doc, const tn_ast_word *role);
+void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values);
+void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                        tn_ast_body body);
+tn_ast_body tn_ast_body_field(tn_ast_body body, void *field);
+void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items);
+tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid);
+tn_ast_body tn_ast_body_broken(tn_ast_body body);
+void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *body);
+void *tn_ast_library_new(tn_parse *parse, tn_span span, tn_ast_library head, tn_ast_list clauses);
+tn_ast_clause *tn_ast_trays(tn_parse *parse, tn_span span, tn_ast_range range);
+tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_range range,
+                                  const tn_ast_word *doc);
+tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list field, tn_operator op,
+                                    const tn_ast_word *word, const tn_ast_word *doc);
+tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *doc);
+tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
+                            const tn_ast_word *doc);
+tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes);
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases);
+tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation);
+void *tn_ast_case_todo(void *test_case);
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
+                      const tn_ast_word *doc, tn_ast_list by);
+void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words);
+
+#endif

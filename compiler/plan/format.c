@@ -1,0 +1,314 @@
+/* Laying out .plan files: items, schemas, libraries and tests. What is aligned is aligned within a run: entries on
+ * neighbouring lines, with no empty line or comment between them. */
+#include <string.h>
+
+#include "compiler/common/format_tokens.h"
+
+enum {
+    BODY = 2,         /* indents */
+    CONTINUED = 4,    /* what goes on in the next line */
+    NAME_COLUMN = 24, /* names of fields are not lined up farther to the right than this */
+    DOC_GAP = 2,      /* blanks between a test case and its text */
+};
+
+/* Does a bracket stand directly at the word before it? */
+static bool takes_bracket(const tn_format *format, size_t i)
+{
+    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences",
+                                        "sum",  "distance",  "many",     "optional", NULL};
+    return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
+}
+
+/* The blanks between token i and the one before it. */
+static size_t gap_before(const tn_format *format, size_t i)
+{
+    static const char *const tight_before[] = {")", "]", ",", "..", NULL};
+    static const char *const tight_after[] = {"(", "[", "..", "-", NULL};
+    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after))
+        return 0;
+    return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
+}
+
+typedef void put_run(tn_format *format, const size_t *starts, size_t count);
+
+static bool starts_item(const tn_format *format, size_t i)
+{
+    static const char *const words[] = {"use", "schema", "rule", "library", "test"};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is(format, i, words[k]))
+            return true;
+    return false;
+}
+
+static bool starts_field(const tn_format *format, size_t i)
+{
+    const tn_format_token *tokens = format->tokens;
+    bool zone = i > 0 && tn_format_is(format, i - 1, "zone");
+    return (tokens[i].kind == TN_TOKEN_FIELD && !zone) || tn_format_is(format, i, "zone") ||
+           tn_format_is(format, i, "forbid");
+}
+
+static bool starts_clause(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, "trays") || tn_format_is(format, i, "total") || tn_format_is(format, i, "require") ||
+           tn_format_is(format, i, "prune") || tn_format_is(format, i, "allow");
+}
+
+static bool is_expectation(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, "match") || tn_format_is(format, i, "reject") || tn_format_is(format, i, "keep") ||
+           tn_format_is(format, i, "drop") || tn_format_is(format, i, "todo");
+}
+
+/* The first of the words before a plan. */
+static bool starts_case(const tn_format *format, size_t i)
+{
+    return is_expectation(format, i) && !(i > 0 && is_expectation(format, i - 1));
+}
+
+static size_t next_start(const tn_format *format, size_t first, size_t last, tn_format_split *starts)
+{
+    size_t i = first + 1;
+    while (i < last && !starts(format, i))
+        i++;
+    return i;
+}
+
+static size_t find(const tn_format *format, size_t first, size_t last, const char *sign)
+{
+    while (first < last && !tn_format_is(format, first, sign))
+        first++;
+    return first;
+}
+
+static bool at_head_part(const tn_format *format, size_t i)
+{
+    return format->tokens[i].kind == TN_TOKEN_STRING || tn_format_is(format, i, "using") ||
+           tn_format_is(format, i, "from") || tn_format_is(format, i, "allow");
+}
+
+static bool at_comma(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, ",");
+}
+
+static bool at_bar(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, "|");
+}
+
+/* ---- fields of a schema */
+
+/* The name's column and width: `zone wall` is five columns in. */
+static size_t field_name(const tn_format *format, size_t first)
+{
+    return tn_format_is(format, first, "zone") ? first + 1 : first;
+}
+
+static void put_forbid(tn_format *format, size_t first, size_t last)
+{
+    tn_format_put(format, first, 0);
+    tn_layout_spaces(&format->layout, 1);
+    tn_format_expression(format, first + 1, last, 0);
+}
+
+static void put_field(tn_format *format, size_t first, size_t last, size_t name_width)
+{
+    size_t name = field_name(format, first), equal = find(format, first, last, "=");
+    tn_format_flat(format, first, name + 1);
+    if (format->tokens[name].width < name_width)
+        tn_layout_spaces(&format->layout, name_width - format->tokens[name].width);
+    tn_layout_spaces(&format->layout, 1);
+    if (format->layout.column + tn_format_width(format, name + 1, last) <= TN_FORMAT_WIDTH) {
+        tn_format_flat(format, name + 1, last);
+        return;
+    }
+    tn_format_fill(format, name + 1, equal + 1, at_head_part, false, BODY + CONTINUED, 0);
+    if (equal > name + 1)
+        tn_layout_line(&format->layout, BODY + CONTINUED);
+    else
+        tn_layout_spaces(&format->layout, 1);
+    tn_format_fill(format, equal + 1, last, at_bar, false, BODY + CONTINUED, 0);
+}
+
+static void put_fields(tn_format *format, const size_t *starts, size_t count)
+{
+    size_t widest[2] = {0, 0}; /* among fields, among zones */
+    for (size_t i = 0; i < count; i++) {
+        size_t name = field_name(format, starts[i]), width = format->tokens[name].width;
+        if (format->tokens[name].kind == TN_TOKEN_FIELD && width <= NAME_COLUMN && width > widest[name > starts[i]])
+            widest[name > starts[i]] = width;
+    }
+    for (size_t i = 0; i < count; i++) {
+        tn_layout_line(&format->layout, BODY);
+        if (tn_format_is(format, starts[i], "forbid"))
+            put_forbid(format, starts[i], starts[i + 1]);
+        else
+            put_field(format, starts[i], starts[i + 1], widest[field_name(format, starts[i]) > starts[i]]);
+    }
+}
+
+/* ---- clauses of a library */
+
+static void put_clauses(tn_format *format, const size_t *starts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        tn_layout_line(&format->layout, BODY);
+        tn_format_put(format, starts[i], 0);
+        tn_layout_spaces(&format->layout, 1);
+        tn_format_fill(format, starts[i] + 1, starts[i + 1], at_comma, true, BODY + CONTINUED, 0);
+    }
+}
+
+/* ---- cases of a test */
+
+/* Where the text starts that ends a case; `last` where none does. */
+static size_t case_doc(const tn_format *format, size_t first, size_t last)
+{
+    return last > first + 1 && format->tokens[last - 1].kind == TN_TOKEN_STRING ? last - 1 : last;
+}
+
+static size_t longest_word(const tn_format *format, const size_t *starts, size_t count)
+{
+    size_t longest = 0;
+    for (size_t i = 0; i < count; i++)
+        longest = format->tokens[starts[i]].width > longest ? format->tokens[starts[i]].width : longest;
+    return longest;
+}
+
+/* The column at which the texts of a run of cases stand: after the longest case that leaves room for its own. */
+static size_t doc_column(const tn_format *format, const size_t *starts, size_t count, size_t plan_column)
+{
+    size_t column = 0;
+    for (size_t i = 0; i < count; i++) {
+        size_t doc = case_doc(format, starts[i], starts[i + 1]);
+        size_t end = plan_column + tn_format_width(format, starts[i] + 1, doc) + DOC_GAP;
+        size_t width = tn_format_width(format, doc, starts[i + 1]);
+        if (doc < starts[i + 1] && end + width <= TN_FORMAT_WIDTH && end > column)
+            column = end;
+    }
+    return column;
+}
+
+static void put_case(tn_format *format, size_t first, size_t last, size_t plan_column, size_t column)
+{
+    tn_layout *layout = &format->layout;
+    size_t doc = case_doc(format, first, last), width = tn_format_width(format, doc, last);
+    tn_layout_line(layout, BODY);
+    tn_format_put(format, first, 0);
+    tn_layout_spaces(layout, plan_column - layout->column);
+    size_t line = layout->line;
+    tn_format_expression(format, first + 1, doc, 0);
+    if (doc == last)
+        return;
+    if (layout->line > line)
+        tn_layout_line(layout, plan_column);
+    else if (layout->column + DOC_GAP <= column && column + width <= TN_FORMAT_WIDTH)
+        tn_layout_spaces(layout, column - layout->column);
+    else if (layout->column + DOC_GAP + width <= TN_FORMAT_WIDTH)
+        tn_layout_spaces(layout, DOC_GAP);
+    else
+        tn_layout_line(layout, plan_column);
+    tn_format_put(format, doc, 0);
+}
+
+static void put_cases(tn_format *format, const size_t *starts, size_t count)
+{
+    size_t plan_column = BODY + longest_word(format, starts, count) + 1;
+    size_t column = doc_column(format, starts, count, plan_column);
+    for (size_t i = 0; i < count; i++)
+        put_case(format, starts[i], starts[i + 1], plan_column, column);
+}
+
+/* ---- items */
+
+/* What is between the braces, run by run. */
+static void put_body(tn_format *format, size_t open, size_t close, tn_format_split *begins, put_run *put)
+{
+    size_t *starts = TN_NEW_ARRAY(format->layout.arena, size_t, close - open + 1);
+    if (!starts)
+        return;
+    for (size_t i = open + 1; i < close;) {
+        size_t count = 0;
+        do {
+            starts[count++] = i;
+            i = next_start(format, i, close, begins);
+        } while (i < close && !format->tokens[i].blank && !format->tokens[i].comment_count);
+        starts[count] = i;
+        if (starts[0] == open + 1)
+            format->tokens[starts[0]].blank = false; /* none after the opening brace */
+        tn_format_gap(format, starts[0], BODY, false);
+        put(format, starts, count);
+    }
+    if (format->tokens[close].comment_count) {
+        format->tokens[close].blank = false;
+        tn_format_gap(format, close, BODY, false);
+    }
+}
+
+static void put_block(tn_format *format, size_t first, size_t last, tn_format_split *begins, put_run *put)
+{
+    size_t open = find(format, first, last, "{"), close = last - 1;
+    tn_format_fill(format, first, open + 1, at_head_part, false, CONTINUED, 0);
+    bool empty = close == open + 1 && !format->tokens[close].comment_count && !format->tokens[open].remark.text;
+    if (empty) {
+        tn_format_put(format, close, 0);
+        return;
+    }
+    put_body(format, open, close, begins, put);
+    tn_layout_line(&format->layout, 0);
+    tn_format_put(format, close, 0);
+}
+
+/* A rule without a text stands on one line where it fits. */
+static bool is_short_rule(const tn_format *format, size_t first, size_t last)
+{
+    size_t equal = find(format, first, last, "=");
+    for (size_t i = first; i < equal; i++)
+        if (format->tokens[i].kind == TN_TOKEN_STRING)
+            return false;
+    size_t comments = format->tokens[first].comment_count;
+    format->tokens[first].comment_count = 0; /* those before the rule do not count */
+    bool fits = tn_format_width(format, first, last) <= TN_FORMAT_WIDTH;
+    format->tokens[first].comment_count = comments;
+    return fits;
+}
+
+static void put_rule(tn_format *format, size_t first, size_t last)
+{
+    size_t equal = find(format, first, last, "=");
+    tn_format_fill(format, first, equal + 1, at_head_part, false, CONTINUED, 0);
+    tn_layout_line(&format->layout, BODY);
+    tn_format_expression(format, equal + 1, last, 0);
+}
+
+static void put_item(tn_format *format, size_t first, size_t last, bool one_line)
+{
+    if (one_line)
+        tn_format_flat(format, first, last);
+    else if (tn_format_is(format, first, "schema"))
+        put_block(format, first, last, starts_field, put_fields);
+    else if (tn_format_is(format, first, "library"))
+        put_block(format, first, last, starts_clause, put_clauses);
+    else if (tn_format_is(format, first, "test"))
+        put_block(format, first, last, starts_case, put_cases);
+    else if (tn_format_is(format, first, "rule"))
+        put_rule(format, first, last);
+    else
+        tn_format_expression(format, first, last, 0);
+}
+
+void tn_format_plan(tn_format *format)
+{
+    bool tall = false; /* the item before takes several lines */
+    format->gap_before = gap_before;
+    for (size_t first = 0, last; first < format->count; first = last) {
+        last = next_start(format, first, format->count, starts_item);
+        bool one_line = tn_format_is(format, first, "use") ||
+                        (tn_format_is(format, first, "rule") && is_short_rule(format, first, last));
+        tn_format_gap(format, first, 0, first > 0 && (tall || !one_line));
+        put_item(format, first, last, one_line);
+        tall = !one_line;
+    }
+    tn_format_gap(format, format->count, 0, false);
+}

@@ -1,0 +1,14 @@
+/* Clauses without a name are called by the line they stand on (`drop ... by require@12`), and formatting moves lines.
+ */
+#ifndef TARTAN_COMPILER_PLAN_FORMAT_CLAUSES_H
+#define TARTAN_COMPILER_PLAN_FORMAT_CLAUSES_H
+
+#include "compiler/common/format_tokens.h"
+#include "compiler/plan/ast.h"
+
+/* After the file was laid out: gives the tokens that name clauses of this file's libraries by their lines the names
+ * that these have now, in `tokens`, from which the file can be laid out again. True where one changed. */
+bool tn_format_clause_names(tn_arena *arena, const tn_source *source, const tn_ast_file *tree, const tn_format *format,
+                            tn_format_token *tokens);
+
+#endif

@@ -1,0 +1,287 @@
+/* What a study means: settings once and in range, boundaries that have a shape, terms that exist. */
+#include <math.h>
+#include <string.h>
+
+#include "compiler/study/study.h"
+
+typedef struct check {
+    tn_arena *arena;
+    tn_diagnostics *diagnostics;
+    tn_checked_study *study;
+    const tn_study_item *here[TN_STUDY_SETTING_COUNT]; /* of the file at hand */
+} check;
+
+static const char *const setting_names[TN_STUDY_SETTING_COUNT] = {
+    "title",  "rules",        "steps",         "scale",      "start",        "start-length",
+    "seed",   "branch-angle", "branch-length", "edge-limit", "fixed-centre", "fixed-perimeter",
+    "facing", "mirror",       "fitness raw"};
+
+static void out_of_range(check *c, tn_span span, const char *what, const char *help)
+{
+    tn_diagnostic *d = tn_report(c->diagnostics, E_SETTING_RANGE, span, "%s", what);
+    tn_help(c->diagnostics, d, "%s", help);
+}
+
+static bool is_whole(double value)
+{
+    return value >= 0 && value == floor(value);
+}
+
+static void check_setting(check *c, const tn_study_item *item)
+{
+    double n = item->number.value;
+    switch (item->kind) {
+    case TN_STUDY_STEPS:
+        if (!is_whole(n) || n > TN_STEPS_MAX)
+            out_of_range(c, item->number.span, "steps are a whole number, 100,000 at most",
+                         "most surfaces are grown in 4 to 8 steps");
+        break;
+    case TN_STUDY_SCALE:
+        if (!(item->a.x > 0 && item->a.y > 0 && item->a.z > 0))
+            out_of_range(c, item->a.span, "a scale is above 0",
+                         "1 keeps the size, 1.5 grows by half in each step, 0.8 shrinks");
+        break;
+    case TN_STUDY_START_LENGTH:
+        if (!(n > 0))
+            out_of_range(c, item->number.span, "the start length is above 0",
+                         "it is the side of the seed, in model units");
+        break;
+    case TN_STUDY_SEED:
+        if (!is_whole(n) || n > 9007199254740992.0)
+            out_of_range(c, item->number.span, "a seed is a whole number", "any will do, such as 7");
+        break;
+    case TN_STUDY_BRANCH_ANGLE:
+        if (!(n >= 0 && n <= 360))
+            out_of_range(c, item->number.span, "an angle lies between 0 and 360 degrees",
+                         "usual ones are 30, 45, 60 and 90");
+        break;
+    case TN_STUDY_BRANCH_LENGTH:
+        if (!(n >= 0))
+            out_of_range(c, item->number.span, "a branch length is not below 0",
+                         "leave it out for branches of any length");
+        break;
+    case TN_STUDY_EDGE_LIMIT:
+        if (!is_whole(n) || n < 3)
+            out_of_range(c, item->number.span, "an edge limit is a whole number of at least 3",
+                         "write how many edges a surface may have");
+        break;
+    default:
+        break;
+    }
+}
+
+static void take_setting(check *c, const tn_study_item *item)
+{
+    const tn_study_item *first = c->here[item->kind];
+    if (first) {
+        tn_diagnostic *d =
+            tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "`%s` is there twice", setting_names[item->kind]);
+        tn_note(c->diagnostics, d, &first->span, "the first is here");
+        tn_help(c->diagnostics, d, "leave one of them out");
+    }
+    check_setting(c, item);
+    c->here[item->kind] = item;
+    c->study->settings[item->kind] = item;
+}
+
+/* Each part once. */
+static void check_parts(check *c, const tn_study_item *item)
+{
+    static const char *const names[TN_STUDY_PART_COUNT] = {
+        "strength", "exponent", "inside or outside", "slide, stop or soft", "target", "weight"};
+    const tn_study_part *seen[TN_STUDY_PART_COUNT] = {NULL};
+    for (const tn_study_part *part = item->parts; part; part = part->next) {
+        if (seen[part->kind]) {
+            tn_diagnostic *d = tn_report(c->diagnostics, E_STUDY_TWICE, seen[part->kind]->span, "`%s` is there twice",
+                                         names[part->kind]);
+            tn_note(c->diagnostics, d, &part->span, "the first is here");
+            tn_help(c->diagnostics, d, "leave one of them out");
+        }
+        seen[part->kind] = part;
+        if (part->kind == TN_PART_WEIGHT && part->value < 0)
+            out_of_range(c, part->span, "a weight is not below 0", "a larger weight makes a term count for more");
+    }
+    if (seen[TN_PART_SIDE] && item->which == TN_BOUNDARY_PLANE) {
+        tn_diagnostic *d = tn_report(c->diagnostics, E_BAD_BOUNDARY, seen[TN_PART_SIDE]->span, "a plane has no inside");
+        tn_help(c->diagnostics, d,
+                "the surface stays on the side that the normal points to; turn the normal round for the other");
+    }
+}
+
+static void check_boundary(check *c, const tn_study_item *item)
+{
+    const tn_study_vector *a = &item->a, *b = &item->b;
+    const char *what = NULL, *help = NULL;
+    if (item->which == TN_BOUNDARY_BOX && !(a->x < b->x && a->y < b->y && a->z < b->z)) {
+        what = "this box has no inside";
+        help = "write the low corner after `from` and the high one after `to`, each coordinate larger";
+    } else if (item->which == TN_BOUNDARY_SPHERE && !(b->x > 0)) {
+        what = "this sphere has no inside";
+        help = "a radius is above 0";
+    } else if (item->which == TN_BOUNDARY_PLANE && !(b->x * b->x + b->y * b->y + b->z * b->z > 1e-24)) {
+        what = "this plane has no direction";
+        help = "the normal is the direction in which the surface may grow: `normal 0 0 1`";
+    } else if (item->which == TN_BOUNDARY_MESH && item->text && item->text[0] == '\0') {
+        what = "the mesh has no name";
+        help = "name a file that OpenMesh reads: OBJ, PLY, STL, OFF or OM";
+    }
+    if (!what)
+        return;
+    tn_diagnostic *d = tn_report(c->diagnostics, E_BAD_BOUNDARY, item->span, "%s", what);
+    tn_help(c->diagnostics, d, "%s", help);
+}
+
+uint32_t tn_study_term(const char *name)
+{
+    uint32_t term = 0;
+    while (term < TN_FITNESS_TERM_COUNT && strcmp(tn_measured_names[term], name) != 0)
+        term++;
+    return term;
+}
+
+static void goal_twice(check *c, const tn_study_item *item)
+{
+    for (uint32_t i = 0; i < c->study->goal_count; i++) {
+        const tn_study_item *other = c->study->goals[i];
+        if (strcmp(other->text, item->text) != 0 || other->span.file != item->span.file)
+            continue;
+        tn_diagnostic *d =
+            tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "the term `%s` is there twice", item->text);
+        tn_note(c->diagnostics, d, &other->span, "the first is here");
+        tn_help(c->diagnostics, d, "leave one of them out");
+    }
+}
+
+static void unknown_term(check *c, const tn_study_item *item)
+{
+    tn_diagnostic *d =
+        tn_report(c->diagnostics, E_UNKNOWN_TERM, item->text_span, "there is no fitness term `%s`", item->text);
+    const char *near = tn_nearest(item->text, tn_measured_names, TN_FITNESS_TERM_COUNT);
+    if (near)
+        tn_help(c->diagnostics, d, "did you mean `%s`?", near);
+    else
+        tn_help(c->diagnostics, d,
+                "terms are size, smoothness, soft-boundary, subdivisions, symmetry and undulation; others are made of "
+                "them: `fitness %.60s = undulation / size`",
+                item->text);
+}
+
+static void check_expression(check *c, const tn_study_item *item)
+{
+    tn_check_measure(c->diagnostics, item->measure);
+    if (strlen(item->text) > TN_NAME_MAX)
+        tn_report(c->diagnostics, E_MEASURE, item->text_span, "a term's name has at most %u bytes", TN_NAME_MAX);
+    if (!tn_measure_reserves(item->text))
+        return;
+    tn_diagnostic *d =
+        tn_report(c->diagnostics, E_MEASURE, item->text_span, "`%s` is a name that expressions use", item->text);
+    tn_help(c->diagnostics, d, "give this one another name, as `my-%s`", item->text);
+}
+
+/* Is it a term, or a name for an expression? */
+static bool check_goal(check *c, const tn_study_item *item)
+{
+    if (!item->text)
+        return false;
+    if (item->measure)
+        check_expression(c, item);
+    else if (tn_study_term(item->text) == TN_FITNESS_TERM_COUNT) {
+        unknown_term(c, item);
+        return false;
+    }
+    goal_twice(c, item);
+    return true;
+}
+
+/* A goal of the using file stands instead of one of the same term that it took over. */
+static void take_goal(check *c, const tn_study_item *item)
+{
+    if (!check_goal(c, item))
+        return;
+    uint32_t i = 0;
+    while (i < c->study->goal_count && strcmp(c->study->goals[i]->text, item->text) != 0)
+        i++;
+    c->study->goals[i] = item;
+    c->study->goal_count += i == c->study->goal_count;
+}
+
+static void take_item(check *c, const tn_study_item *item)
+{
+    check_parts(c, item);
+    switch (item->kind) {
+    case TN_STUDY_USE:
+        break;
+    case TN_STUDY_FORCE:
+        c->study->forces[c->study->force_count++] = item;
+        break;
+    case TN_STUDY_BOUNDARY:
+        check_boundary(c, item);
+        c->study->boundaries[c->study->boundary_count++] = item;
+        break;
+    case TN_STUDY_GOAL:
+        take_goal(c, item);
+        break;
+    default:
+        take_setting(c, item);
+        break;
+    }
+}
+
+static const tn_study_file *study_of(const tn_imports *imports, const tn_sources *sources, size_t unit)
+{
+    return tn_is_hemls(sources->files[imports->units[unit]->file].path) ? NULL : imports->units[unit]->tree;
+}
+
+static bool make_lists(check *c, const tn_imports *imports)
+{
+    size_t count = TN_FITNESS_TERM_COUNT;
+    for (size_t u = 0; u < imports->count; u++) {
+        const tn_study_file *file = study_of(imports, c->diagnostics->sources, u);
+        for (const tn_study_item *item = file ? file->first : NULL; item; item = item->next)
+            count++;
+    }
+    c->study->forces = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
+    c->study->boundaries = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
+    c->study->goals = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
+    return c->study->forces && c->study->boundaries && c->study->goals;
+}
+
+static void check_whole(check *c, const tn_imports *imports, bool damaged)
+{
+    const tn_checked_study *study = c->study;
+    if (!study->settings[TN_STUDY_RULES] && !damaged && !imports->units[imports->count - 1]->incomplete) {
+        tn_diagnostic *d =
+            tn_report(c->diagnostics, E_NO_RULES, study->span, "this study does not say which rules grow");
+        tn_help(c->diagnostics, d, "add a line such as `rules \"square\"` or `rules \"mine.hemls\"`");
+    }
+    if (study->force_count > TN_SURROUNDINGS_MAX || study->boundary_count > TN_SURROUNDINGS_MAX)
+        tn_report(c->diagnostics, E_TOO_MANY, study->span,
+                  "this study has more forces or boundaries than the limit of %u", TN_SURROUNDINGS_MAX);
+    if (study->goal_count > TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX)
+        tn_report(c->diagnostics, E_TOO_MANY, study->span,
+                  "this study has more fitness expressions than the limit of %u", TN_EXPRESSIONS_MAX);
+}
+
+bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study)
+{
+    check c = {.arena = arena, .diagnostics = diagnostics, .study = study};
+    size_t errors = diagnostics->error_count;
+    bool damaged = false;
+    *study = (tn_checked_study){0};
+    if (!make_lists(&c, imports))
+        return false;
+    for (size_t u = 0; u < imports->count; u++) {
+        const tn_study_file *file = study_of(imports, diagnostics->sources, u);
+        if (!file)
+            continue;
+        memset(c.here, 0, sizeof c.here);
+        damaged |= file->damaged;
+        study->span = (tn_span){imports->units[u]->file, 0, 0};
+        if (file->first)
+            study->span = tn_span_join(file->first->span, file->last->span);
+        for (const tn_study_item *item = file->first; item; item = item->next)
+            take_item(&c, item);
+    }
+    check_whole(&c, imports, damaged);
+    return !damaged && diagnostics->error_count == errors && !tn_arena_failed(arena);
+}

@@ -1,0 +1,134 @@
+/* From a checked study to the records of a module. */
+#include <math.h>
+#include <string.h>
+
+#include "compiler/study/study.h"
+
+static double number_or(const tn_checked_study *study, tn_study_kind kind, double otherwise)
+{
+    return study->settings[kind] ? study->settings[kind]->number.value : otherwise;
+}
+
+static double part_or(const tn_study_item *item, tn_study_part_kind kind, double otherwise)
+{
+    for (const tn_study_part *part = item->parts; part; part = part->next)
+        if (part->kind == kind)
+            return part->value;
+    return otherwise;
+}
+
+static void emit_settings(tn_builder *builder, const tn_checked_study *study)
+{
+    static const struct {
+        tn_study_kind kind;
+        uint32_t flag;
+    } flags[] = {{TN_STUDY_SETS_FIXED_CENTRE, TN_STUDY_FIXED_CENTRE},
+                 {TN_STUDY_SETS_FIXED_PERIMETER, TN_STUDY_FIXED_PERIMETER},
+                 {TN_STUDY_SETS_FACING, TN_STUDY_FACING},
+                 {TN_STUDY_SETS_MIRROR, TN_STUDY_MIRROR},
+                 {TN_STUDY_SETS_RAW, TN_STUDY_RAW_FITNESS}};
+    const tn_study_item *scale = study->settings[TN_STUDY_SCALE], *start = study->settings[TN_STUDY_START],
+                        *title = study->settings[TN_STUDY_TITLE];
+    tn_study_record record = {.name = tn_builder_string(builder, title ? title->text : NULL),
+                              .steps = (uint32_t)number_or(study, TN_STUDY_STEPS, 4),
+                              .scale_x = scale ? scale->a.x : 1.5,
+                              .scale_y = scale ? scale->a.y : 1.5,
+                              .scale_z = scale ? scale->a.z : 1.5,
+                              .start_x = start ? start->a.x : 0,
+                              .start_y = start ? start->a.y : 0,
+                              .start_z = start ? start->a.z : 0,
+                              .start_length = number_or(study, TN_STUDY_START_LENGTH, 1),
+                              .branch_angle = number_or(study, TN_STUDY_BRANCH_ANGLE, -1),
+                              .branch_length = number_or(study, TN_STUDY_BRANCH_LENGTH, -1),
+                              .seed = (int64_t)number_or(study, TN_STUDY_SEED, 1),
+                              .edge_limit = (int64_t)number_or(study, TN_STUDY_EDGE_LIMIT, 0),
+                              .file = study->span.file,
+                              .begin = study->span.begin,
+                              .end = study->span.end};
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        if (study->settings[flags[i].kind])
+            record.flags |= flags[i].flag;
+    tn_builder_add_STUDY(builder, &record);
+}
+
+static void emit_force(tn_builder *builder, const tn_study_item *item)
+{
+    tn_builder_add_FORCE(builder,
+                         &(tn_force_record){item->which, item->a.x, item->a.y, item->a.z,
+                                            part_or(item, TN_PART_STRENGTH, 1), part_or(item, TN_PART_EXPONENT, 2),
+                                            item->span.file, item->span.begin, item->span.end});
+}
+
+static size_t folder_size(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* A mesh's path starts at the folder of the file that names it. The module holds it from the folder of the whole study
+ * on, so that both can be moved together; a file that is used lies below that folder's name or is told from the root.
+ */
+static const char *resolve(tn_arena *arena, const tn_sources *sources, const tn_study_item *item, uint32_t root)
+{
+    const char *user = sources->files[item->span.file].path, *whole = sources->files[root].path;
+    size_t below = folder_size(whole), folder = item->text[0] == '/' ? 0 : folder_size(user);
+    size_t name = strlen(item->text), skip = below <= folder && memcmp(user, whole, below) == 0 ? below : 0;
+    char *path = tn_arena_alloc(arena, folder - skip + name + 1);
+    if (!path)
+        return item->text;
+    memcpy(path, user + skip, folder - skip);
+    memcpy(path + folder - skip, item->text, name + 1);
+    return path;
+}
+
+static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_study_item *item,
+                          uint32_t root)
+{
+    tn_boundary_record record = {.kind = item->which,
+                                 .mode = (uint32_t)part_or(item, TN_PART_MODE, TN_SLIDE),
+                                 .inside = part_or(item, TN_PART_SIDE, 0) > 0,
+                                 .a_x = item->a.x,
+                                 .a_y = item->a.y,
+                                 .a_z = item->a.z,
+                                 .file = item->span.file,
+                                 .begin = item->span.begin,
+                                 .end = item->span.end};
+    if (item->which == TN_BOUNDARY_SPHERE) {
+        record.radius = item->b.x;
+    } else if (item->which == TN_BOUNDARY_MESH) {
+        record.mesh = tn_builder_string(builder, resolve(arena, sources, item, root));
+    } else {
+        double scale = 1;
+        if (item->which == TN_BOUNDARY_PLANE)
+            scale = 1 / sqrt(item->b.x * item->b.x + item->b.y * item->b.y + item->b.z * item->b.z);
+        record.b_x = item->b.x * scale;
+        record.b_y = item->b.y * scale;
+        record.b_z = item->b.z * scale;
+    }
+    tn_builder_add_BOUNDARY(builder, &record);
+}
+
+static void emit_goal(tn_builder *builder, const tn_study_item *goal)
+{
+    const tn_study_measure *measure = goal->measure;
+    tn_goal_record record = {.term = measure ? TN_FITNESS_TERM_COUNT : tn_study_term(goal->text),
+                             .name = tn_builder_string(builder, measure ? goal->text : NULL),
+                             .function = measure ? tn_emit_measure(builder, goal->text, measure) : 0,
+                             .target = part_or(goal, TN_PART_TARGET, 0),
+                             .weight = part_or(goal, TN_PART_WEIGHT, 1),
+                             .file = goal->span.file,
+                             .begin = goal->span.begin,
+                             .end = goal->span.end};
+    tn_builder_add_GOAL(builder, &record);
+}
+
+void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study)
+{
+    emit_settings(builder, study);
+    for (uint32_t i = 0; i < study->force_count; i++)
+        emit_force(builder, study->forces[i]);
+    for (uint32_t i = 0; i < study->boundary_count; i++)
+        emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
+    for (uint32_t i = 0; i < study->goal_count; i++)
+        emit_goal(builder, study->goals[i]);
+}

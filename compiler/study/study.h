@@ -1,0 +1,157 @@
+/* The .study notation: how a rewrite system is to be grown (docs/growth.md): syntax tree, checking, what is emitted.
+ *
+ * A study is a list of statements. Those of a file that it uses come first; settings of the using file then stand
+ * instead of theirs, and forces, boundaries and goals add up. Everything lives in the compilation's arena.
+ */
+#ifndef TARTAN_COMPILER_STUDY_STUDY_H
+#define TARTAN_COMPILER_STUDY_STUDY_H
+
+#include "compiler/common/import.h"
+#include "compiler/hemls/hemls.h"
+
+typedef enum tn_study_kind {
+    /* settings, each once in a file */
+    TN_STUDY_TITLE,
+    TN_STUDY_RULES,
+    TN_STUDY_STEPS,
+    TN_STUDY_SCALE,
+    TN_STUDY_START,
+    TN_STUDY_START_LENGTH,
+    TN_STUDY_SEED,
+    TN_STUDY_BRANCH_ANGLE,
+    TN_STUDY_BRANCH_LENGTH,
+    TN_STUDY_EDGE_LIMIT,
+    TN_STUDY_SETS_FIXED_CENTRE,
+    TN_STUDY_SETS_FIXED_PERIMETER,
+    TN_STUDY_SETS_FACING,
+    TN_STUDY_SETS_MIRROR,
+    TN_STUDY_SETS_RAW,
+    TN_STUDY_SETTING_COUNT,
+    /* as many as one likes */
+    TN_STUDY_USE = TN_STUDY_SETTING_COUNT,
+    TN_STUDY_FORCE,
+    TN_STUDY_BOUNDARY,
+    TN_STUDY_GOAL,
+} tn_study_kind;
+
+/* An optional part of a statement. */
+typedef enum tn_study_part_kind {
+    TN_PART_STRENGTH,
+    TN_PART_EXPONENT,
+    TN_PART_SIDE, /* value: inside */
+    TN_PART_MODE, /* value: tn_boundary_mode */
+    TN_PART_TARGET,
+    TN_PART_WEIGHT,
+    TN_STUDY_PART_COUNT
+} tn_study_part_kind;
+
+typedef struct tn_study_part {
+    tn_study_part_kind kind;
+    double value;
+    tn_span span;
+    struct tn_study_part *next;
+} tn_study_part;
+
+typedef struct tn_study_vector {
+    double x, y, z;
+    tn_span span;
+} tn_study_vector;
+
+/* A fitness expression: a number, a term, an operation or function of up to two others. */
+typedef struct tn_study_measure {
+    tn_opcode op; /* TN_OPCODE_COUNT: a function that is yet to be looked up */
+    tn_span span;
+    double number;
+    const char *name; /* of a term or function */
+    tn_span name_span;
+    uint32_t term; /* tn_measured */
+    struct tn_study_measure *left, *right;
+    struct tn_study_measure *next; /* argument, and the last of the list */
+    struct tn_study_measure *last;
+    uint32_t argument_count, depth;
+} tn_study_measure;
+
+typedef struct tn_study_item {
+    tn_study_kind kind;
+    tn_span span;
+    uint32_t which; /* tn_force_kind or tn_boundary_kind */
+    tn_study_vector a, b;
+    tn_decimal number;
+    const char *text; /* a path, a title or a term */
+    tn_span text_span;
+    tn_study_part *parts;      /* the last first */
+    tn_study_measure *measure; /* of a goal that is an expression, which `text` names */
+    tn_use *use;               /* of `use` and `rules`: where it leads */
+    struct tn_study_item *next;
+} tn_study_item;
+
+typedef struct tn_study_file {
+    tn_study_item *first, *last;
+    bool damaged;
+} tn_study_file;
+
+typedef struct tn_study_text {
+    const char *text;
+    tn_span span;
+} tn_study_text;
+
+/* Parses the source as a .study file without evolution; as tn_parse_hemls. */
+tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
+
+/* Does a statement start with this word? */
+bool tn_study_heads(const char *text, size_t size);
+
+/* Is this a word of the notation, in capitals or not? */
+bool tn_study_has_word(const char *text, size_t size);
+
+/* Constructors; out of memory is the arena's to remember. */
+tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span);
+tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
+                                 tn_study_part *before);
+/* Of an expression; `left` is a function's arguments. NULL where out of memory, or where an operand is. */
+tn_study_measure *tn_study_number_new(tn_growth_parse *parse, tn_decimal number);
+tn_study_measure *tn_study_name_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_text name,
+                                    tn_study_measure *arguments);
+tn_study_measure *tn_study_measure_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_measure *left,
+                                       tn_study_measure *right);
+tn_study_measure *tn_study_argument_add(tn_study_measure *list, tn_study_measure *argument);
+
+void tn_study_add(tn_growth_parse *parse, tn_study_item *item);
+void tn_study_lost(tn_growth_parse *parse);
+
+typedef struct tn_checked_study {
+    const char *name;
+    const tn_study_item *settings[TN_STUDY_SETTING_COUNT]; /* NULL: not given */
+    const tn_study_item **forces, **boundaries, **goals;
+    uint32_t force_count, boundary_count, goal_count;
+    uint32_t flags;
+    tn_span span;
+} tn_checked_study;
+
+/* Checks the studies among the units. False where there were errors. */
+bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study);
+
+/* Looks up an expression's terms and functions, and says what is wrong with them. */
+void tn_check_measure(tn_diagnostics *diagnostics, tn_study_measure *measure);
+
+/* Can an expression not have this name, since it means something in expressions? */
+bool tn_measure_reserves(const char *name);
+
+/* Emits an expression's function, and returns its index. */
+uint32_t tn_emit_measure(tn_builder *builder, const char *name, const tn_study_measure *measure);
+
+/* The tn_fitness_term of a name, or their number. */
+uint32_t tn_study_term(const char *name);
+
+void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study);
+
+/* Is this the path of a study or of a rewrite system? */
+bool tn_is_study(const char *path);
+bool tn_is_hemls(const char *path);
+
+/* Compiles source 0, a .hemls or .study file, to a module's bytes. TN_INVALID where there are errors. */
+tn_status tn_compile_growth(tn_arena *arena, tn_diagnostics *diagnostics, const char *const *stdlib_dirs,
+                            size_t stdlib_dir_count, bool warnings_are_errors, uint8_t **bytes, size_t *size,
+                            tn_error *error);
+
+#endif

@@ -1,0 +1,110 @@
+/* From a study to a run: the grammar, the problem and the settings put together; and a run in a folder, with its
+ * database, resumed or new, generation by generation.
+ *
+ *   DIR/run.sqlite   the run (runtime/genome/store/run_store.h)
+ *   DIR/best/        the best sentences as files, with pictures, and scores.csv
+ *   DIR/stats.csv    a line a generation
+ *   DIR/fitness.svg  the same, drawn
+ */
+#ifndef TARTAN_DRIVER_BREED_EVOLVE_H
+#define TARTAN_DRIVER_BREED_EVOLVE_H
+
+#include "driver/breed/grower.h"
+#include "driver/breed/learn.h"
+#include "driver/open/open.h"
+#include "runtime/genome/breeding/problem.h"
+#include "runtime/genome/settings.h"
+#include "runtime/genome/store/run_store.h"
+
+/* What is evolved. Zero it to begin with; clear it in any case. */
+typedef struct tn_evolution_job {
+    tn_evolution_study study; /* texts borrowed from where it was read */
+    tn_setting blamed;        /* where making the job failed: the setting that named what is wrong, or
+                                 TN_SETTING_COUNT */
+    char *blamed_path;        /* and the file that it names, where an error has its place in that; or NULL */
+    tn_grammar *grammar;
+    tn_evolution_settings settings;
+    tn_evaluator evaluator;
+    tn_problem *problem;
+    tn_learner *learner;
+    tn_grower *grower;
+    tn_genome *seeds;
+    size_t seed_count;
+    char *seeds_text;      /* the file that they are from, or NULL */
+    char *identity;        /* all that decides what the run does, a setting a line */
+    const char *extension; /* of the files of best/ */
+} tn_evolution_job;
+
+typedef struct tn_evolution_job_options {
+    unsigned threads; /* 0: as many as there are */
+    bool says_seed;
+    uint64_t seed;
+    bool only_replay;         /* no evaluating: scores will be recalled */
+    uint64_t objectives;      /* then: how many the run has */
+    const char *stored_seeds; /* the text of the seeds' file, where it is known already; or NULL */
+} tn_evolution_job_options;
+
+/* Makes the job of a study at `path` (data files lie relative to it), with its grammar's module. */
+tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
+                                const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error);
+void tn_evolution_job_clear(tn_evolution_job *job);
+
+/* ---- a run */
+
+typedef struct tn_run_options {
+    bool resume;
+    bool durable;
+} tn_run_options;
+
+typedef struct tn_run {
+    tn_evolution_job *job; /* borrowed */
+    char *dir;
+    tn_run_store *store;
+    tn_evolution *evolution;
+    uint32_t generations; /* done */
+    tn_run_event
+        *changes; /* of targets and weights: all that were made, the last `new_changes` of them not stored yet */
+    size_t change_count, new_changes;
+    tn_rescored *rescored; /* by those */
+    size_t rescored_count;
+} tn_run;
+
+/* What of the study and its grammar a database keeps, so that a run can be replayed from it alone. */
+typedef struct tn_run_texts {
+    const char *study_path, *study_text, *grammar_path, *grammar_text;
+} tn_run_texts;
+
+/* Starts a run in the folder `dir`, which is made, or goes on with the one that is there: then all its generations are
+ * made again, without evaluating. */
+tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
+                       tn_run *run, tn_error *error);
+
+/* Makes and stores the next generation, bred from the members chosen where a person chose (places from 0; NULL:
+ * selection). */
+tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error);
+
+/* Changes a target or weight of a run that has begun, as "length-weight 0.01": all members are scored again, and the
+ * change is stored with the next generation. A change that holds already changes nothing, so that the same words may be
+ * said at every resuming. */
+tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
+
+/* Is there nothing left to wish for (`stop`)? */
+bool tn_run_reached(const tn_run *run);
+
+/* Writes best/, stats.csv and fitness.svg. */
+tn_status tn_run_results(tn_run *run, tn_error *error);
+void tn_run_clear(tn_run *run);
+
+/* The folder's database: DIR/run.sqlite. The caller frees it; NULL where out of memory. */
+char *tn_run_database(const char *dir);
+
+/* Draws statistics as curves over the generations. */
+tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
+                      tn_error *error);
+
+/* Makes generations again from a database until the one in which `id` was born; the individual is valid until run and
+ * job are cleared. `opened` holds the grammar and must be closed after them. */
+tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,
+                        const tn_individual **individual, tn_error *error);
+
+#endif

@@ -1,0 +1,270 @@
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/breed/evolve.h"
+#include "runtime/base/crew.h"
+#include "runtime/base/file.h"
+
+#define DATA_BYTES_MAX ((size_t)256 << 20)
+
+void tn_evolution_job_clear(tn_evolution_job *job)
+{
+    tn_problem_free(job->problem);
+    tn_learner_free(job->learner);
+    tn_grower_free(job->grower);
+    tn_grammar_free(job->grammar);
+    for (size_t i = 0; i < job->seed_count; i++)
+        tn_genome_clear(&job->seeds[i]);
+    free(job->seeds);
+    free(job->seeds_text);
+    free(job->blamed_path);
+    free(job->identity);
+    *job = (tn_evolution_job){0};
+}
+
+/* A path that a study names lies relative to the study. */
+static char *beside(const char *study, const char *path)
+{
+    const char *slash = path[0] == '/' ? NULL : strrchr(study, '/');
+    size_t folder = slash ? (size_t)(slash - study) + 1 : 0, size = folder + strlen(path) + 1;
+    char *joined = malloc(size);
+    if (joined)
+        snprintf(joined, size, "%.*s%s", (int)folder, study, path);
+    return joined;
+}
+
+/* ---- settings */
+
+static uint32_t whole(const tn_evolution_study *s, tn_setting setting)
+{
+    return (uint32_t)s->of[setting].first;
+}
+
+/* Choices are in the engine's order (settings.def). */
+static void translate_operators(const tn_evolution_study *s, tn_evolution_settings *out)
+{
+    const tn_setting_value *selection = &s->of[TN_SET_SELECTION], *crossover = &s->of[TN_SET_CROSSOVER],
+                           *mutation = &s->of[TN_SET_MUTATION];
+    out->select.selection = (tn_selection)selection->choice;
+    if (selection->written == 2 && out->select.selection == TN_SELECT_TRUNCATION)
+        out->select.truncation = selection->second;
+    else if (selection->written == 2)
+        out->select.tournament = (uint32_t)selection->second;
+    out->vary.crossover = (tn_crossover)crossover->choice;
+    out->vary.crossover_rate = crossover->second;
+    out->vary.mutation = (tn_mutation)mutation->choice;
+    out->vary.mutation_rate = mutation->second;
+    out->vary.within_used = s->of[TN_SET_POINTS].choice == 0;
+    out->vary.codon_limit = (uint64_t)s->of[TN_SET_CODON_LIMIT].first;
+    out->vary.max_codons = whole(s, TN_SET_MAX_CODONS);
+    out->vary.tree_depth = s->of[TN_SET_TREE_DEPTH].written ? whole(s, TN_SET_TREE_DEPTH) : out->depth_high;
+}
+
+static void translate(const tn_evolution_study *s, const tn_grammar *grammar, const tn_evolution_job_options *options,
+                      tn_evolution_settings *out)
+{
+    *out = tn_evolution_settings_default();
+    out->seed = options->says_seed ? options->seed : (uint64_t)s->of[TN_SET_SEED].first;
+    out->population = whole(s, TN_SET_POPULATION);
+    out->initialisation = (tn_initialisation)s->of[TN_SET_INITIALISE].choice;
+    out->codons = whole(s, TN_SET_CODONS);
+    out->depth_low = whole(s, TN_SET_DEPTH);
+    out->depth_high = (uint32_t)s->of[TN_SET_DEPTH].second;
+    out->tail = s->of[TN_SET_TAIL].first;
+    translate_operators(s, out);
+    out->elites = whole(s, TN_SET_ELITES);
+    out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
+    out->mapping = tn_map_options_of(grammar);
+    if (s->of[TN_SET_MAX_DEPTH].written)
+        out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
+    if (s->of[TN_SET_WRAPS].written)
+        out->mapping.wraps = whole(s, TN_SET_WRAPS);
+    out->mapping.max_steps = (uint64_t)s->of[TN_SET_MAX_STEPS].first;
+    out->threads = options->threads ? options->threads : tn_crew_default();
+}
+
+/* Everything that decides what the run does, but for how long, a setting a line: two runs of one identity are the same
+ * run. */
+static char *identity_of(const tn_evolution_job *job)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    for (tn_setting i = 0; i < TN_SETTING_COUNT; i++) {
+        tn_setting_value value = job->study.of[i];
+        bool follows = i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
+                       tn_setting_rows[i].kind == TN_SETTING_TEXT; /* from the grammar, or nothing, where not written */
+        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (follows && value.written == 0))
+            continue;
+        if (i == TN_SET_CROSSOVER)
+            value.written = 2; /* its default number is said too */
+        if (i == TN_SET_SEED)
+            fprintf(out, "seed %" PRIu64, job->settings.seed);
+        else
+            tn_setting_write(out, i, &value);
+        fputc('\n', out);
+    }
+    bool written = !ferror(out);
+    if (fclose(out) == 0 && written)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* ---- the problem */
+
+/* The path of the file that a setting names; from here on what fails is that setting's to blame. */
+static tn_status find_data(tn_evolution_job *job, tn_setting setting, const char *study, tn_error *error)
+{
+    free(job->blamed_path);
+    job->blamed = setting;
+    job->blamed_path = beside(study, job->study.of[setting].text);
+    return job->blamed_path ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status read_data(tn_evolution_job *job, tn_setting setting, const char *study, uint8_t **bytes, size_t *size,
+                           tn_error *error)
+{
+    tn_status status = find_data(job, setting, study, error);
+    return status == TN_OK ? tn_file_read(job->blamed_path, DATA_BYTES_MAX, bytes, size, error) : status;
+}
+
+static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_status status = read_data(job, TN_SET_FIT, path, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_problem_fit_csv((const char *)bytes, size, job->settings.threads, &job->problem, error);
+    free(bytes);
+    return status;
+}
+
+static bool weighs_separately(const tn_evolution_job *job)
+{
+    return job->settings.select.selection == TN_SELECT_NSGA2;
+}
+
+static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    const char *schema = job->study.of[TN_SET_SCHEMA].text;
+    job->blamed = TN_SET_SCHEMA;
+    tn_status status = tn_learner_new(schema ? schema : "lahave", path, job->study.of[TN_SET_LENGTH_WEIGHT].first,
+                                      weighs_separately(job), &job->learner, error);
+    static const tn_setting sources[] = {TN_SET_KEEP, TN_SET_DROP};
+    for (size_t i = 0; i < 2 && status == TN_OK; i++) {
+        status = find_data(job, sources[i], path, error);
+        if (status == TN_OK)
+            status = tn_learner_read(job->learner, job->blamed_path, sources[i] == TN_SET_DROP, error);
+    }
+    return status;
+}
+
+static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    tn_status status = find_data(job, TN_SET_GROW, path, error);
+    return status == TN_OK
+               ? tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error)
+               : status;
+}
+
+static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                                char message[200], tn_error *error)
+{
+    (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
+    return tn_fail(error, TN_INTERNAL, 0, "a score is missing in the run's database");
+}
+
+static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
+                              tn_error *error)
+{
+    const tn_evolution_study *s = &job->study;
+    tn_status status = TN_OK;
+    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written;
+    job->extension = learns ? "plan" : grows ? "hemls" : "txt";
+    if (options->only_replay) {
+        job->evaluator = (tn_evaluator){NULL, options->objectives, never_evaluate, NULL};
+        return TN_OK;
+    }
+    if (learns)
+        status = make_learner(job, path, error);
+    else if (grows)
+        status = make_grower(job, path, error);
+    else if (s->of[TN_SET_FIT].written)
+        status = make_fit(job, path, error);
+    else
+        status = tn_problem_match(s->of[TN_SET_MATCH].text, &job->problem, error);
+    if (status == TN_OK)
+        job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
+                         : job->learner ? tn_learner_evaluator(job->learner)
+                                        : tn_problem_evaluator(job->problem);
+    return status;
+}
+
+/* First genomes, one a line. */
+static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size, tn_error *error)
+{
+    size_t line = 0, capacity = 0;
+    for (size_t at = 0; at < size; at++) {
+        const char *end = memchr(text + at, '\n', size - at);
+        size_t length = end ? (size_t)(end - text) - at : size - at;
+        line++;
+        if (length && text[at] != '#' && job->seed_count < job->settings.population) {
+            if (job->seed_count == capacity) {
+                capacity = capacity ? capacity * 2 : 16;
+                tn_genome *grown = realloc(job->seeds, capacity * sizeof *grown);
+                if (!grown)
+                    return tn_fail_memory(error);
+                job->seeds = grown;
+            }
+            job->seeds[job->seed_count] = (tn_genome){0};
+            tn_status status = tn_genome_read(text + at, length, &job->seeds[job->seed_count++], error);
+            if (status != TN_OK) {
+                if (error)
+                    error->line = line;
+                return status;
+            }
+        }
+        at += length;
+    }
+    job->settings.seeds = job->seeds;
+    job->settings.seed_count = job->seed_count;
+    return TN_OK;
+}
+
+static tn_status take_seeds(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
+{
+    if (!job->study.of[TN_SET_SEEDS].written)
+        return TN_OK;
+    uint8_t *bytes = NULL;
+    size_t size;
+    tn_status status = stored ? TN_OK : read_data(job, TN_SET_SEEDS, path, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    job->seeds_text = stored ? strdup(stored) : strndup((const char *)bytes, size);
+    free(bytes);
+    return job->seeds_text ? read_seeds(job, job->seeds_text, strlen(job->seeds_text), error) : tn_fail_memory(error);
+}
+
+tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
+                                const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error)
+{
+    *job = (tn_evolution_job){.study = *study, .blamed = TN_SETTING_COUNT};
+    tn_status status = tn_grammar_new(module, 0, &job->grammar, error);
+    if (status == TN_OK)
+        translate(study, job->grammar, options, &job->settings);
+    if (status == TN_OK)
+        status = take_seeds(job, path, options->stored_seeds, error);
+    if (status == TN_OK)
+        status = make_problem(job, path, options, error);
+    if (status != TN_OK)
+        return status;
+    job->blamed = TN_SETTING_COUNT;
+    job->identity = identity_of(job);
+    return job->identity ? TN_OK : tn_fail_memory(error);
+}

@@ -1,0 +1,212 @@
+/* What a person has of a run: the best sentences, statistics, a plot. All of it is derived from the run's database and
+ * can be made again. */
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "driver/breed/evolve.h"
+#include "runtime/base/file.h"
+#include "runtime/genome/mapping/tree.h"
+
+#define BEST_MAX 10u /* files of best/ for one objective; of several, all of the first front are written */
+
+/* ---- best/ */
+
+/* Files of an earlier call go: the best are others now. Only names that we write are removed. */
+static void empty_best(const char *dir)
+{
+    DIR *folder = opendir(dir);
+    if (!folder)
+        return;
+    for (const struct dirent *entry; (entry = readdir(folder));) {
+        char *path = NULL;
+        const char *name = entry->d_name, *dot = strchr(name, '.');
+        bool ours = dot && dot > name && strspn(name, "0123456789") == (size_t)(dot - name);
+        if (ours && asprintf(&path, "%s/%s", dir, name) >= 0)
+            unlink(path);
+        free(path);
+    }
+    closedir(folder);
+}
+
+static tn_status write_sentence(const char *path, const tn_individual *individual, tn_error *error)
+{
+    tn_output output;
+    tn_status status = tn_output_open(path, &output, error);
+    if (status != TN_OK)
+        return status;
+    fwrite(individual->sentence, 1, individual->sentence_size, output.stream);
+    if (!individual->sentence_size || individual->sentence[individual->sentence_size - 1] != '\n')
+        fputc('\n', output.stream);
+    return tn_output_commit(&output, error);
+}
+
+/* The derivation as a picture; one that is too large to draw is left out. */
+static tn_status draw_derivation(tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
+{
+    tn_map_options options = run->job->settings.mapping;
+    tn_mapper *mapper = tn_mapper_new(run->job->grammar);
+    tn_mapping mapping;
+    tn_tree tree = {0};
+    options.record = true;
+    tn_status status =
+        mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
+               : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
+    if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
+        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, path, error);
+    tn_tree_clear(&tree);
+    tn_mapper_free(mapper);
+    return status;
+}
+
+static tn_status write_individual(tn_run *run, const char *dir, size_t number, const tn_individual *individual,
+                                  tn_error *error)
+{
+    char *sentence = NULL, *picture = NULL;
+    tn_status status = TN_OK;
+    if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 ||
+        asprintf(&picture, "%s/%zu.svg", dir, number) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = write_sentence(sentence, individual, error);
+    const char *const text[] = {individual->sentence};
+    if (status == TN_OK && run->job->grower)
+        status = tn_grower_draw(run->job->grower, text, NULL, 1, sentence, picture, error);
+    else if (status == TN_OK && run->job->learner)
+        status = tn_learner_draw(individual->sentence, picture, error);
+    else if (status == TN_OK)
+        status = draw_derivation(run, picture, individual, error);
+    if (status == TN_LIMIT)
+        status = TN_OK; /* too large to be drawn: the sentence is there */
+    free(sentence);
+    free(picture);
+    return status;
+}
+
+static bool seen_before(const tn_individual *const *members, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (members[k]->hash[0] == members[i]->hash[0] && members[k]->hash[1] == members[i]->hash[1])
+            return true;
+    return false;
+}
+
+static const char *objective_name(const tn_run *run, size_t i)
+{
+    if (run->job->evaluator.objectives == 1)
+        return "score";
+    if (run->job->learner)
+        return i ? "length" : "errors";
+    return tn_grower_objective(run->job->grower, i);
+}
+
+/* scores.csv, beside the files: a line for each. */
+static void list_head(const tn_run *run, FILE *out)
+{
+    fputs("file,individual", out);
+    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
+        fprintf(out, ",%s", objective_name(run, i));
+    fputc('\n', out);
+}
+
+static void list_individual(const tn_run *run, size_t number, const tn_individual *individual, FILE *out)
+{
+    fprintf(out, "%zu.%s,%" PRIu64, number, run->job->extension, individual->id);
+    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
+        fprintf(out, ",%.17g", individual->score.objectives[i]);
+    fputc('\n', out);
+}
+
+/* The best of one objective, or the first front of several. */
+static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_error *error)
+{
+    size_t count, front = tn_evolution_front(run->evolution), written = 0;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    bool several = run->job->evaluator.objectives > 1;
+    tn_status status = TN_OK;
+    list_head(run, list);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        if (several ? i >= front : written >= BEST_MAX)
+            break;
+        if (members[i]->score.state != TN_SCORED || seen_before(members, i))
+            continue;
+        status = write_individual(run, dir, ++written, members[i], error);
+        list_individual(run, written, members[i], list);
+    }
+    return status;
+}
+
+static tn_status write_best(tn_run *run, tn_error *error)
+{
+    char *dir = NULL, *list = NULL;
+    tn_output output;
+    tn_status status = TN_OK;
+    if (asprintf(&dir, "%s/best", run->dir) < 0 || asprintf(&list, "%s/best/scores.csv", run->dir) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_folder_make(dir, error);
+    if (status == TN_OK) {
+        empty_best(dir);
+        status = tn_output_open(list, &output, error);
+    }
+    if (status == TN_OK) {
+        status = write_members(run, dir, output.stream, error);
+        if (status == TN_OK)
+            status = tn_output_commit(&output, error);
+        else
+            tn_output_discard(&output);
+    }
+    free(dir);
+    free(list);
+    return status;
+}
+
+/* ---- stats.csv */
+
+static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size_t count, tn_error *error)
+{
+    char *path = NULL;
+    tn_output output;
+    if (asprintf(&path, "%s/stats.csv", run->dir) < 0)
+        return tn_fail_memory(error);
+    tn_status status = tn_output_open(path, &output, error);
+    if (status == TN_OK) {
+        fputs(
+            "generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth\n",
+            output.stream);
+        for (size_t i = 0; i < count; i++)
+            fprintf(output.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g\n",
+                    stats[i].generation, stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence,
+                    stats[i].failed, stats[i].limited, stats[i].distinct, stats[i].evaluations, stats[i].births,
+                    stats[i].mean_codons, stats[i].mean_depth);
+        status = tn_output_commit(&output, error);
+    }
+    free(path);
+    return status;
+}
+
+tn_status tn_run_results(tn_run *run, tn_error *error)
+{
+    tn_generation_stats *stats = NULL;
+    size_t count;
+    char *plot = NULL;
+    tn_status status = write_best(run, error);
+    if (status == TN_OK)
+        status = tn_run_store_stats(run->store, &stats, &count, error);
+    if (status == TN_OK)
+        status = write_stats(run, stats, count, error);
+    if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_run_plot(stats, count, run->dir, plot, error);
+    free(plot);
+    free(stats);
+    return status;
+}

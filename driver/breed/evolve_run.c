@@ -1,0 +1,422 @@
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "compiler/evolution/evolution.h"
+#include "driver/breed/evolve.h"
+#include "runtime/base/file.h"
+
+char *tn_run_database(const char *dir)
+{
+    char *path = NULL;
+    return asprintf(&path, "%s/run.sqlite", dir) < 0 ? NULL : path;
+}
+
+void tn_run_clear(tn_run *run)
+{
+    tn_evolution_free(run->evolution);
+    tn_run_store_free(run->store);
+    tn_run_events_free(run->changes, run->change_count);
+    free(run->rescored);
+    free(run->dir);
+    *run = (tn_run){0};
+}
+
+/* ---- beginning */
+
+static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
+{
+    char seed[24], objectives[24];
+    const tn_evolution_job *job = run->job;
+    const char *slash = strrchr(texts->study_path, '/');
+    snprintf(seed, sizeof seed, "%" PRIu64, job->settings.seed);
+    snprintf(objectives, sizeof objectives, "%zu", job->evaluator.objectives);
+    const char *const keys[] = {"format", "identity",     "seed",    "objectives", "study_path",
+                                "study",  "grammar_path", "grammar", "seeds"};
+    const char *const values[] = {"1",
+                                  job->identity,
+                                  seed,
+                                  objectives,
+                                  slash ? slash + 1 : texts->study_path,
+                                  texts->study_text,
+                                  texts->grammar_path,
+                                  texts->grammar_text,
+                                  job->seeds_text};
+    size_t count = sizeof keys / sizeof *keys;
+    return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
+}
+
+static void start_anew(tn_error *error)
+{
+    tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+}
+
+/* The identity has a setting a line: the first that differs is named. */
+static tn_status same_study(tn_run *run, tn_error *error)
+{
+    char *stored;
+    tn_status status = tn_run_store_get_meta(run->store, "identity", &stored, error);
+    const char *was = stored ? stored : "", *is = run->job->identity;
+    if (status == TN_OK && strcmp(was, is) != 0) {
+        while (strcspn(was, "\n") == strcspn(is, "\n") && *was && strncmp(was, is, strcspn(is, "\n") + 1) == 0) {
+            size_t line = strcspn(is, "\n") + 1;
+            was += line;
+            is += line;
+        }
+        status = tn_fail(error, TN_INVALID, 1252,
+                         "the run in %.100s was started with another study: it has `%.*s`, and this one `%.*s`",
+                         run->dir, (int)strcspn(was, "\n"), was, (int)strcspn(is, "\n"), is);
+        start_anew(error);
+    }
+    free(stored);
+    return status;
+}
+
+static tn_status same_grammar(tn_run *run, const char *now, tn_error *error)
+{
+    char *stored;
+    tn_status status = tn_run_store_get_meta(run->store, "grammar", &stored, error);
+    if (status == TN_OK && (!stored || strcmp(stored, now) != 0)) {
+        status = tn_fail(error, TN_INVALID, 1252, "the run in %.200s was started with another grammar", run->dir);
+        start_anew(error);
+    }
+    free(stored);
+    return status;
+}
+
+/* ---- changes of targets and weights */
+
+/* The word that a change is about, with its length. */
+static size_t subject_of(const char *change)
+{
+    return strcspn(change, " ");
+}
+
+/* Is this what the last change of the same subject said? */
+static bool holds_already(const tn_run *run, const char *change)
+{
+    size_t length = subject_of(change);
+    for (size_t i = run->change_count; i-- > 0;)
+        if (subject_of(run->changes[i].text) == length && strncmp(run->changes[i].text, change, length) == 0)
+            return strcmp(run->changes[i].text, change) == 0;
+    return false;
+}
+
+static tn_status remember_change(tn_run *run, uint32_t generation, const char *change, tn_error *error)
+{
+    tn_run_event *grown = realloc(run->changes, (run->change_count + 1) * sizeof *grown);
+    if (!grown)
+        return tn_fail_memory(error);
+    run->changes = grown;
+    grown[run->change_count++] = (tn_run_event){generation, strdup("set"), strdup(change)};
+    return grown[run->change_count - 1].kind && grown[run->change_count - 1].text ? TN_OK : tn_fail_memory(error);
+}
+
+static int compare_rescored(const void *left, const void *right)
+{
+    const tn_rescored *a = left, *b = right;
+    return a->id < b->id ? -1 : a->id > b->id;
+}
+
+static tn_status keep_rescored(tn_run *run, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    tn_rescored *kept = calloc(count + 1, sizeof *kept);
+    if (!kept)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        kept[i] = (tn_rescored){members[i]->id, members[i]->score};
+    qsort(kept, count, sizeof *kept, compare_rescored);
+    free(run->rescored);
+    run->rescored = kept;
+    run->rescored_count = count;
+    return TN_OK;
+}
+
+tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
+{
+    const tn_evaluator *evaluator = &run->job->evaluator;
+    if (run->generations == 0 || !evaluator->adjust) {
+        tn_fail(error, TN_INVALID, 1232,
+                run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
+        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning"
+                                              : "change the study itself");
+        return TN_INVALID;
+    }
+    if (holds_already(run, change))
+        return TN_OK;
+    tn_status status = evaluator->adjust(evaluator->context, change, error);
+    if (status == TN_OK)
+        status = remember_change(run, run->generations, change, error);
+    if (status == TN_OK) {
+        run->new_changes++;
+        status = tn_evolution_rescore(run->evolution, error);
+    }
+    return status == TN_OK ? keep_rescored(run, error) : status;
+}
+
+typedef struct rescored_list {
+    const tn_rescored *items;
+    size_t count;
+} rescored_list;
+
+static bool recall_rescored(void *context, uint64_t id, tn_score *score)
+{
+    const rescored_list *list = context;
+    tn_rescored key = {.id = id};
+    const tn_rescored *found = bsearch(&key, list->items, list->count, sizeof key, compare_rescored);
+    if (found)
+        *score = found->score;
+    return found != NULL;
+}
+
+/* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
+static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error *error)
+{
+    const tn_evaluator *evaluator = &run->job->evaluator;
+    rescored_list list = {0};
+    tn_rescored *items = NULL;
+    tn_status status = evaluator->adjust ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
+    if (status == TN_OK)
+        status = remember_change(run, event->generation, event->text, error);
+    if (status == TN_OK)
+        status =
+            tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
+    list.items = items;
+    if (status == TN_OK) {
+        tn_evolution_recall(run->evolution, recall_rescored, &list);
+        status = tn_evolution_rescore(run->evolution, error);
+    }
+    free(items);
+    return status;
+}
+
+static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error *error)
+{
+    tn_genome places = {0}; /* numbers parted by blanks, which is how genomes are read */
+    tn_status status = tn_genome_read(event->text, strlen(event->text), &places, error);
+    uint32_t *chosen = calloc(places.count + 1, sizeof *chosen);
+    for (size_t i = 0; chosen && i < places.count; i++)
+        chosen[i] = (uint32_t)(places.codons[i] - 1);
+    if (status == TN_OK)
+        status = chosen ? tn_evolution_choose(run->evolution, chosen, places.count, error) : tn_fail_memory(error);
+    free(chosen);
+    tn_genome_clear(&places);
+    return status;
+}
+
+/* Makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
+static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
+{
+    uint32_t count;
+    tn_run_scores scores = {0};
+    tn_run_event *events = NULL;
+    size_t event_count = 0;
+    tn_status status = tn_run_store_generations(run->store, &count, error);
+    if (status == TN_OK)
+        status = tn_run_store_scores(run->store, run->job->evaluator.objectives, &scores, error);
+    if (status == TN_OK)
+        status = tn_run_store_events(run->store, &events, &event_count, error);
+    tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+    for (size_t at = 0; status == TN_OK && run->generations < count; run->generations++) {
+        if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
+            break;
+        for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++)
+            status = strcmp(events[at].kind, "set") == 0 ? repeat_change(run, &events[at], error)
+                                                         : repeat_choice(run, &events[at], error);
+        tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+        if (status == TN_OK)
+            status = tn_evolution_step(run->evolution, error);
+        if (status == TN_OK)
+            status = tn_run_store_check(run->store, run->evolution, error);
+    }
+    tn_evolution_recall(run->evolution, NULL, NULL);
+    tn_run_scores_clear(&scores);
+    tn_run_events_free(events, event_count);
+    return status;
+}
+
+static tn_status begin_new(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
+                           tn_error *error)
+{
+    tn_status status = tn_run_store_create(path, options->durable, &run->store, error);
+    return status == TN_OK ? put_meta(run, texts, error) : status;
+}
+
+/* What was killed while it began begins again. */
+static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
+                               tn_error *error)
+{
+    bool begun;
+    if (!options->resume || access(path, F_OK) != 0)
+        return begin_new(run, path, options, texts, error);
+    tn_status status = tn_run_store_begun(path, &begun, error);
+    if (status != TN_OK)
+        return status;
+    if (!begun && unlink(path) != 0)
+        return tn_fail(error, TN_IO, 902, "cannot begin %.200s again: %s", path, strerror(errno));
+    if (!begun)
+        return begin_new(run, path, options, texts, error);
+    status = tn_run_store_open(path, options->durable, false, &run->store, error);
+    if (status == TN_OK)
+        status = same_study(run, error);
+    if (status == TN_OK)
+        status = same_grammar(run, texts->grammar_text, error);
+    return status == TN_OK ? repeat(run, UINT64_MAX, error) : status;
+}
+
+tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
+                       tn_run *run, tn_error *error)
+{
+    *run = (tn_run){.job = job, .dir = strdup(dir)};
+    char *path = tn_run_database(dir);
+    tn_status status = run->dir && path ? tn_folder_make(dir, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
+    if (status == TN_OK)
+        status = open_or_begin(run, path, options, texts, error);
+    free(path);
+    return status;
+}
+
+/* ---- going on */
+
+static char *places_text(const uint32_t *chosen, size_t count)
+{
+    char *text = malloc(count * 12 + 1);
+    size_t size = 0;
+    if (!text)
+        return NULL;
+    text[0] = '\0';
+    for (size_t i = 0; i < count; i++)
+        size += (size_t)sprintf(text + size, i ? " %u" : "%u", chosen[i] + 1);
+    return text;
+}
+
+tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error)
+{
+    char kind[] = "choose", *text = chosen ? places_text(chosen, chosen_count) : NULL;
+    size_t count = run->new_changes;
+    tn_run_event *events = calloc(count + 1, sizeof *events);
+    if (!events || (chosen && !text)) {
+        free(events);
+        free(text);
+        return tn_fail_memory(error);
+    }
+    for (size_t i = 0; i < count; i++)
+        events[i] = run->changes[run->change_count - count + i];
+    if (chosen)
+        events[count++] = (tn_run_event){0, kind, text};
+    tn_status status = chosen ? tn_evolution_choose(run->evolution, chosen, chosen_count, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_evolution_step(run->evolution, error);
+    if (status == TN_OK)
+        status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count,
+                                  run->rescored, run->new_changes ? run->rescored_count : 0, error);
+    if (status == TN_OK) {
+        run->generations++;
+        run->new_changes = 0;
+    }
+    free(events);
+    free(text);
+    return status;
+}
+
+bool tn_run_reached(const tn_run *run)
+{
+    const tn_setting_value *stop = &run->job->study.of[TN_SET_STOP];
+    return stop->written && run->generations && tn_evolution_stats(run->evolution).best[0] <= stop->first;
+}
+
+/* ---- replay */
+
+static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
+{
+    char *path = NULL, *text = NULL;
+    tn_status status = tn_run_store_get_meta(run->store, "grammar_path", &path, error);
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(run->store, "grammar", &text, error);
+    if (status == TN_OK && (!path || !text))
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no grammar");
+    if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)
+        status = tn_fail(error, TN_INVALID, 1252, "the run's grammar does not compile with this version of tartan");
+    free(path);
+    free(text);
+    return status;
+}
+
+/* The settings of the stored study; its texts live in the arena of `opened`. */
+static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study *study, tn_error *error)
+{
+    char *text = NULL;
+    uint32_t file;
+    tn_compilation *c = &opened->compilation;
+    tn_status status = tn_run_store_get_meta(run->store, "study", &text, error);
+    if (status == TN_OK && !text)
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no study");
+    if (status == TN_OK)
+        status = tn_sources_add(&c->sources, "run.study", text, strlen(text), &file, error);
+    if (status == TN_OK && !tn_evolution_settings_read(&c->sources, file, &c->diagnostics, c->arena, study))
+        status = tn_fail(error, TN_INVALID, 1252, "the run's study cannot be read by this version of tartan");
+    free(text);
+    return status;
+}
+
+static tn_status stored_number(tn_run *run, const char *key, uint64_t *number, tn_error *error)
+{
+    char *text = NULL;
+    tn_status status = tn_run_store_get_meta(run->store, key, &text, error);
+    if (status == TN_OK && !(text && *text))
+        status = tn_fail(error, TN_INVALID, 1251, "the run's database does not say its %s", key);
+    if (status == TN_OK)
+        *number = strtoull(text, NULL, 10);
+    free(text);
+    return status;
+}
+
+tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,
+                        const tn_individual **individual, tn_error *error)
+{
+    tn_evolution_study study;
+    tn_evolution_job_options options = {.only_replay = true, .says_seed = true};
+    char *seeds = NULL, *path = tn_run_database(dir);
+    *individual = NULL;
+    *run = (tn_run){.job = job, .dir = strdup(dir)};
+    tn_status status =
+        path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
+    free(path);
+    if (status == TN_OK)
+        status = compile_stored(run, opened, error);
+    if (status == TN_OK)
+        status = read_stored(run, opened, &study, error);
+    if (status == TN_OK)
+        status = stored_number(run, "seed", &options.seed, error);
+    if (status == TN_OK)
+        status = stored_number(run, "objectives", &options.objectives, error);
+    if (status == TN_OK)
+        status = tn_run_store_get_meta(run->store, "seeds", &seeds, error);
+    options.stored_seeds = seeds;
+    if (status == TN_OK)
+        status = tn_evolution_job_make(&study, dir, opened->module, &options, job, error);
+    free(seeds);
+    if (status == TN_OK)
+        status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
+    if (status == TN_OK)
+        status = repeat(run, id, error);
+    size_t born = 0;
+    const tn_individual *const *newest =
+        status == TN_OK && run->generations ? tn_evolution_born(run->evolution, &born) : NULL;
+    for (size_t i = 0; i < born; i++)
+        if (newest[i]->id == id)
+            *individual = newest[i];
+    if (status == TN_OK && !*individual) {
+        status = tn_fail(error, TN_INVALID, 1241, "the run has no individual %" PRIu64, id);
+        tn_error_help(error, "its folder has the best (best/scores.csv), its run.sqlite all");
+    }
+    return status;
+}

@@ -1,0 +1,245 @@
+#include "driver/breed/grower.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "driver/open/open.h"
+#include "runtime/growth/picture/draw.h"
+#include "runtime/growth/study.h"
+
+struct tn_grower {
+    tn_opened opened; /* of the study */
+    tn_study study;
+    bool separately;
+    uint32_t goals[TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX]; /* that are wanted: terms, then named expressions */
+    size_t goal_count;
+    tn_growth **growths; /* by thread: each grows one surface after another in the same memory; NULL before the first */
+    unsigned threads;
+};
+
+void tn_grower_free(tn_grower *g)
+{
+    if (!g)
+        return;
+    for (unsigned t = 0; g->growths && t < g->threads; t++)
+        tn_growth_free(g->growths[t]);
+    free(g->growths);
+    tn_study_clear(&g->study);
+    tn_close(&g->opened);
+    free(g);
+}
+
+static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
+{
+    if (tn_open(path, false, &g->opened) != TN_OK) {
+        return tn_fail(error, TN_INVALID, 1245, "the growth study %.100s cannot be used: %.300s", path,
+                       tn_first_error(&g->opened));
+    }
+    tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
+    for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
+        if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
+            g->goals[g->goal_count++] = goal;
+    if (status == TN_OK && g->separately && g->goal_count > TN_OBJECTIVES_MAX) {
+        status = tn_fail(error, TN_LIMIT, 1245, "the growth study %.200s wants %zu things; `selection nsga2` weighs %u",
+                         path, g->goal_count, TN_OBJECTIVES_MAX);
+        tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
+    }
+    if (status == TN_OK && g->goal_count == 0) {
+        status = tn_fail(error, TN_INVALID, 1245, "the growth study %.200s wants nothing of a surface", path);
+        tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
+    }
+    g->study.options.threads = 1;
+    if (g->study.options.edge_limit == 0)
+        g->study.options.edge_limit = TN_GROWER_EDGES;
+    return status;
+}
+
+tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error)
+{
+    tn_grower *g = calloc(1, sizeof *g);
+    *grower = g;
+    if (!g)
+        return tn_fail_memory(error);
+    g->separately = separately;
+    g->threads = threads;
+    g->growths = calloc(threads, sizeof(tn_growth *));
+    tn_status status = g->growths ? open_study(g, study, error) : tn_fail_memory(error);
+    if (status != TN_OK) {
+        tn_grower_free(g);
+        *grower = NULL;
+    }
+    return status;
+}
+
+/* ---- one growth */
+
+/* A sentence compiled. */
+typedef struct rules {
+    tn_opened opened;
+    tn_growth_system *system;
+} rules;
+
+static void rules_clear(rules *r)
+{
+    tn_growth_system_free(r->system);
+    tn_close(&r->opened);
+}
+
+/* Compiles a sentence and grows its surface; *growth, where there is one, is used again. */
+static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rules *r, tn_growth **growth,
+                      tn_error *error)
+{
+    const tn_study *study = &g->study;
+    *r = (rules){0};
+    tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &r->opened);
+    if (status != TN_OK)
+        return tn_open_error(&r->opened, status, error);
+    status = tn_growth_system_read(r->opened.module, &r->system, error);
+    if (status == TN_OK)
+        status = *growth ? tn_growth_renew(*growth, r->system, &study->environment, &study->options, error)
+                         : tn_growth_new(r->system, &study->environment, &study->options, growth, error);
+    for (uint32_t step = 0; status == TN_OK && step < study->steps && !tn_growth_at_rest(*growth); step++)
+        status = tn_growth_step(*growth, error);
+    return status;
+}
+
+static const char *name_of(const tn_grower *g, uint32_t goal)
+{
+    return goal < TN_FITNESS_TERM_COUNT ? tn_measured_names[goal]
+                                        : g->study.goal.named[goal - TN_FITNESS_TERM_COUNT].name;
+}
+
+/* An expression may have no value for a surface: a division by its undulation, where it is flat. */
+static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
+{
+    double side = g->study.options.start_length, total = 0;
+    for (size_t i = 0; i < g->goal_count; i++) {
+        double part = tn_fitness_part(fitness, &g->study.goal, g->goals[i], side);
+        if (!isfinite(part)) {
+            score->state = TN_SCORE_FAILED;
+            snprintf(message, 200, "the fitness term `%.100s` has no value for this surface", name_of(g, g->goals[i]));
+            return;
+        }
+        total += part;
+        if (g->separately)
+            score->objectives[i] = part;
+    }
+    if (!g->separately)
+        score->objectives[0] = total;
+}
+
+static tn_status score_growth(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                              char message[200], tn_error *error)
+{
+    const tn_grower *g = context;
+    tn_error own = {0};
+    rules compiled;
+    tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
+    if (status == TN_OK) {
+        tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
+        score_goals(g, &fitness, score, message);
+    }
+    rules_clear(&compiled);
+    return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
+}
+
+static bool find_goal(const tn_grower *g, const char *name, uint32_t *goal)
+{
+    for (size_t i = 0; i < g->goal_count; i++) {
+        *goal = g->goals[i];
+        if (strcasecmp(name_of(g, *goal), name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Reads "target 3 weight 2", in any order. */
+static bool read_wish(const char *text, double *target, double *weight)
+{
+    while (text[strspn(text, " ")]) {
+        char what[16];
+        double value;
+        int read;
+        if (sscanf(text, "%15s %lf%n", what, &value, &read) != 2 || !(fabs(value) <= TN_COORDINATE_MAX))
+            return false;
+        if (strcasecmp(what, "target") == 0)
+            *target = value;
+        else if (strcasecmp(what, "weight") == 0 && value >= 0)
+            *weight = value;
+        else
+            return false;
+        text += read;
+    }
+    return true;
+}
+
+/* "undulation target 3", "size weight 2", "size target 3 weight 2" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_grower *g = context;
+    char name[TN_NAME_MAX + 1];
+    size_t length = strcspn(change, " ");
+    uint32_t goal = 0;
+    tn_fitness_goal *wants = &g->study.goal;
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), change);
+    bool found = find_goal(g, name, &goal), is_term = goal < TN_FITNESS_TERM_COUNT;
+    tn_named_goal *named = found && !is_term ? &wants->named[goal - TN_FITNESS_TERM_COUNT] : NULL;
+    double target = !found    ? 0
+                    : is_term ? wants->target[goal]
+                              : named->target,
+           weight = !found    ? 0
+                    : is_term ? wants->weight[goal]
+                              : named->weight;
+    if (!found || !change[length] || !read_wish(change + length, &target, &weight)) {
+        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
+                      name_of(g, g->goals[0]));
+        return TN_INVALID;
+    }
+    *(is_term ? &wants->target[goal] : &named->target) = target;
+    *(is_term ? &wants->weight[goal] : &named->weight) = weight;
+    return TN_OK;
+}
+
+tn_evaluator tn_grower_evaluator(tn_grower *grower)
+{
+    return (tn_evaluator){grower, grower->separately ? grower->goal_count : 1, score_growth, adjust};
+}
+
+const char *tn_grower_objective(const tn_grower *g, size_t i)
+{
+    return name_of(g, g->goals[i]);
+}
+
+/* ---- pictures */
+
+tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const char *const *labels, size_t count,
+                         const char *title, const char *path, tn_error *error)
+{
+    tn_canvas_format format;
+    tn_view **views = calloc(count + 1, sizeof *views);
+    tn_camera camera = tn_camera_default();
+    tn_growth *growth = NULL;
+    size_t drawn = 0;
+    if (count > 1)
+        camera.width = 200;
+    tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        rules compiled;
+        status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
+        if (status == TN_OK)
+            status = tn_view_take(growth, &camera, &views[drawn++], error);
+        rules_clear(&compiled);
+    }
+    tn_view_options options = {.title = title, .labels = labels};
+    if (status == TN_OK && drawn)
+        status = tn_views_draw(views, drawn, &options, path, format, error);
+    for (size_t i = 0; views && i < drawn; i++)
+        tn_view_free(views[i]);
+    tn_growth_free(growth);
+    free(views);
+    return status;
+}

@@ -1,0 +1,28 @@
+/* Scoring rule files by what they grow: a sentence is a .hemls text; it is compiled, grown as a growth study says, and
+ * measured against the study's fitness terms. */
+#ifndef TARTAN_DRIVER_BREED_GROWER_H
+#define TARTAN_DRIVER_BREED_GROWER_H
+
+#include "runtime/genome/breeding/evolve.h"
+
+typedef struct tn_grower tn_grower;
+
+#define TN_GROWER_EDGES 50000u /* edges of one growth, where the study has no limit of its own */
+
+/* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are
+ * not grown. With `separately`, each term is an objective; else their sum is the one. Sentences are scored by up to
+ * `threads` threads. TN_INVALID (E1245) where it cannot be used. */
+tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error);
+void tn_grower_free(tn_grower *grower);
+
+tn_evaluator tn_grower_evaluator(tn_grower *grower);
+
+/* What objective `i` is, where each is one: a term, or the name of an expression. */
+const char *tn_grower_objective(const tn_grower *grower, size_t i);
+
+/* Grows sentences that could be scored, and draws them side by side in their order, each over its label (`labels` may
+ * be NULL). */
+tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, const char *const *labels, size_t count,
+                         const char *title, const char *path, tn_error *error);
+
+#endif

@@ -1,0 +1,235 @@
+#include "driver/breed/learn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open/open.h"
+#include "runtime/plan/match/rules.h"
+#include "runtime/plan/picture/draw_rule.h"
+#include "runtime/plan/text/stream.h"
+
+#define EXAMPLES_MAX 1000000u
+#define STATES_MAX 2000u /* of a rule's automaton: what needs more is no rule that a person would keep */
+
+typedef struct example {
+    size_t first; /* tray */
+    size_t length;
+    bool drop;
+} example;
+
+struct tn_learner {
+    example *examples;
+    size_t count, capacity;
+    tn_opened opened; /* what declares the schema */
+    char *user;       /* the path that it was opened by */
+    tn_schema *schema;
+    tn_tray *trays;
+    size_t tray_count, tray_capacity;
+    double length_weight;
+    bool separately;
+};
+
+void tn_learner_free(tn_learner *l)
+{
+    if (!l)
+        return;
+    free(l->examples);
+    free(l->trays);
+    tn_schema_free(l->schema);
+    tn_close(&l->opened);
+    free(l->user);
+    free(l);
+}
+
+static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_error *error)
+{
+    if (l->count == EXAMPLES_MAX)
+        return tn_fail(error, TN_LIMIT, 1244, "there are more than %u examples, the limit", EXAMPLES_MAX);
+    if (l->count == l->capacity) {
+        size_t capacity = l->capacity ? l->capacity * 2 : 256;
+        example *grown = realloc(l->examples, capacity * sizeof *grown);
+        if (!grown)
+            return tn_fail_memory(error);
+        l->examples = grown;
+        l->capacity = capacity;
+    }
+    if (l->tray_count + plan->length > l->tray_capacity) {
+        size_t capacity = (l->tray_count + plan->length) * 2;
+        tn_tray *grown = realloc(l->trays, capacity * sizeof *grown);
+        if (!grown)
+            return tn_fail_memory(error);
+        l->trays = grown;
+        l->tray_capacity = capacity;
+    }
+    l->examples[l->count++] = (example){l->tray_count, plan->length, drop};
+    if (plan->length)
+        memcpy(l->trays + l->tray_count, plan->trays, plan->length * sizeof *plan->trays);
+    l->tray_count += plan->length;
+    return TN_OK;
+}
+
+static tn_status read_examples(tn_learner *l, const tn_schema *schema, const char *path, bool drop, tn_error *error)
+{
+    tn_plan_reader *reader = NULL;
+    const tn_plan *plan;
+    tn_status status = tn_plan_reader_open(schema, path, NULL, &reader, error);
+    if (status != TN_OK)
+        return status;
+    while ((status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan)
+        if ((status = add_example(l, plan, drop, error)) != TN_OK)
+            break;
+    tn_plan_reader_free(reader);
+    return status;
+}
+
+/* Compiles a rule that only serves to have the schema. */
+static tn_status find_schema(tn_learner *l, const char *name, const char *user, tn_error *error)
+{
+    char text[320];
+    const char *slash = strrchr(user, '/');
+    int folder = slash ? (int)(slash - user) + 1 : 0;
+    snprintf(text, sizeof text, "use \"%.200s\"\nrule learned = any\n", name);
+    if (asprintf(&l->user, "%.*sexamples.plan", folder, user) < 0) {
+        l->user = NULL;
+        return tn_fail_memory(error);
+    }
+    tn_status status = tn_open_bytes(l->user, (const uint8_t *)text, strlen(text), false, &l->opened);
+    if (status != TN_OK) {
+        status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
+        tn_error_help(error, "name a .plan file that declares it, or one of the standard library, as \"lahave\"");
+    } else {
+        const tn_module *module = l->opened.module;
+        status = tn_schema_new(module, module->RULE_records[module->RULE_count - 1].schema, 0, &l->schema, error);
+    }
+    return status;
+}
+
+tn_status tn_learner_new(const char *schema, const char *user, double length_weight, bool separately,
+                         tn_learner **learner, tn_error *error)
+{
+    tn_learner *l = calloc(1, sizeof *l);
+    *learner = l;
+    if (!l)
+        return tn_fail_memory(error);
+    l->length_weight = length_weight;
+    l->separately = separately;
+    tn_status status = find_schema(l, schema, user, error);
+    if (status != TN_OK) {
+        tn_learner_free(l);
+        *learner = NULL;
+    }
+    return status;
+}
+
+tn_status tn_learner_read(tn_learner *learner, const char *path, bool drop, tn_error *error)
+{
+    size_t before = learner->count;
+    tn_status status = read_examples(learner, learner->schema, path, drop, error);
+    if (status != TN_OK || learner->count > before)
+        return status;
+    tn_fail(error, TN_INVALID, 1244, "%.200s holds no plans to learn from", path);
+    tn_error_help(error, "one plan a line, as `tartan sample` writes them");
+    return TN_INVALID;
+}
+
+/* ---- scoring a rule */
+
+static tn_status count_wrong(const tn_learner *l, const tn_rules *rules, uint64_t *wrong, tn_error *error)
+{
+    tn_matcher *matcher = NULL;
+    tn_status status = tn_matcher_new(rules, &matcher, error);
+    *wrong = 0;
+    for (size_t i = 0; i < l->count && status == TN_OK; i++) {
+        uint64_t bits = 0;
+        status = tn_match(matcher, l->trays + l->examples[i].first, l->examples[i].length, &bits, error);
+        *wrong += (bits & 1) != l->examples[i].drop;
+    }
+    tn_matcher_free(matcher);
+    return status;
+}
+
+static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *wrong, tn_error *error)
+{
+    if (module->RULE_count == 0)
+        return tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+    const tn_rule_record *rule = &module->RULE_records[module->RULE_count - 1];
+    tn_rules_options options = {.engine = TN_ENGINE_DFA, .max_states = STATES_MAX};
+    tn_schema *schema = NULL;
+    tn_rules *rules = NULL;
+    tn_status status = tn_schema_new(module, rule->schema, 0, &schema, error);
+    if (status == TN_OK && schema->tray_count != l->schema->tray_count)
+        status = tn_fail(error, TN_INVALID, 0, "the rule is of another schema than the examples");
+    if (status == TN_OK)
+        status = tn_rules_new(schema, &rule->holds, 1, &options, &rules, error);
+    if (status == TN_OK)
+        status = count_wrong(l, rules, wrong, error);
+    tn_rules_free(rules);
+    tn_schema_free(schema);
+    return status;
+}
+
+static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                            char message[200], tn_error *error)
+{
+    const tn_learner *l = context;
+    tn_opened opened;
+    tn_error own = {0};
+    uint64_t wrong = 0;
+    (void)thread;
+    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, size, false, &opened);
+    if (status != TN_OK)
+        tn_open_error(&opened, status, &own);
+    else
+        status = judge(l, opened.module, &wrong, &own);
+    tn_close(&opened);
+    if (status != TN_OK)
+        return tn_score_refuse(status, &own, score, message, error);
+    score->objectives[0] = (double)wrong + (l->separately ? 0 : l->length_weight * (double)size);
+    score->objectives[1] = (double)size;
+    return TN_OK;
+}
+
+/* "length-weight 0.01" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_learner *l = context;
+    static const char name[] = "length-weight ";
+    char *end = NULL;
+    double weight = strncmp(change, name, sizeof name - 1) == 0 ? strtod(change + sizeof name - 1, &end) : -1;
+    if (!end || end == change + sizeof name - 1 || *end || !(weight >= 0 && weight <= 1000)) {
+        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_error_help(error, "a run that learns a rule has `length-weight X`, from 0 to 1000");
+        return TN_INVALID;
+    }
+    l->length_weight = weight;
+    return TN_OK;
+}
+
+tn_evaluator tn_learner_evaluator(tn_learner *learner)
+{
+    return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule, adjust};
+}
+
+/* ---- pictures */
+
+tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *error)
+{
+    tn_opened opened;
+    tn_schema *schema = NULL;
+    tn_picture picture = {.path = path};
+    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, strlen(sentence), false, &opened);
+    const tn_module *module = opened.module;
+    if (status != TN_OK || module->RULE_count == 0) {
+        status = tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+    } else {
+        uint32_t rule = (uint32_t)module->RULE_count - 1;
+        tn_drawn_rule drawn = tn_drawn_rule_of(module, rule);
+        status = tn_schema_new(module, module->RULE_records[rule].schema, 0, &schema, error);
+        if (status == TN_OK)
+            status = tn_rules_draw(schema, &drawn, 1, &picture, error);
+    }
+    tn_schema_free(schema);
+    tn_close(&opened);
+    return status;
+}

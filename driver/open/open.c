@@ -1,0 +1,133 @@
+#include "driver/open/open.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "driver/open/stdlib_dirs.h"
+#include "driver/open/stdlib_find.h"
+#include "driver/open/suggest_file.h"
+#include "runtime/base/file.h"
+
+static void start(const char *path, tn_opened *opened)
+{
+    *opened = (tn_opened){.path = path};
+    tn_diagnostics_init(&opened->compilation.diagnostics, &opened->compilation.sources);
+}
+
+static tn_status refuse(tn_opened *opened, const tn_error *error)
+{
+    tn_report_error(&opened->compilation.diagnostics, error, opened->path, NULL, 0);
+    return error->status;
+}
+
+static tn_status compile(tn_opened *opened, const uint8_t *bytes, size_t size, bool warnings_are_errors)
+{
+    tn_stdlib_dirs found;
+    tn_error error;
+    tn_status status = tn_stdlib_dirs_find(&found, &error);
+    if (status == TN_OK) {
+        tn_compile_options options = {.stdlib_dirs = (const char *const *)found.dirs,
+                                      .stdlib_dir_count = found.count,
+                                      .warnings_are_errors = warnings_are_errors};
+        tn_diagnostics_clear(&opened->compilation.diagnostics);
+        status = tn_compile_text(opened->path, (const char *)bytes, size, &options, &opened->compilation);
+    } else {
+        refuse(opened, &error);
+    }
+    tn_stdlib_dirs_clear(&found);
+    if (status != TN_OK)
+        return status;
+    opened->compiled = true;
+    status = tn_module_load(opened->compilation.module, opened->compilation.module_size, NULL, &opened->module, &error);
+    return status == TN_OK ? TN_OK : refuse(opened, &error);
+}
+
+/* A module brings its sources along: findings then show the same lines as when it was compiled. */
+static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
+{
+    tn_error error;
+    tn_status status = tn_module_load(bytes, size, NULL, &opened->module, &error);
+    const tn_module *module = opened->module;
+    for (size_t i = 0; status == TN_OK && i < module->SOURCE_count; i++) {
+        const char *text = tn_text(module, module->SOURCE_records[i].text);
+        uint32_t file;
+        status = tn_sources_add(&opened->compilation.sources, tn_text(module, module->SOURCE_records[i].path), text,
+                                strlen(text), &file, &error);
+    }
+    return status == TN_OK ? TN_OK : refuse(opened, &error);
+}
+
+tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
+                        tn_opened *opened)
+{
+    start(path, opened);
+    return tn_module_has_magic(bytes, size) ? load(opened, bytes, size)
+                                            : compile(opened, bytes, size, warnings_are_errors);
+}
+
+/* Reads the file that the path names, or the one of the standard library. */
+static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    *found = (tn_stdlib_file){0};
+    bool name = tn_stdlib_may_mean(path);
+    tn_status status = name ? tn_stdlib_find(path, found, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    status = tn_file_read(found->path ? found->path : path, tn_module_limits_default().bytes, bytes, size, error);
+    if (status == TN_IO && !found->path && access(path, F_OK) != 0 && !tn_suggest_file(path, error))
+        tn_stdlib_suggest(path, error);
+    return status;
+}
+
+tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
+{
+    uint8_t *bytes = NULL;
+    size_t size;
+    tn_error error;
+    tn_stdlib_file found;
+    tn_status status = read_named(path, &found, &bytes, &size, &error);
+    if (status == TN_OK) {
+        status = tn_open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, opened);
+        opened->path = path; /* the recorded path ends here */
+    } else {
+        start(path, opened);
+        status = refuse(opened, &error);
+    }
+    tn_stdlib_file_clear(&found);
+    free(bytes);
+    return status;
+}
+
+const char *tn_opened_help(const tn_opened *opened, const char *otherwise)
+{
+    const tn_module *module = opened->module;
+    if (module->SETTING_count)
+        return "it is a study to be evolved: `tartan evolve` and `tartan breed` take it";
+    if (module->GRAMMAR_count)
+        return "it is a grammar that genomes are mapped through: `tartan map` takes it";
+    if (module->GROWTH_count)
+        return "it says how a surface grows: `tartan grow` takes it";
+    return otherwise;
+}
+
+const char *tn_first_error(const tn_opened *opened)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].severity == TN_ERROR)
+            return list->items[i].message;
+    return "it does not compile";
+}
+
+tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error)
+{
+    return status == TN_MEMORY ? tn_fail_memory(error) : tn_fail(error, status, 0, "%.400s", tn_first_error(opened));
+}
+
+void tn_close(tn_opened *opened)
+{
+    tn_module_free(opened->module);
+    tn_compilation_clear(&opened->compilation);
+    *opened = (tn_opened){0};
+}

@@ -1,0 +1,41 @@
+/* From a path to a module ready to run: a rule file is compiled, a module is loaded; which of the two it is, its first
+ * bytes say. Either way the sources are at hand, so that whatever an engine finds can be shown in the author's own
+ * words.
+ *
+ * A tn_opened owns everything reached through it. Close it in any case, also after a failure.
+ */
+#ifndef TARTAN_DRIVER_OPEN_OPEN_H
+#define TARTAN_DRIVER_OPEN_OPEN_H
+
+#include "compiler/compile.h"
+#include "runtime/module/module.h"
+
+typedef struct tn_opened {
+    const char *path;           /* borrowed */
+    tn_compilation compilation; /* sources and diagnostics always; program and bytes only where compiled */
+    tn_module *module;          /* NULL where opening failed */
+    bool compiled;
+} tn_opened;
+
+/* Opens the file at `path` ("-": standard input); a name that no file has, without folder and extension, means a file
+ * of the standard library. The diagnostics of `opened` say what is wrong. TN_INVALID where the
+ * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
+tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
+
+/* The same from bytes in memory; `path` is what diagnostics call it. */
+tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
+                        tn_opened *opened);
+
+/* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
+ * holds nothing of another kind than plan rules. */
+const char *tn_opened_help(const tn_opened *opened, const char *otherwise);
+
+/* What is wrong in a file that could not be opened, the first of it, in a sentence. */
+const char *tn_first_error(const tn_opened *opened);
+
+/* Puts that into an error, with the status of opening, which is returned. */
+tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error);
+
+void tn_close(tn_opened *opened);
+
+#endif

@@ -1,0 +1,121 @@
+#include "driver/open/stdlib_find.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "driver/open/stdlib_dirs.h"
+#include "runtime/base/nearest.h"
+
+#define NAMES_MAX 512u /* considered for a suggestion */
+
+static const char *const extensions[] = {".plan", ".hemls", ".bnf", ".study"};
+#define EXTENSION_COUNT (sizeof extensions / sizeof *extensions)
+
+bool tn_stdlib_may_mean(const char *name)
+{
+    return name[0] && !strpbrk(name, "./") && strcmp(name, "-") != 0 && access(name, F_OK) != 0;
+}
+
+void tn_stdlib_file_clear(tn_stdlib_file *file)
+{
+    free(file->path);
+    free(file->recorded);
+    *file = (tn_stdlib_file){0};
+}
+
+static tn_status try_file(const char *dir, const char *name, const char *extension, tn_stdlib_file *found,
+                          tn_error *error)
+{
+    if (asprintf(&found->path, "%s/%s%s", dir, name, extension) < 0) {
+        found->path = NULL;
+        return tn_fail_memory(error);
+    }
+    if (access(found->path, F_OK) != 0) {
+        free(found->path);
+        found->path = NULL;
+        return TN_OK;
+    }
+    if (asprintf(&found->recorded, "<stdlib>/%s%s", name, extension) < 0) {
+        found->recorded = NULL;
+        return tn_fail_memory(error);
+    }
+    return TN_OK;
+}
+
+tn_status tn_stdlib_find(const char *name, tn_stdlib_file *found, tn_error *error)
+{
+    tn_stdlib_dirs dirs;
+    *found = (tn_stdlib_file){0};
+    tn_status status = tn_stdlib_dirs_find(&dirs, error);
+    for (size_t d = 0; d < dirs.count && status == TN_OK; d++)
+        for (size_t e = 0; e < EXTENSION_COUNT && status == TN_OK && !found->path; e++)
+            status = try_file(dirs.dirs[d], name, extensions[e], found, error);
+    tn_stdlib_dirs_clear(&dirs);
+    return status;
+}
+
+/* ---- did you mean */
+
+typedef struct names {
+    char *items[NAMES_MAX];
+    size_t count;
+} names;
+
+static void list_folder(const char *path, names *list)
+{
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry; folder && list->count < NAMES_MAX && (entry = readdir(folder));) {
+        const char *dot = strrchr(entry->d_name, '.');
+        for (size_t e = 0; dot && dot > entry->d_name && e < EXTENSION_COUNT; e++)
+            if (strcmp(dot, extensions[e]) == 0 &&
+                (list->items[list->count] = strndup(entry->d_name, (size_t)(dot - entry->d_name))))
+                list->count++;
+    }
+    if (folder)
+        closedir(folder);
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* "genr8.bnf": the name that it would have there. */
+static size_t name_length(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t e = 0; dot && e < EXTENSION_COUNT; e++)
+        if (strcmp(dot, extensions[e]) == 0)
+            return (size_t)(dot - path);
+    return strlen(path);
+}
+
+static void suggest(const char *name, const names *list, tn_error *error)
+{
+    const char *near = tn_nearest(name, (const char *const *)list->items, list->count);
+    if (near && strcmp(near, name) == 0)
+        tn_error_help(error, "the standard library's file is named `%s`", near);
+    else if (near)
+        tn_error_help(error, "did you mean `%s`, of the standard library?", near);
+}
+
+void tn_stdlib_suggest(const char *path, tn_error *error)
+{
+    tn_stdlib_dirs dirs;
+    names list = {.count = 0};
+    char *name = strchr(path, '/') ? NULL : strndup(path, name_length(path));
+    if (!name)
+        return;
+    if (tn_stdlib_dirs_find(&dirs, NULL) == TN_OK)
+        for (size_t d = 0; d < dirs.count; d++)
+            list_folder(dirs.dirs[d], &list);
+    qsort(list.items, list.count, sizeof *list.items, compare_names); /* folders are listed in any order */
+    suggest(name, &list, error);
+    for (size_t i = 0; i < list.count; i++)
+        free(list.items[i]);
+    free(name);
+    tn_stdlib_dirs_clear(&dirs);
+}

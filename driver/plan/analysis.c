@@ -1,0 +1,363 @@
+#include "driver/plan/analysis.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/plan/program.h"
+#include "runtime/plan/text/text.h"
+
+/* One finding being reported. */
+typedef struct teller {
+    tn_opened *opened;
+    const tn_module *module;
+    const tn_schema *schema;
+    const tn_plan_analysis_finding *finding;
+} teller;
+
+/* ---- names and places */
+
+static const char *rule_name(const teller *t, uint32_t rule)
+{
+    return tn_text(t->module, t->module->RULE_records[rule].name);
+}
+
+static const char *clause_name(const teller *t, uint32_t clause)
+{
+    return tn_text(t->module, t->module->CLAUSE_records[clause].name);
+}
+
+static const char *library_name(const teller *t)
+{
+    return tn_text(t->module, t->module->LIBRARY_records[t->finding->library].name);
+}
+
+/* The name alone where it stands behind the first word of the item, or else the whole item. */
+static tn_span name_span(const teller *t, tn_span item, size_t word, const char *name)
+{
+    const tn_sources *sources = &t->opened->compilation.sources;
+    if (item.file >= sources->count || item.end > sources->files[item.file].size)
+        return item;
+    const char *text = sources->files[item.file].text;
+    size_t begin = item.begin + word, length = strlen(name);
+    while (begin < item.end && strchr(" \t\r\n", text[begin]))
+        begin++;
+    if (begin + length > item.end || memcmp(text + begin, name, length) != 0)
+        return item;
+    return (tn_span){item.file, (uint32_t)begin, (uint32_t)(begin + length)};
+}
+
+static tn_span rule_span(const teller *t, uint32_t index)
+{
+    const tn_rule_record *rule = &t->module->RULE_records[index];
+    return name_span(t, (tn_span){rule->file, rule->begin, rule->end}, strlen("rule"), tn_text(t->module, rule->name));
+}
+
+static tn_span library_span(const teller *t)
+{
+    const tn_library_record *library = &t->module->LIBRARY_records[t->finding->library];
+    return name_span(t, (tn_span){library->file, library->begin, library->end}, strlen("library"), library_name(t));
+}
+
+static tn_span clause_span(const teller *t, uint32_t index)
+{
+    const tn_clause_record *clause = &t->module->CLAUSE_records[index];
+    return (tn_span){clause->file, clause->begin, clause->end};
+}
+
+static bool is_imported(const teller *t, uint32_t rule)
+{
+    return t->module->RULE_records[rule].flags & TN_IMPORTED;
+}
+
+/* ---- telling */
+
+static tn_diagnostics *list_of(const teller *t)
+{
+    return &t->opened->compilation.diagnostics;
+}
+
+/* "NAME: [plan]", where there is a plan to show. */
+static tn_status note_plan(const teller *t, tn_diagnostic *diagnostic, const tn_span *span, const tn_shown_plan *plan,
+                           const char *what)
+{
+    if (!plan->shown)
+        return TN_OK;
+    tn_buffer line = {0};
+    bool ok = tn_plan_write_line(t->schema, plan->trays, plan->length, &line);
+    if (ok)
+        tn_note(list_of(t), diagnostic, span, "%s: %s", what, plan->length ? line.data : "the plan without trays");
+    free(line.data);
+    return ok ? TN_OK : tn_fail_memory(NULL);
+}
+
+static bool is_allowed(const teller *t, tn_code code, tn_span span)
+{
+    return tn_program_allows(t->opened->compilation.program, code, span);
+}
+
+/* A condition of the rule that is always or never true has been warned about: that explains it. */
+static bool is_explained(const teller *t)
+{
+    const tn_rule_record *rule = &t->module->RULE_records[t->finding->rule];
+    const tn_diagnostics *list = list_of(t);
+    for (size_t i = 0; i < list->count; i++) {
+        const tn_diagnostic *d = &list->items[i];
+        bool inside =
+            d->has_span && d->span.file == rule->file && d->span.begin >= rule->begin && d->span.end <= rule->end;
+        if (inside && (d->code == W_ALWAYS_TRUE || d->code == W_NEVER_TRUE || d->code == W_REMAINDER_NEVER))
+            return true;
+    }
+    return false;
+}
+
+static tn_status tell_extreme(const teller *t)
+{
+    bool never = t->finding->found == TN_FOUND_NEVER;
+    tn_code code = never ? W_NEVER_MATCHES : W_ALWAYS_MATCHES;
+    tn_span span = rule_span(t, t->finding->rule);
+    if (is_allowed(t, code, span) || is_explained(t))
+        return TN_OK;
+    const char *name = rule_name(t, t->finding->rule);
+    tn_diagnostic *d =
+        tn_report(list_of(t), code, span, never ? "`%s` matches no plan" : "`%s` matches every plan", name);
+    if (never)
+        tn_help(list_of(t), d, "parts of it exclude each other; if that is meant, write `allow W001` before its `=`");
+    else
+        tn_help(list_of(t), d, "if that is meant, write `allow W002` before its `=`");
+    return TN_OK;
+}
+
+static tn_status tell_subsumed(const teller *t)
+{
+    const tn_plan_analysis_finding *f = t->finding;
+    tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
+    if (is_allowed(t, W_SUBSUMED, span))
+        return TN_OK;
+    const char *name = rule_name(t, f->rule), *wider = rule_name(t, f->other);
+    char what[TN_NAME_MAX + 40];
+    tn_diagnostic *d =
+        tn_report(list_of(t), W_SUBSUMED, span, "`%s` matches every plan that `%s` matches", wider, name);
+    tn_note(list_of(t), d, &other, "`%s` is here", wider);
+    snprintf(what, sizeof what, "only `%s` matches", wider);
+    tn_help(list_of(t), d,
+            "where both prune, `%s` is enough; if `%s` is for something else, write `allow W003` before its `=`", wider,
+            name);
+    return note_plan(t, d, NULL, f->plans, what);
+}
+
+/* A rule equal to one of a file that is used is no mistake: a note says that there is a name for it already. */
+static tn_status tell_equivalent(const teller *t)
+{
+    const tn_plan_analysis_finding *f = t->finding;
+    tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
+    if (is_allowed(t, W_EQUIVALENT, span))
+        return TN_OK;
+    const char *name = rule_name(t, f->rule), *equal = rule_name(t, f->other);
+    tn_diagnostics *list = list_of(t);
+    tn_diagnostic *d;
+    if (is_imported(t, f->other)) {
+        d = tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "`%s` matches the same plans as `%s`", name, equal);
+        d->has_span = true;
+        d->span = span;
+    } else {
+        d = tn_report(list, W_EQUIVALENT, span, "`%s` matches the same plans as `%s`", name, equal);
+    }
+    tn_note(list, d, &other, "`%s` is here", equal);
+    tn_help(list, d, "use `%s` instead; if both are meant, write `allow W004` before this one's `=`", equal);
+    return note_plan(t, d, NULL, f->plans, "both match");
+}
+
+/* "`a`, `b` and `c`", cut off where there is no room. */
+static void join_reasons(const teller *t, char *text, size_t size)
+{
+    size_t used = 0, count = t->finding->reason_count;
+    text[0] = '\0';
+    for (size_t i = 0; i < count && used < size; i++) {
+        const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
+        used += (size_t)snprintf(text + used, size - used, "%s`%s`", between, clause_name(t, t->finding->reasons[i]));
+    }
+}
+
+static tn_status tell_idle_prune(const teller *t)
+{
+    const tn_plan_analysis_finding *f = t->finding;
+    tn_span span = clause_span(t, f->clause);
+    char names[300], what[400];
+    if (is_allowed(t, W_REDUNDANT_PRUNE, span))
+        return TN_OK;
+    const char *name = clause_name(t, f->clause);
+    tn_diagnostic *d;
+    if (f->reason_count == 0) {
+        d = tn_report(list_of(t), W_REDUNDANT_PRUNE, span,
+                      "`%s` prunes nothing: it matches no plan that `%s` generates", name, library_name(t));
+    } else {
+        d = tn_report(list_of(t), W_REDUNDANT_PRUNE, span,
+                      "`%s` prunes nothing that the other clauses of `%s` do not keep out", name, library_name(t));
+        join_reasons(t, names, sizeof names);
+    }
+    tn_help(list_of(t), d, "leave it out, or write `allow W005` in the library");
+    snprintf(what, sizeof what, "for example, pruned by %s too", f->reason_count ? names : "none");
+    return note_plan(t, d, NULL, f->plans, what);
+}
+
+static tn_status tell_idle_requirement(const teller *t)
+{
+    tn_span span = clause_span(t, t->finding->clause);
+    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span))
+        return TN_OK;
+    tn_diagnostic *d =
+        tn_report(list_of(t), W_NEEDLESS_REQUIREMENT, span, "every plan that `%s` would hold without `%s` meets it",
+                  library_name(t), clause_name(t, t->finding->clause));
+    tn_help(list_of(t), d, "leave it out, or write `allow W008` in the library");
+    return TN_OK;
+}
+
+static tn_status tell_empty(const teller *t)
+{
+    const tn_plan_analysis_finding *f = t->finding;
+    const tn_library_record *library = &t->module->LIBRARY_records[f->library];
+    tn_span span = library_span(t);
+    tn_status status = TN_OK;
+    if (is_allowed(t, W_EMPTY_LIBRARY, span))
+        return TN_OK;
+    tn_diagnostic *d = tn_report(list_of(t), W_EMPTY_LIBRARY, span, "`%s` holds no plan", library_name(t));
+    if (f->why)
+        tn_note(list_of(t), d, NULL, "perhaps not all of these are needed for that: %s", f->why->message);
+    for (size_t i = 0; status == TN_OK && i < f->reason_count; i++) {
+        char what[TN_SPELLING_MAX + 80];
+        tn_span place = clause_span(t, f->reasons[i]);
+        const char *name = clause_name(t, f->reasons[i]);
+        if (!f->plans[i].shown)
+            tn_note(list_of(t), d, &place, "`%s` is one of those that see to it", name);
+        snprintf(what, sizeof what,
+                 f->reason_count == 1 ? "`%s` keeps out all plans, for example"
+                                      : "without `%s` the others here would leave",
+                 name);
+        status = note_plan(t, d, &place, &f->plans[i], what);
+    }
+    if (f->reason_count == 1)
+        tn_help(list_of(t), d,
+                f->with_lengths ? "this clause leaves no plan of %u to %u trays: change it or `trays`"
+                                : "this clause leaves no plan: change it",
+                library->trays_min, library->trays_max);
+    else
+        tn_help(list_of(t), d,
+                f->with_lengths ? "together these leave no plan of %u to %u trays: change one of them, or `trays`"
+                                : "together these leave no plan: change one of them",
+                library->trays_min, library->trays_max);
+    return status;
+}
+
+static tn_status tell_vacuous(const teller *t)
+{
+    tn_span span;
+    if (!tn_code_span(t->opened, t->finding->offset, &span) || is_allowed(t, W_VACUOUS_DISTANCE, span))
+        return TN_OK;
+    tn_diagnostic *d = tn_report(list_of(t), W_VACUOUS_DISTANCE, span,
+                                 "this holds only in plans where there is no destination at all");
+    tn_help(list_of(t), d,
+            "a distance holds where there is nothing to be away from; to ask for a destination, add `and` and the "
+            "destination");
+    return note_plan(t, d, NULL, t->finding->plans, "the shortest plan where it holds");
+}
+
+static tn_status tell_no_tray(const teller *t)
+{
+    tn_span span;
+    if (!tn_code_span(t->opened, t->finding->offset, &span) || is_allowed(t, W_NO_LEGAL_TRAY, span))
+        return TN_OK;
+    const char *schema = tn_text(t->module, t->schema->record->name);
+    tn_diagnostic *d =
+        tn_report(list_of(t), W_NO_LEGAL_TRAY, span, "no legal tray is like this: schema `%s` forbids them", schema);
+    tn_span place = {t->schema->record->file, t->schema->record->begin, t->schema->record->end};
+    place = name_span(t, place, strlen("schema"), schema);
+    tn_note(list_of(t), d, &place, "`%s` is here", schema);
+    tn_help(list_of(t), d, "name fewer values, or change a `forbid` of the schema");
+    return TN_OK;
+}
+
+static tn_status tell_not_analysed(const teller *t)
+{
+    const tn_plan_analysis_finding *f = t->finding;
+    bool is_rule = f->rule != TN_NO_RECORD;
+    const char *name = is_rule ? rule_name(t, f->rule) : library_name(t);
+    tn_diagnostic *d =
+        tn_report_bare(list_of(t), TN_NOTE, TN_CODE_NONE, "`%s` is not analysed: %s", name, f->why->message);
+    d->has_span = tn_code_span(t->opened, f->why->code_offset, &d->span);
+    if (!d->has_span) {
+        d->span = is_rule ? rule_span(t, f->rule) : library_span(t);
+        d->has_span = true;
+    }
+    if (f->why->help[0])
+        tn_help(list_of(t), d, "%s", f->why->help);
+    return TN_OK;
+}
+
+static tn_status tell(const teller *t)
+{
+    static tn_status (*const tellers[])(const teller *) = {
+        [TN_FOUND_NEVER] = tell_extreme,         [TN_FOUND_ALWAYS] = tell_extreme,
+        [TN_FOUND_SUBSUMED] = tell_subsumed,     [TN_FOUND_EQUIVALENT] = tell_equivalent,
+        [TN_FOUND_IDLE_PRUNE] = tell_idle_prune, [TN_FOUND_IDLE_REQUIRE] = tell_idle_requirement,
+        [TN_FOUND_EMPTY] = tell_empty,           [TN_FOUND_VACUOUS] = tell_vacuous,
+        [TN_FOUND_NO_TRAY] = tell_no_tray,       [TN_FOUND_NOT_ANALYSED] = tell_not_analysed,
+    };
+    return tellers[t->finding->found](t);
+}
+
+/* ---- analysing */
+
+static bool is_concerned(const tn_module *module, uint32_t schema)
+{
+    for (size_t r = 0; r < module->RULE_count; r++)
+        if (module->RULE_records[r].schema == schema && !(module->RULE_records[r].flags & TN_IMPORTED))
+            return true;
+    for (size_t l = 0; l < module->LIBRARY_count; l++)
+        if (module->LIBRARY_records[l].schema == schema && !(module->LIBRARY_records[l].flags & TN_IMPORTED))
+            return true;
+    return false;
+}
+
+static tn_status analyse_schema(tn_opened *opened, uint32_t index, uint32_t max_states, tn_plan_analyses *analyses,
+                                tn_error *error)
+{
+    size_t at = analyses->count;
+    tn_status status = tn_schema_new(opened->module, index, 0, &analyses->schemas[at], error);
+    if (status != TN_OK)
+        return status;
+    analyses->count++;
+    status = tn_plan_analysis_new(analyses->schemas[at], max_states, &analyses->items[at], error);
+    for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
+        teller t = {opened, opened->module, analyses->schemas[at], tn_plan_analysis_get(analyses->items[at], i)};
+        status = tell(&t);
+        if (status == TN_MEMORY)
+            tn_fail_memory(error);
+    }
+    return status;
+}
+
+tn_status tn_plan_analyse(tn_opened *opened, uint32_t max_states, tn_plan_analyses *analyses)
+{
+    const tn_module *module = opened->module;
+    tn_error error;
+    *analyses = (tn_plan_analyses){.schemas = calloc(module->SCHEMA_count + 1, sizeof *analyses->schemas),
+                                   .items = calloc(module->SCHEMA_count + 1, sizeof *analyses->items)};
+    tn_status status = analyses->schemas && analyses->items ? TN_OK : tn_fail_memory(&error);
+    for (uint32_t s = 0; status == TN_OK && s < module->SCHEMA_count; s++)
+        if (is_concerned(module, s))
+            status = analyse_schema(opened, s, max_states, analyses, &error);
+    if (status != TN_OK)
+        tn_finding_error(opened, &error);
+    return status;
+}
+
+void tn_plan_analyses_free(tn_plan_analyses *analyses)
+{
+    for (size_t i = 0; i < analyses->count; i++) {
+        tn_plan_analysis_free(analyses->items[i]);
+        tn_schema_free(analyses->schemas[i]);
+    }
+    free(analyses->items);
+    free(analyses->schemas);
+    *analyses = (tn_plan_analyses){0};
+}

@@ -1,0 +1,52 @@
+/* Coverage of rules: for each part of each rule, how many plans' decisions would be others if the part never matched,
+ * and whether some test case would notice.
+ */
+#ifndef TARTAN_DRIVER_PLAN_COVERAGE_H
+#define TARTAN_DRIVER_PLAN_COVERAGE_H
+
+#include <gmp.h>
+
+#include "driver/open/findings.h"
+#include "runtime/plan/text/text.h"
+
+/* Without a library, plans are all of 1 to so many trays. */
+#define TN_COVERAGE_TRAYS 4u
+
+/* A part of a rule or of a clause that is written out in its library. */
+typedef struct tn_covered_part {
+    uint32_t function; /* HOLDS, of the rule or clause */
+    const char *name;  /* of the rule or clause; the module's */
+    unsigned depth;    /* 0: the whole */
+    const char *kind;  /* "neighbour" */
+    char *text;        /* as its author wrote it, cut off where it is long */
+    uint32_t root;     /* its place: an offset into the code */
+    mpz_t flips;       /* plans that would be decided otherwise */
+    bool noticed;      /* a test case comes out otherwise */
+} tn_covered_part;
+
+/* Owns its parts; borrows the opened file. */
+typedef struct tn_covered {
+    const tn_opened *opened;
+    const tn_library_record *library; /* whose generated plans are counted, or NULL */
+    tn_covered_part *parts;           /* those of a rule in a row, each before what is below it */
+    size_t count, capacity;
+    size_t noticed;
+} tn_covered;
+
+typedef struct tn_coverage_options {
+    const char *library; /* NULL: the only one of the file, if it has one */
+    uint32_t max_states; /* 0: the default */
+    bool imported;       /* also rules of used files that the library's clauses name */
+} tn_coverage_options;
+
+/* Measures the rules of the file itself and the clauses written out in its library. What passes the state limit is
+ * reported (a note) and left out. A module, which holds no tests, has no coverage. Failures are reported too. Clear in
+ * any case. */
+tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered);
+void tn_covered_clear(tn_covered *covered);
+
+/* Appends it as a table, or as one JSON object. false where out of memory. */
+bool tn_covered_text(const tn_covered *covered, tn_buffer *out);
+bool tn_covered_json(const tn_covered *covered, tn_buffer *out);
+
+#endif

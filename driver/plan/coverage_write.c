@@ -1,0 +1,117 @@
+/* Coverage as a table and as JSON. */
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open/digits.h"
+#include "driver/plan/coverage.h"
+
+#define LABEL_WIDTH 58u
+#define DEEPEST 8u /* parts deeper in their rule are not indented further */
+
+static bool write_head(const tn_covered *covered, tn_buffer *out)
+{
+    const tn_library_record *library = covered->library;
+    bool ok = library ? tn_buffer_printf(out, "coverage in `%s`", tn_text(covered->opened->module, library->name))
+                      : tn_buffer_printf(out, "coverage over all plans of 1 to %u trays", TN_COVERAGE_TRAYS);
+    return ok && tn_buffer_printf(out, ": what would change if the part never matched\n%-*s %26s  %s\n",
+                                  (int)LABEL_WIDTH + 2, "part", "plans decided otherwise", "tests notice");
+}
+
+/* Cuts a text off after so many bytes, but not within a character. */
+static void cut(char *text, size_t most)
+{
+    size_t length = strlen(text);
+    if (length <= most)
+        return;
+    length = most - 3;
+    while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
+        length--;
+    strcpy(text + length, "...");
+}
+
+/* How many columns a text takes: its characters. */
+static size_t characters(const char *text)
+{
+    size_t count = 0;
+    for (; *text; text++)
+        count += ((unsigned char)*text & 0xc0) != 0x80;
+    return count;
+}
+
+static bool write_part(const tn_covered_part *part, tn_buffer *out)
+{
+    unsigned indent = 2 * (part->depth < DEEPEST ? part->depth : DEEPEST);
+    char *digits = tn_digits(part->flips, true), *text = strdup(part->text);
+    bool ok = digits && text;
+    if (ok) {
+        cut(text, LABEL_WIDTH - indent);
+        size_t used = characters(text), room = LABEL_WIDTH - indent;
+        ok = tn_buffer_printf(out, "  %*s%s%*s %26s  %s\n", (int)indent, "", text, (int)(room - used), "", digits,
+                              part->noticed ? "yes" : "no");
+    }
+    free(digits);
+    free(text);
+    return ok;
+}
+
+bool tn_covered_text(const tn_covered *covered, tn_buffer *out)
+{
+    bool ok = write_head(covered, out);
+    for (size_t i = 0; ok && i < covered->count; i++) {
+        const tn_covered_part *part = &covered->parts[i];
+        ok = (part->depth > 0 || tn_buffer_printf(out, "%s\n", part->name)) && write_part(part, out);
+    }
+    return ok && tn_buffer_printf(out, "%zu of %zu parts noticed by tests\n", covered->noticed, covered->count);
+}
+
+/* ---- JSON */
+
+static json_t *part_json(const tn_covered *covered, const tn_covered_part *part)
+{
+    tn_place place;
+    json_t *made = json_object();
+    char *digits = tn_digits(part->flips, false);
+    json_object_set_new(made, "text", json_string(part->text));
+    json_object_set_new(made, "kind", json_string(part->kind));
+    json_object_set_new(made, "depth", json_integer(part->depth));
+    if (tn_code_place(covered->opened, part->root, &place)) {
+        json_object_set_new(made, "file", json_string(place.path));
+        json_object_set_new(made, "line", json_integer((json_int_t)place.line));
+        json_object_set_new(made, "column", json_integer((json_int_t)place.column));
+    }
+    json_object_set_new(made, "flips", digits ? json_string(digits) : NULL);
+    json_object_set_new(made, "noticed", json_boolean(part->noticed));
+    free(digits);
+    return made;
+}
+
+bool tn_covered_json(const tn_covered *covered, tn_buffer *out)
+{
+    json_t *root = json_object(), *rules = json_array(), *parts = NULL;
+    const tn_library_record *library = covered->library;
+    json_object_set_new(root, "library",
+                        library ? json_string(tn_text(covered->opened->module, library->name)) : json_null());
+    json_object_set_new(root, "trays",
+                        json_pack("[i,i]", library ? (int)library->trays_min : 1,
+                                  library ? (int)library->trays_max : (int)TN_COVERAGE_TRAYS));
+    json_object_set_new(root, "parts", json_integer((json_int_t)covered->count));
+    json_object_set_new(root, "noticed", json_integer((json_int_t)covered->noticed));
+    for (size_t i = 0; i < covered->count; i++) {
+        const tn_covered_part *part = &covered->parts[i];
+        if (part->depth == 0) {
+            json_t *rule = json_object();
+            parts = json_array();
+            json_object_set_new(rule, "name", json_string(part->name));
+            json_object_set_new(rule, "parts", parts);
+            json_array_append_new(rules, rule);
+        }
+        json_array_append_new(parts, part_json(covered, part));
+    }
+    json_object_set_new(root, "rules", rules);
+    char *text = json_dumps(root, JSON_COMPACT);
+    bool ok = text && tn_buffer_append(out, text, strlen(text));
+    free(text);
+    json_decref(root);
+    return ok;
+}

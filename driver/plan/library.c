@@ -1,0 +1,201 @@
+#include "driver/plan/library.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The names of things in a file, for choosing among them. */
+typedef struct names {
+    const char **texts;
+    uint32_t *indices;
+    size_t count;
+} names;
+
+static bool names_new(size_t room, names *list)
+{
+    *list = (names){malloc(sizeof *list->texts * (room + 1)), malloc(sizeof *list->indices * (room + 1)), 0};
+    return list->texts && list->indices;
+}
+
+static void names_free(names *list)
+{
+    free(list->texts);
+    free(list->indices);
+}
+
+static void names_add(names *list, const char *text, uint32_t index)
+{
+    list->texts[list->count] = text;
+    list->indices[list->count++] = index;
+}
+
+/* "a, b and c", cut off where there is no room. */
+static void join(const names *list, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < list->count && used < size; i++) {
+        const char *between = i == 0 ? "" : i + 1 == list->count ? " and " : ", ";
+        used += (size_t)snprintf(text + used, size - used, "%s%s", between, list->texts[i]);
+    }
+}
+
+static tn_status no_memory(tn_opened *opened)
+{
+    tn_error error;
+    tn_status status = tn_fail_memory(&error);
+    tn_finding_error(opened, &error);
+    return status;
+}
+
+/* Finds `name` among the names; a name not there is reported with what there is. */
+static tn_status pick(tn_opened *opened, const names *list, const char *what, const char *name, uint32_t *index)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        if (strcmp(list->texts[i], name) == 0) {
+            *index = list->indices[i];
+            return TN_OK;
+        }
+    }
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    char text[240];
+    join(list, text, sizeof text);
+    tn_diagnostic *diagnostic =
+        tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has no %s `%.80s`", opened->path, what, name);
+    const char *near = tn_nearest(name, list->texts, list->count);
+    if (near)
+        tn_help(diagnostics, diagnostic, "did you mean `%s`?", near);
+    else if (list->count)
+        tn_help(diagnostics, diagnostic, "it has %s", text);
+    return TN_INVALID;
+}
+
+/* The only library of the file itself, or the only one at all. */
+static tn_status pick_only(tn_opened *opened, const names *all, uint32_t *index)
+{
+    names own;
+    if (!names_new(all->count, &own)) {
+        names_free(&own);
+        return no_memory(opened);
+    }
+    for (size_t i = 0; i < all->count; i++)
+        if (!(opened->module->LIBRARY_records[all->indices[i]].flags & TN_IMPORTED))
+            names_add(&own, all->texts[i], all->indices[i]);
+    const names *from = own.count ? &own : all;
+    tn_status status = from->count == 1 ? TN_OK : TN_INVALID;
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    if (status == TN_OK) {
+        *index = from->indices[0];
+    } else if (from->count == 0) {
+        tn_diagnostic *none = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has no library", opened->path);
+        tn_help(diagnostics, none, "%s",
+                tn_opened_help(opened, "a library says which plans are made and which are pruned: library NAME { trays "
+                                       "4..9 prune RULE }"));
+    } else {
+        char text[240];
+        join(from, text, sizeof text);
+        tn_diagnostic *several =
+            tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has %zu libraries", opened->path, from->count);
+        tn_help(diagnostics, several, "choose one with --library: %s", text);
+    }
+    names_free(&own);
+    return status;
+}
+
+tn_status tn_library_choose(tn_opened *opened, const char *name, uint32_t *index)
+{
+    const tn_module *module = opened->module;
+    names all;
+    tn_status status;
+    if (names_new(module->LIBRARY_count, &all)) {
+        for (uint32_t i = 0; i < module->LIBRARY_count; i++)
+            names_add(&all, tn_text(module, module->LIBRARY_records[i].name), i);
+        status = name ? pick(opened, &all, "library", name, index) : pick_only(opened, &all, index);
+    } else {
+        status = no_memory(opened);
+    }
+    names_free(&all);
+    return status;
+}
+
+tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index)
+{
+    const tn_module *module = opened->module;
+    names all;
+    tn_status status;
+    if (names_new(module->RULE_count, &all)) {
+        for (uint32_t i = 0; i < module->RULE_count; i++)
+            names_add(&all, tn_text(module, module->RULE_records[i].name), i);
+        status = pick(opened, &all, "rule", name, index);
+    } else {
+        status = no_memory(opened);
+    }
+    names_free(&all);
+    return status;
+}
+
+tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
+                           tn_ready_library *ready)
+{
+    tn_error error;
+    *ready = (tn_ready_library){0};
+    tn_status status = tn_library_choose(opened, name, &ready->index);
+    if (status != TN_OK)
+        return status;
+    ready->record = &opened->module->LIBRARY_records[ready->index];
+    status = tn_schema_new(opened->module, ready->record->schema, 0, &ready->schema, &error);
+    if (status == TN_OK && options)
+        status = tn_library_new(ready->schema, ready->index, options, &ready->library, &error);
+    if (status != TN_OK)
+        tn_finding_error(opened, &error);
+    return status;
+}
+
+void tn_library_close(tn_ready_library *ready)
+{
+    tn_library_free(ready->library);
+    tn_schema_free(ready->schema);
+    *ready = (tn_ready_library){0};
+}
+
+/* The number of libraries of the file itself, and the last of them. */
+static size_t own_libraries(const tn_module *module, uint32_t *last)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < module->LIBRARY_count; i++) {
+        if (module->LIBRARY_records[i].flags & TN_IMPORTED)
+            continue;
+        *last = i;
+        count++;
+    }
+    return count;
+}
+
+tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index, uint32_t *library)
+{
+    const tn_module *module = opened->module;
+    uint32_t chosen = 0;
+    if (name || own_libraries(module, &chosen) == 1) {
+        tn_status status = name ? tn_library_choose(opened, name, &chosen) : TN_OK;
+        if (status == TN_OK) {
+            *library = chosen;
+            *index = module->LIBRARY_records[chosen].schema;
+        }
+        return status;
+    }
+    *index = 0;
+    if (module->SCHEMA_count == 1)
+        return TN_OK;
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    if (module->SCHEMA_count == 0) {
+        tn_diagnostic *none = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                                             "%s has no schema that says what a tray is", opened->path);
+        tn_help(diagnostics, none, "%s",
+                tn_opened_help(opened, "write `use \"lahave\"` at its top, or declare a `schema` of your own"));
+        return TN_INVALID;
+    }
+    tn_diagnostic *unclear = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                                            "%s has %zu schemas, and it is not clear which one the plans are of",
+                                            opened->path, module->SCHEMA_count);
+    tn_help(diagnostics, unclear, "name a library with --library: its schema is then the one");
+    return TN_INVALID;
+}

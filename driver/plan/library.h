@@ -1,0 +1,35 @@
+/* Choosing a library of a file by name, and making it ready.
+ *
+ * What is wrong goes to the diagnostics of the opened file.
+ */
+#ifndef TARTAN_DRIVER_PLAN_LIBRARY_H
+#define TARTAN_DRIVER_PLAN_LIBRARY_H
+
+#include "driver/open/findings.h"
+#include "runtime/plan/library/library.h"
+
+/* The LIBRARY record named so; for NULL the only one of the file itself, or, where it has none, the only one that it
+ * uses. TN_INVALID (E0905) lists the names there are. */
+tn_status tn_library_choose(tn_opened *opened, const char *name, uint32_t *index);
+
+/* The RULE record named so, or TN_INVALID (E0905). */
+tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index);
+
+/* A library made ready. Close it before the file it is from. */
+typedef struct tn_ready_library {
+    uint32_t index; /* of the LIBRARY record */
+    const tn_library_record *record;
+    tn_schema *schema;
+    tn_library *library; /* NULL where only the schema was asked for */
+} tn_ready_library;
+
+/* Chooses a library and makes its schema ready, and, where `options` is not NULL, its automaton. */
+tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
+                           tn_ready_library *ready);
+void tn_library_close(tn_ready_library *ready);
+
+/* The SCHEMA record to read plans with: of the library named, or of the only one of the file itself, or else the only
+  schema there is. TN_INVALID (E0905) where that is not clear. *library: that library, unchanged where there is none. */
+tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index, uint32_t *library);
+
+#endif

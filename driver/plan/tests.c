@@ -1,0 +1,337 @@
+#include "driver/plan/tests.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/plan/program.h"
+#include "driver/plan/clauses.h"
+#include "driver/plan/explain.h"
+#include "driver/plan/library.h"
+#include "runtime/plan/text/text.h"
+
+#define EXPLAINED_LINES 12 /* of one rule, in a failure */
+
+/* One engine's rules and matcher, and what they said of the plan at hand. */
+typedef struct engine {
+    tn_rules *rules;
+    tn_matcher *matcher;
+    uint64_t *bits;
+} engine;
+
+/* A test block being run. */
+typedef struct block {
+    tn_opened *opened;
+    const tn_module *module;
+    const tn_test_block *tests;
+    const tn_library_record *library; /* or NULL: a rule */
+    size_t rule_count;
+    tn_schema *schema;
+    engine automata, interpreter;
+    tn_tray *trays; /* room for the longest plan */
+} block;
+
+static tn_status engine_new(const block *b, tn_engine which, uint32_t max_states, engine *made, tn_error *error)
+{
+    tn_rules_options options = {.engine = which, .max_states = max_states};
+    tn_status status;
+    if (b->library)
+        status = tn_clause_rules_new(b->schema, b->library, &options, &made->rules, error);
+    else
+        status =
+            tn_rules_new(b->schema, &b->module->RULE_records[b->tests->index].holds, 1, &options, &made->rules, error);
+    if (status == TN_OK)
+        status = tn_matcher_new(made->rules, &made->matcher, error);
+    if (status != TN_OK)
+        return status;
+    made->bits = calloc(b->rule_count / 64 + 1, sizeof *made->bits);
+    return made->bits ? TN_OK : tn_fail_memory(error);
+}
+
+static void engine_free(engine *made)
+{
+    tn_matcher_free(made->matcher);
+    tn_rules_free(made->rules);
+    free(made->bits);
+}
+
+static tn_status block_new(block *b, uint32_t max_states, tn_error *error)
+{
+    size_t longest = 0;
+    for (size_t i = 0; i < b->tests->case_count; i++)
+        longest = b->tests->cases[i].length > longest ? b->tests->cases[i].length : longest;
+    b->library = b->tests->is_library ? &b->module->LIBRARY_records[b->tests->index] : NULL;
+    b->rule_count = b->library ? b->library->clause_count : 1;
+    b->trays = malloc(sizeof *b->trays * (longest + 1));
+    tn_status status =
+        b->trays ? tn_schema_new(b->module, b->tests->schema, 0, &b->schema, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = engine_new(b, TN_ENGINE_VM, max_states, &b->interpreter, error);
+    if (status == TN_OK)
+        status = engine_new(b, TN_ENGINE_AUTO, max_states, &b->automata, error);
+    return status;
+}
+
+static void block_free(block *b)
+{
+    engine_free(&b->interpreter);
+    engine_free(&b->automata);
+    tn_schema_free(b->schema);
+    free(b->trays);
+}
+
+static const char *rule_name(const block *b, size_t i)
+{
+    return b->library ? tn_text(b->module, b->module->CLAUSE_records[b->library->clause_first + i].name)
+                      : b->tests->subject;
+}
+
+/* Both engines on one case; a difference is a fault of ours. */
+static tn_status match(block *b, const tn_test_case *test, tn_error *error)
+{
+    for (size_t i = 0; i < test->length; i++) {
+        b->trays[i] = tn_schema_tray(b->schema, test->values + i * b->schema->field_count);
+        if (b->trays[i] == TN_NO_TRAY)
+            return tn_fail(error, TN_INTERNAL, 0, "a test of `%.80s` holds a forbidden tray", b->tests->subject);
+    }
+    tn_status status = tn_match(b->interpreter.matcher, b->trays, test->length, b->interpreter.bits, error);
+    if (status == TN_OK)
+        status = tn_match(b->automata.matcher, b->trays, test->length, b->automata.bits, error);
+    for (size_t i = 0; status == TN_OK && i < b->rule_count; i++)
+        if ((b->interpreter.bits[i / 64] ^ b->automata.bits[i / 64]) >> (i % 64) & 1)
+            status = tn_fail(error, TN_INTERNAL, 0,
+                             "the two engines disagree about `%.80s`; please report this with the rule file",
+                             rule_name(b, i));
+    return status;
+}
+
+static bool length_drops(const block *b, const tn_test_case *test)
+{
+    return test->length < b->library->trays_min || test->length > b->library->trays_max;
+}
+
+/* Is the clause called `name` among those that drop the plan? */
+static bool is_reason(const block *b, const tn_test_case *test, const char *name)
+{
+    if (strcmp(name, "trays") == 0 && length_drops(b, test))
+        return true;
+    for (size_t i = 0; i < b->rule_count; i++)
+        if (strcmp(rule_name(b, i), name) == 0 && tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+            return true;
+    return false;
+}
+
+static bool is_dropped(const block *b, const tn_test_case *test)
+{
+    if (length_drops(b, test))
+        return true;
+    for (size_t i = 0; i < b->rule_count; i++)
+        if (tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+            return true;
+    return false;
+}
+
+static bool comes_out(const block *b, const tn_test_case *test)
+{
+    bool matched = !b->library && (b->interpreter.bits[0] & 1);
+    switch (test->expectation) {
+    case TN_EXPECT_MATCH:
+        return matched;
+    case TN_EXPECT_REJECT:
+        return !matched;
+    case TN_EXPECT_KEEP:
+        return !is_dropped(b, test);
+    case TN_EXPECT_DROP:
+        break;
+    }
+    for (size_t i = 0; i < test->by_count; i++)
+        if (!is_reason(b, test, test->by[i]))
+            return false;
+    return is_dropped(b, test);
+}
+
+/* The names of all that drop the plan: "dense-end, narrow-pair". */
+static void write_reasons(const block *b, const tn_test_case *test, tn_buffer *out)
+{
+    if (length_drops(b, test))
+        tn_buffer_printf(out, "trays");
+    for (size_t i = 0; i < b->rule_count; i++)
+        if (tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+            tn_buffer_printf(out, "%s%s", out->size ? ", " : "", rule_name(b, i));
+}
+
+static void write_expectation(const block *b, const tn_test_case *test, tn_buffer *out)
+{
+    tn_buffer reasons = {0};
+    const char *name = b->tests->subject;
+    if (b->library)
+        write_reasons(b, test, &reasons);
+    if (test->expectation == TN_EXPECT_MATCH)
+        tn_buffer_printf(out, "`%s` should match this plan, and does not", name);
+    else if (test->expectation == TN_EXPECT_REJECT)
+        tn_buffer_printf(out, "`%s` should not match this plan, and does", name);
+    else if (test->expectation == TN_EXPECT_KEEP)
+        tn_buffer_printf(out, "`%s` should keep this plan, and drops it by %s", name, reasons.data ? reasons.data : "");
+    else if (reasons.size == 0)
+        tn_buffer_printf(out, "`%s` should drop this plan, and keeps it", name);
+    else
+        tn_buffer_printf(out, "`%s` drops this plan, but by %s", name, reasons.data);
+    free(reasons.data);
+}
+
+/* Where the rule or clause called `name` is written, and what its author says of it. */
+static void note_place(const block *b, tn_diagnostic *diagnostic, const char *name, const char *doc, uint32_t file,
+                       uint32_t begin, uint32_t end)
+{
+    tn_span span = {file, begin, end};
+    bool known = file < b->opened->compilation.sources.count;
+    tn_note(&b->opened->compilation.diagnostics, diagnostic, known ? &span : NULL, "`%s`%s%s", name, *doc ? ": " : "",
+            doc);
+}
+
+/* The rule that a clause names, or NULL where it is an expression of its own. */
+static const tn_rule_record *rule_of(const tn_module *module, const tn_clause_record *clause)
+{
+    for (size_t i = 0; i < module->RULE_count; i++)
+        if (module->RULE_records[i].holds == clause->holds)
+            return &module->RULE_records[i];
+    return NULL;
+}
+
+static void note_rule(const block *b, const tn_test_case *test, tn_diagnostic *diagnostic)
+{
+    if (!b->library) {
+        const tn_rule_record *rule = &b->module->RULE_records[b->tests->index];
+        note_place(b, diagnostic, b->tests->subject, tn_text(b->module, rule->doc), rule->file, rule->begin, rule->end);
+        return;
+    }
+    for (size_t i = 0; i < b->rule_count; i++) {
+        const tn_clause_record *clause = &b->module->CLAUSE_records[b->library->clause_first + i];
+        bool named = false;
+        for (size_t k = 0; k < test->by_count; k++)
+            named |= strcmp(test->by[k], rule_name(b, i)) == 0;
+        if (!named && !tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
+            continue;
+        const tn_rule_record *rule = rule_of(b->module, clause);
+        if (rule)
+            note_place(b, diagnostic, rule_name(b, i), tn_text(b->module, rule->doc), rule->file, rule->begin,
+                       rule->end);
+        else
+            note_place(b, diagnostic, rule_name(b, i), tn_text(b->module, clause->doc), clause->file, clause->begin,
+                       clause->end);
+    }
+}
+
+/* The lines of one rule's explanation, each a note. */
+static void note_lines(const block *b, tn_diagnostic *diagnostic, char *text)
+{
+    size_t lines = 0;
+    for (char *line = text, *end; *line && lines < EXPLAINED_LINES; line = end, lines++) {
+        end = line + strcspn(line, "\n");
+        if (*end)
+            *end++ = '\0';
+        tn_note(&b->opened->compilation.diagnostics, diagnostic, NULL, "%s", line);
+    }
+}
+
+/* Why it came out so: the rule, or the clauses that drop the plan, or those that were expected to and did not. */
+static void note_why(const block *b, const tn_test_case *test, tn_diagnostic *diagnostic)
+{
+    tn_explained explained;
+    tn_error error;
+    tn_status status = tn_explained_make(&explained, b->opened, b->schema, b->library, &b->tests->index, 1, b->trays,
+                                         test->length, test->length + 1, &error);
+    for (size_t i = 0; status == TN_OK && i < explained.count; i++) {
+        bool named = false;
+        for (size_t k = 0; k < test->by_count; k++)
+            named |= strcmp(test->by[k], explained.rules[i].name) == 0;
+        if (b->library && !named && !explained.rules[i].drops)
+            continue;
+        tn_buffer text = {0};
+        if (tn_explained_rule_text(&explained, &explained.rules[i], false, &text))
+            note_lines(b, diagnostic, text.data);
+        free(text.data);
+    }
+    tn_explained_clear(&explained);
+}
+
+/* A case marked `todo` that comes out: the mark has served. */
+static void report_done(const block *b, const tn_test_case *test)
+{
+    tn_diagnostics *list = &b->opened->compilation.diagnostics;
+    tn_diagnostic *d =
+        tn_report(list, E_TEST_FAILED, test->span, "this test of `%s` is marked `todo` and passes", b->tests->subject);
+    tn_help(list, d, "take `todo` away: it is done");
+}
+
+static void report_failure(const block *b, const tn_test_case *test)
+{
+    tn_diagnostics *list = &b->opened->compilation.diagnostics;
+    tn_buffer sentence = {0}, plan = {0};
+    write_expectation(b, test, &sentence);
+    tn_diagnostic *diagnostic =
+        tn_report(list, E_TEST_FAILED, test->span, "%s", sentence.data ? sentence.data : "a test failed");
+    if (test->doc)
+        tn_note(list, diagnostic, NULL, "expected because: %s", test->doc);
+    if (tn_plan_write_line(b->schema, b->trays, test->length, &plan))
+        tn_note(list, diagnostic, NULL, "plan: %s", plan.data ? plan.data : "");
+    note_rule(b, test, diagnostic);
+    note_why(b, test, diagnostic);
+    free(sentence.data);
+    free(plan.data);
+}
+
+static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts, tn_error *error)
+{
+    tn_status status = block_new(b, max_states, error);
+    for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
+        const tn_test_case *test = &b->tests->cases[i];
+        status = match(b, test, error);
+        if (status != TN_OK)
+            break;
+        bool good = comes_out(b, test);
+        if (good && !test->todo) {
+            counts->passed++;
+        } else if (!good && test->todo) {
+            counts->todo++;
+        } else if (good) {
+            counts->failed++;
+            report_done(b, test);
+        } else {
+            counts->failed++;
+            report_failure(b, test);
+        }
+    }
+    block_free(b);
+    return status;
+}
+
+tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *counts)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    if (!opened->compiled) {
+        tn_diagnostic *none =
+            tn_report_bare(list, TN_ERROR, E_NO_TESTS, "%s is a module, which holds no tests", opened->path);
+        tn_help(list, none, "test the rule file that it was built from");
+        return TN_INVALID;
+    }
+    const tn_program *program = opened->compilation.program;
+    if (!program) { /* of a notation without tests */
+        tn_diagnostic *none =
+            tn_report_bare(list, TN_ERROR, E_NO_TESTS, "%s is no .plan file, and only those hold tests", opened->path);
+        tn_help(list, none, "%s", tn_opened_help(opened, "test the rules that it is about"));
+        return TN_INVALID;
+    }
+    size_t failed = counts->failed;
+    for (size_t i = 0; i < program->test_count; i++) {
+        block b = {.opened = opened, .module = opened->module, .tests = &program->tests[i]};
+        tn_error error;
+        if (b.tests->imported)
+            continue;
+        tn_status status = run_block(&b, max_states, counts, &error);
+        if (status != TN_OK) {
+            tn_finding_error(opened, &error);
+            return status;
+        }
+    }
+    return counts->failed > failed ? TN_INVALID : TN_OK;
+}

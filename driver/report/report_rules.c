@@ -1,0 +1,386 @@
+/* The rules of a report: a card for each clause of the library, and for each rule of the file that is none. */
+#include <stdlib.h>
+
+#include "driver/open/findings.h"
+#include "driver/report/report_data.h"
+#include "runtime/plan/picture/draw_rule.h"
+
+/* A clause or rule and what is known of it. */
+typedef struct card {
+    uint32_t index; /* of the clause in the library; of a rule that is none, the number of clauses */
+    uint32_t rule;  /* RULE record whose name the clause is, or UINT32_MAX */
+    uint32_t function;
+    const char *name, *doc, *kind;
+    bool prunes;
+    uint32_t file, begin, end; /* its text */
+} card;
+
+static uint32_t clause_count(const tn_reporting *r)
+{
+    return r->ready->record->clause_count;
+}
+
+static const tn_clause_record *clause_record(const tn_reporting *r, uint32_t index)
+{
+    return &r->module->CLAUSE_records[r->ready->record->clause_first + index];
+}
+
+static card card_of_rule(const tn_reporting *r, uint32_t index)
+{
+    const tn_rule_record *rule = &r->module->RULE_records[index];
+    return (card){.index = clause_count(r),
+                  .rule = index,
+                  .function = rule->holds,
+                  .name = tn_text(r->module, rule->name),
+                  .doc = tn_text(r->module, rule->doc),
+                  .kind = "neither pruned nor required",
+                  .file = rule->file,
+                  .begin = rule->begin,
+                  .end = rule->end};
+}
+
+static card card_of(const tn_reporting *r, uint32_t index)
+{
+    static const char *const kinds[] = {"required", "required", "prunes"};
+    const tn_clause_record *clause = clause_record(r, index);
+    const char *doc = tn_text(r->module, clause->doc);
+    uint32_t rule = tn_function_rule(r->module, clause->holds);
+    card c = {.rule = rule, .file = clause->file, .begin = clause->begin, .end = clause->end};
+    if (rule != UINT32_MAX)
+        c = card_of_rule(r, rule);
+    c.index = index;
+    c.function = clause->holds;
+    c.name = tn_text(r->module, clause->name);
+    if (*doc || rule == UINT32_MAX)
+        c.doc = doc;
+    c.kind = kinds[clause->kind];
+    c.prunes = clause->kind == TN_CLAUSE_PRUNE;
+    return c;
+}
+
+/* A name that clauses share (a total of a library and one of the library that it is from) is told apart by a number. */
+static bool put_id(const tn_reporting *r, const card *c)
+{
+    uint32_t before = 0;
+    for (uint32_t i = 0; i < c->index; i++)
+        before += strcmp(tn_text(r->module, clause_record(r, i)->name), c->name) == 0;
+    return tn_report_text(r, c->name) && (!before || tn_buffer_printf(r->page, ".%u", before + 1));
+}
+
+static bool put_title(const tn_reporting *r, const card *c)
+{
+    return tn_report_html(r, "<section class=\"card\" id=\"rule-") && put_id(r, c) && tn_report_html(r, "\"><h3>") &&
+           tn_report_text(r, c->name) && tn_report_html(r, " <small>") && tn_report_html(r, c->kind) &&
+           tn_report_html(r, "</small></h3>\n<p>") && tn_report_text(r, c->doc) && tn_report_html(r, "</p>\n");
+}
+
+/* A count, and what share of `whole` it is; or that there is none. */
+static bool put_count(const tn_reporting *r, const char *what, const mpz_t count, const mpz_t whole, const char *of)
+{
+    if (mpz_sgn(count) < 0)
+        return tn_report_html(r, what) && tn_report_html(r, " <b>not counted</b>: past the limit of states");
+    return tn_report_html(r, what) && tn_report_html(r, " <b>") && tn_report_number(r, count) &&
+           tn_report_html(r, "</b>") &&
+           (!of || (tn_report_html(r, " (") && tn_report_share(r, count, whole) && tn_report_html(r, of)));
+}
+
+/* How many plans there are of the library's lengths, whatever the clauses say. */
+static void count_all(const tn_reporting *r, mpz_t all)
+{
+    const tn_library *library = r->ready->library;
+    mpz_t plans;
+    mpz_init(plans);
+    mpz_set_ui(all, 0);
+    for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++) {
+        mpz_ui_pow_ui(plans, r->ready->schema->tray_count, length);
+        mpz_add(all, all, plans);
+    }
+    mpz_clear(plans);
+}
+
+/* How much a clause keeps out, and how much only it does. */
+static tn_status put_counts(const tn_reporting *r, const card *c)
+{
+    uint32_t states;
+    mpz_t out, only, whole;
+    mpz_inits(out, only, whole, NULL);
+    tn_status status = tn_library_effect(r->ready->library, c->index, out, only, &states, r->error);
+    if (status == TN_LIMIT) {
+        tn_finding_uncounted(r->opened, c->name, r->error);
+        status = TN_OK;
+    }
+    if (!c->prunes)
+        count_all(r, whole);
+    else if (status == TN_OK)
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, whole, r->error);
+    if (status == TN_OK)
+        status = tn_report_written(
+            r, tn_report_html(r, "<p class=\"counts\">") &&
+                   put_count(r, c->prunes ? "prunes" : "keeps out", out, whole,
+                             c->prunes ? " of what is generated)" : " of all plans of these lengths)") &&
+                   tn_report_html(r, "<br>") && put_count(r, "only it", only, whole, NULL) &&
+                   tn_report_html(r, "</p>\n"));
+    mpz_clears(out, only, whole, NULL);
+    return status;
+}
+
+static tn_status put_picture(tn_reporting *r, const card *c)
+{
+    tn_drawn_rule drawn = {"", "", c->function};
+    tn_picture picture = tn_report_next_picture(r);
+    if (c->rule != UINT32_MAX)
+        drawn.function = r->module->RULE_records[c->rule].whole;
+    tn_status status = tn_rules_draw(r->ready->schema, &drawn, 1, &picture, r->error);
+    return tn_report_put_picture(r, &picture, c->name, status);
+}
+
+static bool put_source(const tn_reporting *r, const card *c)
+{
+    const char *text = tn_text(r->module, r->module->SOURCE_records[c->file].text);
+    return tn_report_html(r, "<pre>") && tn_report_text_part(r, text + c->begin, c->end - c->begin) &&
+           tn_report_html(r, "</pre>\n");
+}
+
+/* ---- relations */
+
+static const char *rule_name(const tn_reporting *r, uint32_t rule)
+{
+    return tn_text(r->module, r->module->RULE_records[rule].name);
+}
+
+/* A plan that shows a relation: "only x: ..." */
+static bool put_witness(const tn_reporting *r, const char *who, const char *name, const tn_shown_plan *plan)
+{
+    return !plan->shown || (tn_report_html(r, "<br>") && tn_report_html(r, who) && tn_report_text(r, name) &&
+                            tn_report_html(r, ": <span class=\"line\">") &&
+                            tn_report_plan(r, plan->trays, plan->length) && tn_report_html(r, "</span>"));
+}
+
+static tn_status put_relation(const tn_reporting *r, const tn_plan_analysis *analysis, size_t i, size_t j,
+                              const char *word)
+{
+    tn_shown_plan examples[3];
+    const char *own = rule_name(r, tn_plan_analysis_rule(analysis, i));
+    const char *other = rule_name(r, tn_plan_analysis_rule(analysis, j));
+    tn_status status = tn_plan_analysis_examples(analysis, i, j, examples, r->error);
+    if (status == TN_OK)
+        status = tn_report_written(r, tn_report_html(r, "<p class=\"quiet\">") && tn_report_html(r, word) &&
+                                          tn_report_html(r, " <b>") && tn_report_text(r, other) &&
+                                          tn_report_html(r, "</b>") && put_witness(r, "both", "", &examples[0]) &&
+                                          put_witness(r, "only ", own, &examples[1]) &&
+                                          put_witness(r, "only ", other, &examples[2]) && tn_report_html(r, "</p>\n"));
+    for (int e = 0; e < 3; e++)
+        tn_shown_plan_clear(&examples[e]);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+/* What rule i of an analysis shares with the others; those that merely overlap are counted. */
+static tn_status put_relations_of(const tn_reporting *r, const tn_plan_analysis *analysis, size_t i)
+{
+    static const char *const words[] = {[TN_RULES_EQUAL] = "matches the same plans as",
+                                        [TN_RULES_APART] = "has no plan in common with",
+                                        [TN_RULES_INSIDE] = "all that it matches is matched by",
+                                        [TN_RULES_CONTAINS] = "matches all that is matched by",
+                                        [TN_RULES_UNKNOWN] = NULL,
+                                        [TN_RULES_OVERLAP] = NULL};
+    size_t overlaps = 0, unknown = 0, count = tn_plan_analysis_rule_count(analysis);
+    tn_status status = TN_OK;
+    for (size_t j = 0; status == TN_OK && j < count; j++) {
+        if (j == i)
+            continue;
+        tn_rule_relation relation = tn_plan_analysis_relation(analysis, i, j);
+        overlaps += relation == TN_RULES_OVERLAP;
+        unknown += relation == TN_RULES_UNKNOWN;
+        if (words[relation])
+            status = put_relation(r, analysis, i, j, words[relation]);
+    }
+    bool good = status == TN_OK && (!overlaps || tn_buffer_printf(r->page,
+                                                                  "<p class=\"quiet\">overlaps with %zu of the %zu "
+                                                                  "other rules</p>\n",
+                                                                  overlaps, count - 1));
+    good = good && (!unknown || tn_buffer_printf(r->page,
+                                                 "<p class=\"quiet\">not compared with %zu rules: past the limit of "
+                                                 "states</p>\n",
+                                                 unknown));
+    return status == TN_OK ? tn_report_written(r, good) : status;
+}
+
+static tn_status put_relations(const tn_reporting *r, const card *c)
+{
+    tn_status status = TN_OK;
+    for (size_t a = 0; a < r->analyses->count; a++) {
+        const tn_plan_analysis *analysis = r->analyses->items[a];
+        for (size_t i = 0; status == TN_OK && i < tn_plan_analysis_rule_count(analysis); i++)
+            if (c->rule != UINT32_MAX && tn_plan_analysis_rule(analysis, i) == c->rule)
+                status = put_relations_of(r, analysis, i);
+    }
+    return status;
+}
+
+/* ---- the shortest plan that only this clause keeps out */
+
+static tn_status put_alone(tn_reporting *r, const card *c, const tn_shown_plan *plan)
+{
+    tn_explained explained;
+    tn_status status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0,
+                                         plan->trays, plan->length, plan->length + 1, r->error);
+    if (status == TN_OK)
+        status = tn_report_written(
+            r, tn_report_html(r, "<details><summary>the shortest plan that only this keeps out</summary>\n"));
+    if (status == TN_OK)
+        status = tn_report_put_explained(r, &explained, c->name);
+    if (status == TN_OK)
+        status = tn_report_written(r, tn_report_html(r, "<p class=\"line\">") &&
+                                          tn_report_plan(r, plan->trays, plan->length) &&
+                                          tn_report_html(r, "</p></details>\n"));
+    tn_explained_clear(&explained);
+    return status;
+}
+
+static tn_status put_witness_alone(tn_reporting *r, const card *c)
+{
+    tn_status status = TN_OK;
+    for (size_t a = 0; status == TN_OK && a < r->analyses->count; a++) {
+        tn_shown_plan plan;
+        if (r->analyses->schemas[a]->record != r->ready->schema->record || (r->ready->record->flags & TN_IMPORTED))
+            continue;
+        status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->index, c->index, &plan, r->error);
+        if (status == TN_OK && plan.shown)
+            status = put_alone(r, c, &plan);
+        else if (status == TN_LIMIT)
+            status = tn_report_written(
+                r, tn_report_html(r, "<p class=\"quiet\">Whether it alone keeps a plan out is not analysed: past the "
+                                     "limit of states.</p>\n"));
+        tn_shown_plan_clear(&plan);
+    }
+    return status;
+}
+
+/* ---- coverage */
+
+static bool put_part(const tn_reporting *r, const tn_covered_part *part)
+{
+    return tn_buffer_printf(r->page, "<tr><td style=\"padding-left:%uem\">", part->depth < 12 ? part->depth : 12) &&
+           tn_report_text(r, part->text) && tn_report_html(r, "</td><td>") && tn_report_number(r, part->flips) &&
+           tn_buffer_printf(r->page, "</td><td>%s</td></tr>\n", part->noticed ? "yes" : "<b>no</b>");
+}
+
+static bool put_coverage(const tn_reporting *r, const card *c)
+{
+    size_t parts = 0, noticed = 0;
+    for (size_t i = 0; i < r->covered->count; i++)
+        if (r->covered->parts[i].function == c->function) {
+            parts++;
+            noticed += r->covered->parts[i].noticed;
+        }
+    if (parts == 0)
+        return true;
+    bool good = tn_buffer_printf(r->page,
+                                 "<details><summary>coverage: tests notice %zu of %zu parts</summary>\n<table "
+                                 "class=\"parts\"><tr><th>if this part never matched</th><th>plans decided "
+                                 "otherwise</th><th>a test notices</th></tr>\n",
+                                 noticed, parts);
+    for (size_t i = 0; good && i < r->covered->count; i++)
+        if (r->covered->parts[i].function == c->function)
+            good = put_part(r, &r->covered->parts[i]);
+    return good && tn_report_html(r, "</table></details>\n");
+}
+
+/* ---- all */
+
+/* What of a card there is for clauses and other rules alike, its title and counts having been put. */
+static tn_status put_body(tn_reporting *r, const card *c)
+{
+    tn_status status = put_picture(r, c);
+    if (status == TN_OK)
+        status = tn_report_written(r, put_source(r, c));
+    if (status == TN_OK)
+        status = put_relations(r, c);
+    if (status == TN_OK && c->index < clause_count(r))
+        status = put_witness_alone(r, c);
+    return status == TN_OK ? tn_report_written(r, put_coverage(r, c) && tn_report_html(r, "</section>\n")) : status;
+}
+
+static tn_status put_clauses(tn_reporting *r)
+{
+    tn_status status = tn_report_written(r, tn_report_html(r, "<h2 id=\"rules\">Rules</h2>\n"));
+    for (uint32_t i = 0; status == TN_OK && i < clause_count(r); i++) {
+        card c = card_of(r, i);
+        status = tn_report_written(r, put_title(r, &c));
+        if (status == TN_OK)
+            status = put_counts(r, &c);
+        if (status == TN_OK)
+            status = put_body(r, &c);
+    }
+    return status;
+}
+
+/* ---- rules that are no clauses */
+
+static bool is_other(const tn_reporting *r, uint32_t rule)
+{
+    const tn_rule_record *record = &r->module->RULE_records[rule];
+    for (uint32_t i = 0; i < clause_count(r); i++)
+        if (clause_record(r, i)->holds == record->holds || clause_record(r, i)->holds == record->whole)
+            return false;
+    return !(record->flags & TN_IMPORTED) && record->schema == r->ready->record->schema;
+}
+
+static tn_status put_other(tn_reporting *r, uint32_t rule, const mpz_t *matched, const mpz_t generated,
+                           const mpz_t kept)
+{
+    card c = card_of_rule(r, rule);
+    tn_status status = tn_report_written(
+        r, put_title(r, &c) && tn_report_html(r, "<p class=\"counts\">") &&
+               put_count(r, "matches", matched[0], generated, " of what is generated)") && tn_report_html(r, "<br>") &&
+               put_count(r, "of the plans kept", matched[1], kept, ")") && tn_report_html(r, "</p>\n"));
+    return status == TN_OK ? put_body(r, &c) : status;
+}
+
+static tn_status put_others(tn_reporting *r, const uint32_t *rules, size_t count, mpz_t *matched, mpz_t generated,
+                            mpz_t kept)
+{
+    uint32_t *functions = malloc((count + 1) * sizeof *functions);
+    if (!functions)
+        return tn_fail_memory(r->error);
+    for (size_t i = 0; i < count; i++)
+        functions[i] = r->module->RULE_records[rules[i]].holds;
+    tn_status status = tn_library_matches(r->ready->library, functions, count, matched, r->error);
+    free(functions);
+    if (status == TN_OK)
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, generated, r->error);
+    tn_library_kept(r->ready->library, TN_ALL_LENGTHS, kept);
+    if (status == TN_OK)
+        status = tn_report_written(r, tn_report_html(r, "<h2 id=\"others\">Other rules of the file</h2>\n"));
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = put_other(r, rules[i], (const mpz_t *)matched + 2 * i, generated, kept);
+    return status;
+}
+
+static tn_status find_others(tn_reporting *r)
+{
+    uint32_t *rules = malloc((r->module->RULE_count + 1) * sizeof *rules);
+    size_t count = 0;
+    if (!rules)
+        return tn_fail_memory(r->error);
+    for (uint32_t i = 0; i < r->module->RULE_count; i++)
+        if (is_other(r, i))
+            rules[count++] = i;
+    mpz_t *matched = malloc((2 * count + 2) * sizeof *matched);
+    tn_status status = matched ? TN_OK : tn_fail_memory(r->error);
+    for (size_t i = 0; matched && i < 2 * count + 2; i++)
+        mpz_init(matched[i]);
+    if (status == TN_OK && count)
+        status = put_others(r, rules, count, matched, matched[2 * count], matched[2 * count + 1]);
+    for (size_t i = 0; matched && i < 2 * count + 2; i++)
+        mpz_clear(matched[i]);
+    free(matched);
+    free(rules);
+    return status;
+}
+
+tn_status tn_report_rules(tn_reporting *r)
+{
+    tn_status status = put_clauses(r);
+    return status == TN_OK ? find_others(r) : status;
+}

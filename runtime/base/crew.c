@@ -1,0 +1,167 @@
+#include "runtime/base/crew.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+struct tn_crew {
+    pthread_mutex_t lock;
+    pthread_cond_t wake, done;
+    pthread_t *helpers;
+    unsigned helper_count;
+    uint64_t job;    /* number of the current one */
+    bool open;       /* may helpers join it? */
+    bool leaving;    /* no more jobs */
+    unsigned active; /* helpers at work on it */
+    /* the job */
+    tn_crew_work *work;
+    void *context;
+    size_t count, chunk;
+    atomic_size_t next;
+    size_t failed_item;
+    tn_status status;
+    tn_error error;
+};
+
+typedef struct helper {
+    tn_crew *crew;
+    unsigned number;
+} helper;
+
+static void keep_failure(tn_crew *crew, size_t item, tn_status status, const tn_error *error)
+{
+    pthread_mutex_lock(&crew->lock);
+    if (crew->status == TN_OK || item < crew->failed_item) {
+        crew->status = status;
+        crew->failed_item = item;
+        crew->error = *error;
+    }
+    pthread_mutex_unlock(&crew->lock);
+}
+
+static void take_part(tn_crew *crew, unsigned thread)
+{
+    for (;;) {
+        size_t from = atomic_fetch_add(&crew->next, crew->chunk);
+        if (from >= crew->count)
+            return;
+        size_t to = crew->count - from < crew->chunk ? crew->count : from + crew->chunk;
+        for (size_t item = from; item < to; item++) {
+            tn_error error;
+            tn_status status = crew->work(crew->context, thread, item, &error);
+            if (status != TN_OK)
+                keep_failure(crew, item, status, &error);
+        }
+    }
+}
+
+static void *help(void *argument)
+{
+    helper own = *(helper *)argument;
+    tn_crew *crew = own.crew;
+    uint64_t seen = 0;
+    free(argument);
+    pthread_mutex_lock(&crew->lock);
+    while (!crew->leaving) {
+        if (!crew->open || crew->job == seen) {
+            pthread_cond_wait(&crew->wake, &crew->lock);
+            continue;
+        }
+        seen = crew->job;
+        crew->active++;
+        pthread_mutex_unlock(&crew->lock);
+        take_part(crew, own.number);
+        pthread_mutex_lock(&crew->lock);
+        if (--crew->active == 0)
+            pthread_cond_signal(&crew->done);
+    }
+    pthread_mutex_unlock(&crew->lock);
+    return NULL;
+}
+
+static bool add_helper(tn_crew *crew)
+{
+    helper *argument = malloc(sizeof *argument);
+    if (!argument)
+        return false;
+    *argument = (helper){crew, crew->helper_count + 1};
+    if (pthread_create(&crew->helpers[crew->helper_count], NULL, help, argument) != 0) {
+        free(argument);
+        return false;
+    }
+    crew->helper_count++;
+    return true;
+}
+
+tn_crew *tn_crew_new(unsigned threads)
+{
+    tn_crew *crew = calloc(1, sizeof *crew);
+    if (!crew)
+        return NULL;
+    crew->helpers = calloc(threads ? threads : 1, sizeof *crew->helpers);
+    if (!crew->helpers) {
+        free(crew);
+        return NULL;
+    }
+    pthread_mutex_init(&crew->lock, NULL);
+    pthread_cond_init(&crew->wake, NULL);
+    pthread_cond_init(&crew->done, NULL);
+    for (unsigned i = 1; i < threads && add_helper(crew);)
+        i++;
+    return crew;
+}
+
+void tn_crew_free(tn_crew *crew)
+{
+    if (!crew)
+        return;
+    pthread_mutex_lock(&crew->lock);
+    crew->leaving = true;
+    pthread_cond_broadcast(&crew->wake);
+    pthread_mutex_unlock(&crew->lock);
+    for (unsigned i = 0; i < crew->helper_count; i++)
+        pthread_join(crew->helpers[i], NULL);
+    pthread_mutex_destroy(&crew->lock);
+    pthread_cond_destroy(&crew->wake);
+    pthread_cond_destroy(&crew->done);
+    free(crew->helpers);
+    free(crew);
+}
+
+tn_status tn_crew_run(tn_crew *crew, size_t count, size_t chunk, tn_crew_work *work, void *context, tn_error *error)
+{
+    bool alone = crew->helper_count == 0 || count <= chunk;
+    pthread_mutex_lock(&crew->lock);
+    crew->work = work;
+    crew->context = context;
+    crew->count = count;
+    crew->chunk = chunk ? chunk : 1;
+    crew->status = TN_OK;
+    atomic_store(&crew->next, 0);
+    crew->job++;
+    crew->open = !alone;
+    if (!alone)
+        pthread_cond_broadcast(&crew->wake);
+    pthread_mutex_unlock(&crew->lock);
+    take_part(crew, 0);
+    pthread_mutex_lock(&crew->lock);
+    crew->open = false;
+    while (crew->active)
+        pthread_cond_wait(&crew->done, &crew->lock);
+    tn_status status = crew->status;
+    if (status != TN_OK && error)
+        *error = crew->error;
+    pthread_mutex_unlock(&crew->lock);
+    return status;
+}
+
+unsigned tn_crew_default(void)
+{
+    cpu_set_t usable;
+    if (sched_getaffinity(0, sizeof usable, &usable) == 0 && CPU_COUNT(&usable) > 0)
+        return (unsigned)CPU_COUNT(&usable);
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (unsigned)online : 1;
+}

@@ -1,0 +1,269 @@
+#include "runtime/base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "runtime/base/file_error.h"
+
+/* ---- reading */
+
+static tn_status too_large(const char *path, size_t limit, tn_error *error)
+{
+    return tn_fail(error, TN_LIMIT, 804, "%s is larger than the limit of %zu bytes", path, limit);
+}
+
+/* Reads to the end of the file, doubling the memory as it goes: sizes that the system reports are not to be trusted for
+ * pipes and devices. */
+static tn_status read_all(int file, const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    size_t capacity = 65536;
+    uint8_t *memory = malloc(capacity);
+    size_t used = 0;
+    while (memory) {
+        ssize_t got = read(file, memory + used, capacity - used - 1);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0) {
+            if (got == 0)
+                break;
+            int reason = errno;
+            free(memory);
+            return tn_cannot_read(path, reason, error);
+        }
+        used += (size_t)got;
+        if (used > limit) {
+            free(memory);
+            return too_large(path, limit, error);
+        }
+        if (capacity - used > 1)
+            continue;
+        uint8_t *larger = capacity <= SIZE_MAX / 2 ? realloc(memory, capacity * 2) : NULL;
+        if (!larger)
+            free(memory);
+        memory = larger;
+        capacity *= 2;
+    }
+    if (!memory)
+        return tn_fail_memory(error);
+    memory[used] = 0;
+    *bytes = memory;
+    *size = used;
+    return TN_OK;
+}
+
+tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    *bytes = NULL;
+    *size = 0;
+    if (strcmp(path, "-") == 0)
+        return read_all(STDIN_FILENO, "standard input", limit, bytes, size, error);
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return tn_cannot_read(path, errno, error);
+    tn_status status = read_all(file, path, limit, bytes, size, error);
+    close(file);
+    return status;
+}
+
+/* ---- writing */
+
+tn_status tn_folder_make(const char *path, tn_error *error)
+{
+    struct stat known;
+    if (mkdir(path, 0777) == 0)
+        return TN_OK;
+    int reason = errno;
+    if (reason == EEXIST && stat(path, &known) == 0 && S_ISDIR(known.st_mode))
+        return TN_OK;
+    return tn_cannot_make(path, reason, error);
+}
+
+static const char *shown(const tn_output *output)
+{
+    return strcmp(output->path, "-") == 0 ? "standard output" : output->path;
+}
+
+/* Opens the folder that `target` is in; -1 where that cannot be. */
+static int open_folder(const char *target, int flags)
+{
+    char *folder = strdup(target);
+    if (!folder)
+        return -1;
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        slash[slash == folder] = '\0';
+    int file = open(slash ? folder : ".", flags | O_CLOEXEC, 0666);
+    free(folder);
+    return file;
+}
+
+/* What the system calls the open file, so that it can be given a name: "/proc/self/fd/4". */
+typedef struct file_link {
+    char path[40];
+} file_link;
+
+static const char *link_of(int file, file_link *link)
+{
+    snprintf(link->path, sizeof link->path, "/proc/self/fd/%d", file);
+    return link->path;
+}
+
+/* Gives a name in the target's folder to an open file that has none, or (file < 0) makes one of that name:
+ * ".tartan-4711-0.tmp". Returns what was done, or -1. */
+static int take_name(tn_output *output, int file)
+{
+    const char *slash = strrchr(output->target, '/');
+    int folder = slash ? (int)(slash + 1 - output->target) : 0;
+    file_link link;
+    for (unsigned attempt = 0; attempt < 1000; attempt++) {
+        if (asprintf(&output->temporary, "%.*s.tartan-%ld-%u.tmp", folder, output->target, (long)getpid(), attempt) <
+            0) {
+            output->temporary = NULL;
+            errno = ENOMEM;
+            return -1;
+        }
+        int done = file >= 0 ? linkat(AT_FDCWD, link_of(file, &link), AT_FDCWD, output->temporary, AT_SYMLINK_FOLLOW)
+                             : open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (done >= 0)
+            return done;
+        int reason = errno;
+        free(output->temporary);
+        output->temporary = NULL;
+        errno = reason;
+        if (reason != EEXIST)
+            return -1;
+    }
+    return -1;
+}
+
+/* A file of the target's folder without a name: however the program ends, nothing is left of it. -1 where the system
+ * has no such files. */
+static int open_nameless(const tn_output *output)
+{
+    int file = open_folder(output->target, O_TMPFILE | O_WRONLY);
+    file_link link;
+    if (file < 0 || access(link_of(file, &link), F_OK) == 0)
+        return file;
+    close(file); /* it could not be named afterwards */
+    return -1;
+}
+
+static int open_beside(tn_output *output, mode_t mode)
+{
+    int file = open_nameless(output);
+    if (file < 0)
+        file = take_name(output, -1);
+    if (file >= 0 && mode != 0)
+        (void)!fchmod(file, mode); /* the target's own, where it was there; failing that, the usual */
+    return file;
+}
+
+static void forget(tn_output *output)
+{
+    free(output->temporary);
+    free(output->target);
+    *output = (tn_output){.path = output->path};
+}
+
+tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
+{
+    *output = (tn_output){.path = path};
+    if (strcmp(path, "-") == 0) {
+        output->stream = stdout;
+        return TN_OK;
+    }
+    /* A link is followed, so that the file it names is replaced and not the link. */
+    output->target = realpath(path, NULL);
+    if (!output->target)
+        output->target = strdup(path);
+    if (!output->target)
+        return tn_fail_memory(error);
+    struct stat known;
+    bool exists = stat(output->target, &known) == 0;
+    int file;
+    output->replaces = !exists || S_ISREG(known.st_mode);
+    if (!output->replaces) /* a device or a pipe */
+        file = open(output->target, O_WRONLY | O_CLOEXEC);
+    else if (exists && access(output->target, W_OK) != 0)
+        file = -1; /* renaming would get round the protection of a file that may not be written */
+    else
+        file = open_beside(output, exists ? known.st_mode & 0777 : 0);
+    output->stream = file < 0 ? NULL : fdopen(file, "wb");
+    if (output->stream)
+        return TN_OK;
+    int reason = errno;
+    if (file >= 0)
+        close(file);
+    tn_output_discard(output);
+    return tn_cannot_write(path, reason, error);
+}
+
+/* The rename itself is on the disk only when the folder is. */
+static void sync_folder(const char *target)
+{
+    int file = open_folder(target, O_RDONLY | O_DIRECTORY);
+    if (file >= 0) {
+        fsync(file);
+        close(file);
+    }
+}
+
+/* Why writing failed some time ago, when only the stream's mark of it is left: what writing one more byte would fail
+ * on. */
+static int probe(int file)
+{
+    struct pollfd pipe_end = {.fd = file, .events = POLLOUT};
+    if (poll(&pipe_end, 1, 0) == 1 && (pipe_end.revents & POLLERR))
+        return EPIPE;
+    return write(file, "\n", 1) < 0 ? errno : EIO;
+}
+
+/* Flushes what is buffered, and sees to it that the file has a name to be renamed from; 0, or why that failed. */
+static int flush(tn_output *output)
+{
+    if (ferror(output->stream))
+        return probe(fileno(output->stream));
+    errno = 0;
+    if (fflush(output->stream) != 0)
+        return errno ? errno : EIO;
+    if (output->replaces && fsync(fileno(output->stream)) != 0)
+        return errno;
+    if (output->replaces && !output->temporary && take_name(output, fileno(output->stream)) < 0)
+        return errno;
+    return 0;
+}
+
+tn_status tn_output_commit(tn_output *output, tn_error *error)
+{
+    int reason = flush(output);
+    if (output->stream != stdout) {
+        if (fclose(output->stream) != 0 && reason == 0)
+            reason = errno;
+        output->stream = NULL;
+        if (reason == 0 && output->replaces && rename(output->temporary, output->target) != 0)
+            reason = errno;
+    }
+    if (reason != 0) {
+        tn_status status = tn_cannot_write(shown(output), reason, error);
+        tn_output_discard(output);
+        return status;
+    }
+    if (output->replaces)
+        sync_folder(output->target);
+    forget(output);
+    return TN_OK;
+}
+
+void tn_output_discard(tn_output *output)
+{
+    if (output->stream && output->stream != stdout)
+        fclose(output->stream);
+    if (output->temporary)
+        unlink(output->temporary);
+    forget(output);
+}

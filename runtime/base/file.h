@@ -1,0 +1,37 @@
+/* Whole files in, whole files out: reading with a limit, and writing beside the target and renaming,
+ * so that a crash never leaves half a file. */
+#ifndef TARTAN_BASE_FILE_H
+#define TARTAN_BASE_FILE_H
+
+#include <stdio.h>
+
+#include "runtime/base/error.h"
+
+/* Reads a whole file ("-" is standard input) of at most `limit` bytes. The caller frees *bytes with
+ * free(); a zero byte follows the contents and is not counted. E0901 unreadable (TN_IO), E0804 too large (TN_LIMIT). */
+tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error);
+
+/* Makes a folder, where it is not there already. E0902 (TN_IO). */
+tn_status tn_folder_make(const char *path, tn_error *error);
+
+/* An output file under construction. */
+typedef struct tn_output {
+    FILE *stream;     /* write here */
+    const char *path; /* the target, borrowed: must outlive the output; "-" is standard output */
+    bool replaces;    /* a file, put in the target's place by the commit; others are written to directly */
+    char *target;     /* owned; what `path` names, links followed; NULL for standard output */
+    char *temporary;  /* owned; the file's name till then; NULL while it has none */
+} tn_output;
+
+/* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is
+ * left of it when the program is killed. E0902 where that cannot be written. */
+tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
+
+/* Flushes, syncs and renames it over its target. On failure the temporary file is removed and the target
+ * stays as it was. A closed pipe on standard output is TN_IO with code 903. */
+tn_status tn_output_commit(tn_output *output, tn_error *error);
+
+/* Gives up: nothing is left of the temporary file. Harmless after a commit. */
+void tn_output_discard(tn_output *output);
+
+#endif

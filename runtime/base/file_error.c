@@ -1,0 +1,70 @@
+#include "runtime/base/file_error.h"
+
+#include <errno.h>
+#include <string.h>
+
+/* A row a reason that users meet; for others the system's own words have to do. */
+typedef struct file_reason {
+    int number;
+    const char *what; /* after "cannot read NAME: " */
+    const char *help;
+} file_reason;
+
+static const file_reason read_reasons[] = {
+    {ENOENT, "there is no such file", "see that its name and folder are right"},
+    {ENOTDIR, "a part of its path is a file, not a folder", "see that its name and folder are right"},
+    {EISDIR, "it is a folder", "name a file in it"},
+    {EACCES, "you have no right to read it", "ask its owner for that, or name another file"},
+};
+
+static const file_reason write_reasons[] = {
+    {ENOENT, "its folder is not there", "make the folder first, or name another"},
+    {ENOTDIR, "a part of its path is a file, not a folder", "name another folder"},
+    {EISDIR, "it is a folder", "name a file in it"},
+    {EEXIST, "there is a file of that name", "choose another name"},
+    {EACCES, "you have no right to write there", "name another folder"},
+    {EPERM, "you have no right to write there", "name another folder"},
+    {EROFS, "that disk can only be read", "name a folder on another"},
+    {ENOSPC, "the disk is full", "make room on it, or name a folder on another"},
+    {EDQUOT, "your share of the disk is used up", "make room on it, or name a folder on another"},
+    {ENAMETOOLONG, "the name is too long", "choose a shorter one"},
+    {EBADF, "it is closed", "leave it open, or name a file with -o"},
+};
+
+static tn_status refuse(const char *cannot, const char *path, uint32_t code, int number, const file_reason *known,
+                        size_t known_count, tn_error *error)
+{
+    for (size_t i = 0; i < known_count; i++) {
+        if (known[i].number != number)
+            continue;
+        tn_fail(error, TN_IO, code, "cannot %s %.300s: %s", cannot, path, known[i].what);
+        tn_error_help(error, "%s", known[i].help);
+        return TN_IO;
+    }
+    return tn_fail(error, TN_IO, code, "cannot %s %.300s: %s", cannot, path, strerror(number));
+}
+
+tn_status tn_cannot_read(const char *path, int reason, tn_error *error)
+{
+    return refuse("read", path, 901, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
+}
+
+static tn_status unwritten(const char *cannot, const char *path, int reason, tn_error *error)
+{
+    return refuse(cannot, path, 902, reason ? reason : EIO, write_reasons, sizeof write_reasons / sizeof *write_reasons,
+                  error);
+}
+
+tn_status tn_cannot_write(const char *path, int reason, tn_error *error)
+{
+    if (reason == ENOMEM)
+        return tn_fail_memory(error);
+    if (reason == EPIPE)
+        return tn_fail(error, TN_IO, 903, "the reader of %.300s went away", path);
+    return unwritten("write", path, reason, error);
+}
+
+tn_status tn_cannot_make(const char *path, int reason, tn_error *error)
+{
+    return unwritten("make the folder", path, reason, error);
+}

@@ -1,0 +1,65 @@
+#include "runtime/base/nearest.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+/* Longer words are no slips of the pen. */
+enum { WORD_MAX = 63 };
+
+static unsigned char fold(char c)
+{
+    return (unsigned char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Optimal string alignment distance: Levenshtein's, with a swap of neighbours as one step. */
+static size_t distance(const char *a, size_t a_size, const char *b, size_t b_size)
+{
+    size_t rows[3][WORD_MAX + 1];
+    size_t *before = rows[0], *last = rows[1], *row = rows[2];
+    for (size_t j = 0; j <= b_size; j++) {
+        before[j] = 0;
+        last[j] = j;
+    }
+    for (size_t i = 1; i <= a_size; i++) {
+        row[0] = i;
+        for (size_t j = 1; j <= b_size; j++) {
+            size_t replaced = last[j - 1] + (fold(a[i - 1]) != fold(b[j - 1]));
+            row[j] = least(replaced, least(last[j], row[j - 1]) + 1);
+            bool swapped = i > 1 && j > 1 && fold(a[i - 1]) == fold(b[j - 2]) && fold(a[i - 2]) == fold(b[j - 1]);
+            if (swapped)
+                row[j] = least(row[j], before[j - 2] + 1);
+        }
+        size_t *spare = before;
+        before = last;
+        last = row;
+        row = spare;
+    }
+    return last[b_size];
+}
+
+const char *tn_nearest(const char *word, const char *const *candidates, size_t count)
+{
+    size_t size = strlen(word);
+    if (size == 0 || size > WORD_MAX)
+        return NULL;
+    /* A third of the letters may be wrong, one at least; but something of the word must remain. */
+    size_t best_distance = least(size < 6 ? 1 : size / 3, size - 1) + 1;
+    const char *best = NULL;
+    for (size_t i = 0; i < count; i++) {
+        size_t candidate_size = strnlen(candidates[i], WORD_MAX + 1);
+        if (candidate_size > WORD_MAX || candidate_size + best_distance <= size ||
+            size + best_distance <= candidate_size)
+            continue;
+        size_t d = distance(word, size, candidates[i], candidate_size);
+        if (d < best_distance) {
+            best_distance = d;
+            best = candidates[i];
+        }
+    }
+    return best;
+}

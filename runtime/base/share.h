@@ -1,0 +1,17 @@
+/* Work in pieces that threads share. Which thread does which piece never matters to results. */
+#ifndef TARTAN_BASE_SHARE_H
+#define TARTAN_BASE_SHARE_H
+
+#include <stdint.h>
+
+typedef enum tn_share_how {
+    TN_SHARE_EVENLY, /* pieces in turn: a thread meets the same pieces again where the same number is shared again */
+    TN_SHARE_UNEVEN, /* whoever is free takes the next: for pieces of different size */
+} tn_share_how;
+
+typedef void tn_share_work(void *context, uint32_t piece);
+
+/* Does pieces 0 to count - 1 with up to `threads` threads. */
+void tn_share(int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context);
+
+#endif

@@ -1,0 +1,32 @@
+/* Text on its way to a reader: decoding, display columns, and what must not reach a terminal. Internal to the
+ * compiler's diagnostics. */
+#ifndef TARTAN_BASE_UTF8_H
+#define TARTAN_BASE_UTF8_H
+
+#include <stdio.h>
+
+#include "runtime/base/error.h"
+
+#define TN_REPLACEMENT 0xFFFDu
+
+/* Reads one character; *size is its bytes (at least 1). Broken UTF-8 is one byte and TN_REPLACEMENT. */
+uint32_t tn_utf8_read(const char *text, size_t left, size_t *size);
+
+/* Is the text UTF-8, without surrogates or overlong forms? Zero bytes are allowed. */
+bool tn_is_utf8(const char *text, size_t size);
+
+/* Columns that a character takes on a terminal: 0 for combining marks, 2 for wide East Asian characters and pictures.
+ */
+unsigned tn_character_width(uint32_t character);
+
+/* Must it be shown as TN_REPLACEMENT? Control characters would change the terminal's state, direction overrides the
+ * order of what is read. */
+bool tn_character_hidden(uint32_t character);
+
+/* Writes text with hidden characters replaced; line ends and tabs become blanks. */
+void tn_write_clean(FILE *out, const char *text, size_t size);
+
+/* Writes a JSON string with its quotes; NULL is null. */
+void tn_write_json(FILE *out, const char *text);
+
+#endif

@@ -1,0 +1,138 @@
+/* Evolution: a population of genomes, mapped, evaluated and bred, generation after generation.
+ *
+ * Every draw is keyed by what it is for, so that a run depends on its settings and seed alone and never on the number
+ * of threads. A run is replayed by running it again with the evaluations recalled instead of done; that is also how it
+ * is resumed. What is evaluated, and how, the caller's tn_evaluator says: this engine knows sentences and numbers.
+ */
+#ifndef TARTAN_GENOME_BREEDING_EVOLVE_H
+#define TARTAN_GENOME_BREEDING_EVOLVE_H
+
+#include "runtime/genome/breeding/select.h"
+#include "runtime/genome/breeding/vary.h"
+
+/* What became of an evaluation. All but TN_SCORED have infinity for every objective. */
+typedef enum tn_score_state {
+    TN_SCORED,
+    TN_SCORE_NO_SENTENCE, /* the genome is not valid */
+    TN_SCORE_FAILED,      /* the evaluator refused the sentence */
+    TN_SCORE_LIMIT,       /* it passed a limit */
+    TN_SCORE_STATE_COUNT
+} tn_score_state;
+
+typedef struct tn_score {
+    double objectives[TN_OBJECTIVES_MAX]; /* lower is better */
+    tn_score_state state;
+} tn_score;
+
+/* Gives sentences their scores. May be called by several threads at once, each with its own `thread` from 0 on. A
+ * sentence that cannot be scored is a state, not an error; the message (of 200 bytes) says why. TN_MEMORY and the like
+ * end the run. */
+typedef struct tn_evaluator {
+    void *context;
+    size_t objectives;
+    tn_status (*evaluate)(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                          char message[200], tn_error *error);
+    /* Changes a target or weight, "NAME VALUE ..."; NULL where nothing can be changed. Never while evaluating. */
+    tn_status (*adjust)(void *context, const char *change, tn_error *error);
+} tn_evaluator;
+
+/* What a failed evaluation returns: running out of memory ends the run; anything else is the sentence's own fault,
+ * whose score then says so. */
+tn_status tn_score_refuse(tn_status status, const tn_error *why, tn_score *score, char message[200], tn_error *error);
+
+typedef enum tn_initialisation {
+    TN_INITIALISE_RANDOM,
+    TN_INITIALISE_RAMPED,
+    TN_INITIALISE_GROW,
+    TN_INITIALISE_PI_GROW,
+    TN_INITIALISE_COUNT
+} tn_initialisation;
+typedef enum tn_replacement { TN_REPLACE_GENERATION, TN_REPLACE_STEADY, TN_REPLACE_COUNT } tn_replacement;
+
+typedef struct tn_evolution_settings {
+    uint64_t seed;
+    uint32_t population; /* 2 to TN_POPULATION_MAX */
+    tn_initialisation initialisation;
+    uint32_t codons;                /* of a random genome */
+    uint32_t depth_low, depth_high; /* of first trees */
+    double tail;                    /* random codons behind a tree's, as a share of them */
+    const tn_genome *seeds;         /* first genomes that are given; borrowed */
+    size_t seed_count;
+    tn_select_options select;
+    tn_vary_options vary;
+    uint32_t elites; /* with generational replacement */
+    tn_replacement replacement;
+    tn_map_options mapping;
+    unsigned threads; /* 0: as many as there are */
+} tn_evolution_settings;
+
+#define TN_POPULATION_MAX 1000000u
+#define TN_CACHE_MAX (1u << 22) /* phenotypes whose scores are kept; then all are forgotten */
+
+/* A paper's or PonyGE2's usual settings. */
+tn_evolution_settings tn_evolution_settings_default(void);
+
+typedef struct tn_individual {
+    uint64_t id;         /* generation * population + place among those born in it */
+    uint64_t parents[2]; /* ids; TN_NO_PARENT in the first generation */
+    uint8_t kind;        /* tn_birth_kind, TN_BIRTH_MUTATED */
+    tn_genome genome;
+    char *sentence; /* zero-ended; empty where not valid */
+    size_t sentence_size, sentence_capacity;
+    uint64_t hash[2]; /* of the sentence */
+    uint64_t used;
+    uint32_t depth;
+    tn_map_reason reason;
+    tn_score score;
+    char message[200]; /* why it was not scored */
+    bool member;
+} tn_individual;
+
+#define TN_NO_PARENT UINT64_MAX
+
+typedef struct tn_generation_stats {
+    uint32_t generation;
+    double best[TN_OBJECTIVES_MAX];                /* the best of each objective */
+    double mean;                                   /* of objective 0, of those scored; 0 where there is none */
+    uint32_t scored, no_sentence, failed, limited; /* of the members */
+    uint32_t distinct;                             /* sentences among the members */
+    uint64_t evaluations;                          /* of the run so far */
+    uint64_t births;                               /* likewise */
+    double mean_codons, mean_depth;                /* of the members with a sentence */
+} tn_generation_stats;
+
+typedef struct tn_evolution tn_evolution;
+
+/* Borrows grammar and settings' seeds, copies the rest. */
+tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_settings *settings,
+                           const tn_evaluator *evaluator, tn_evolution **evolution, tn_error *error);
+void tn_evolution_free(tn_evolution *evolution);
+
+/* Where scores come from that are known already (a stored run): true and the score, or false. Called in order of ids,
+ * by one thread. */
+typedef bool tn_recall(void *context, uint64_t id, tn_score *score);
+void tn_evolution_recall(tn_evolution *evolution, tn_recall *recall, void *context);
+
+/* The parents of the next generation, chosen by a person: members' places, each as often as it shall have children.
+ * They are used for the next step only. */
+tn_status tn_evolution_choose(tn_evolution *evolution, const uint32_t *places, size_t count, tn_error *error);
+
+/* Makes the first generation, then at each call the next. */
+tn_status tn_evolution_step(tn_evolution *evolution, tn_error *error);
+
+/* Scores all members again, after the evaluator's targets have changed. */
+tn_status tn_evolution_rescore(tn_evolution *evolution, tn_error *error);
+
+/* The members, the best first; and those born in the last step, in order of their ids. Valid until the next step. */
+const tn_individual *const *tn_evolution_members(const tn_evolution *evolution, size_t *count);
+const tn_individual *const *tn_evolution_born(const tn_evolution *evolution, size_t *count);
+
+/* The number of the newest generation; that after the first step is 0. */
+uint32_t tn_evolution_generation(const tn_evolution *evolution);
+
+tn_generation_stats tn_evolution_stats(const tn_evolution *evolution);
+
+/* With several objectives: how many of the members, from the best on, are on the first front. */
+size_t tn_evolution_front(const tn_evolution *evolution);
+
+#endif

@@ -1,0 +1,109 @@
+/* Scores: each sentence is evaluated once, by all threads, or recalled. */
+#include <math.h>
+#include <stdio.h>
+
+#include "runtime/genome/breeding/evolve_state.h"
+
+tn_status tn_score_refuse(tn_status status, const tn_error *why, tn_score *score, char message[200], tn_error *error)
+{
+    if (status == TN_MEMORY || status == TN_INTERNAL) {
+        *error = *why;
+        return status;
+    }
+    score->state = status == TN_LIMIT ? TN_SCORE_LIMIT : TN_SCORE_FAILED;
+    snprintf(message, 200, "%.199s", why->message);
+    return TN_OK;
+}
+
+static void worst_score(tn_score *score, tn_score_state state)
+{
+    for (size_t i = 0; i < TN_OBJECTIVES_MAX; i++)
+        score->objectives[i] = HUGE_VAL;
+    score->state = state;
+}
+
+/* Something that is not a number would compare with nothing. */
+static void tidy_score(const tn_evolution *e, tn_score *score)
+{
+    bool bad = false;
+    for (size_t i = 0; i < e->evaluator.objectives; i++)
+        bad |= isnan(score->objectives[i]);
+    if (score->state == TN_SCORED && bad)
+        score->state = TN_SCORE_FAILED;
+    if (score->state != TN_SCORED)
+        worst_score(score, score->state);
+    for (size_t i = e->evaluator.objectives; i < TN_OBJECTIVES_MAX; i++)
+        score->objectives[i] = 0;
+}
+
+static tn_status evaluate(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
+{
+    individual->score = (tn_score){0};
+    tn_status status = e->evaluator.evaluate(e->evaluator.context, thread, individual->sentence,
+                                             individual->sentence_size, &individual->score, individual->message, error);
+    tidy_score(e, &individual->score);
+    return status;
+}
+
+/* Those whose sentence is not known yet are listed in e->todo, each sentence once. */
+static tn_status list_unknown(tn_evolution *e, tn_individual **individuals, size_t count, size_t *todo, tn_error *error)
+{
+    *todo = 0;
+    if (e->cache.count > TN_CACHE_MAX)
+        tn_score_cache_clear(&e->cache);
+    for (size_t i = 0; i < count; i++) {
+        tn_individual *individual = individuals[i];
+        if (individual->reason != TN_MAP_VALID) {
+            worst_score(&individual->score, TN_SCORE_NO_SENTENCE);
+            continue;
+        }
+        bool is_new;
+        tn_status status = tn_score_cache_enter(&e->cache, individual->hash, &is_new, error);
+        if (status != TN_OK)
+            return status;
+        if (is_new)
+            e->todo[(*todo)++] = (uint32_t)i;
+    }
+    return TN_OK;
+}
+
+typedef struct scoring {
+    tn_evolution *evolution;
+    tn_individual **individuals;
+} scoring;
+
+static tn_status score_item(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    const scoring *s = context;
+    return evaluate(s->evolution, thread, s->individuals[s->evolution->todo[item]], error);
+}
+
+static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
+{
+    bool recalled = e->recall != NULL;
+    for (size_t i = 0; i < todo && recalled; i++) {
+        tn_individual *individual = individuals[e->todo[i]];
+        recalled = e->recall(e->recall_context, individual->id, &individual->score);
+        if (recalled)
+            tidy_score(e, &individual->score);
+    }
+    e->evaluations += todo;
+    scoring s = {e, individuals};
+    return recalled ? TN_OK : tn_crew_run(e->crew, todo, 1, score_item, &s, error);
+}
+
+tn_status tn_evolution_score(tn_evolution *e, tn_individual **individuals, size_t count, tn_error *error)
+{
+    size_t todo;
+    tn_status status = list_unknown(e, individuals, count, &todo, error);
+    if (status == TN_OK)
+        status = score_new(e, individuals, todo, error);
+    if (status != TN_OK)
+        return status;
+    for (size_t i = 0; i < todo; i++)
+        tn_score_cache_put(&e->cache, individuals[e->todo[i]]->hash, &individuals[e->todo[i]]->score);
+    for (size_t i = 0; i < count; i++)
+        if (individuals[i]->reason == TN_MAP_VALID)
+            tn_score_cache_get(&e->cache, individuals[i]->hash, &individuals[i]->score);
+    return TN_OK;
+}

@@ -1,0 +1,278 @@
+#include "runtime/genome/breeding/initialise.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/genome/mapping/span.h"
+
+#define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
+
+/* A node's expansion is a list of steps: a codon of its own, or a child. */
+typedef struct step {
+    bool is_child;
+    uint64_t value; /* the codon, or the child's node */
+} step;
+
+typedef struct node {
+    uint32_t rule, depth;
+    size_t steps, steps_end;
+} node;
+
+typedef struct planter {
+    const tn_grammar *grammar;
+    const tn_analysis *analysis;
+    const tn_tree_options *options;
+    tn_chance *chance;
+    node *nodes;
+    size_t node_count, node_capacity;
+    step *steps;
+    size_t step_count, step_capacity;
+    uint32_t *pending; /* nodes to be expanded */
+    size_t pending_count, pending_capacity;
+    size_t recursive_pending; /* how many of them can be deep */
+    uint32_t deepest;         /* level reached so far */
+    bool failed;
+} planter;
+
+static bool room(planter *p, void *items, size_t *capacity, size_t count, size_t size)
+{
+    bool fine = tn_array_reserve(items, capacity, count, 1, size);
+    p->failed |= !fine;
+    return fine;
+}
+
+void tn_random_codons(tn_chance *chance, uint64_t codon_limit, uint64_t *codons, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        codons[i] = codon_limit ? tn_chance_below(chance, codon_limit) : tn_chance_next(chance);
+}
+
+static uint64_t codon(planter *p)
+{
+    uint64_t value;
+    tn_random_codons(p->chance, p->options->codon_limit, &value, 1);
+    return value;
+}
+
+static void add_step(planter *p, bool is_child, uint64_t value)
+{
+    if (room(p, &p->steps, &p->step_capacity, p->step_count, sizeof *p->steps))
+        p->steps[p->step_count++] = (step){is_child, value};
+}
+
+static void add_child(planter *p, uint32_t rule, uint32_t depth)
+{
+    if (!room(p, &p->nodes, &p->node_capacity, p->node_count, sizeof *p->nodes) ||
+        !room(p, &p->pending, &p->pending_capacity, p->pending_count, sizeof *p->pending))
+        return;
+    p->nodes[p->node_count] = (node){rule, depth, 0, 0};
+    p->pending[p->pending_count++] = (uint32_t)p->node_count;
+    p->recursive_pending += p->analysis->recursive[rule];
+    p->deepest = depth > p->deepest ? depth : p->deepest;
+    add_step(p, true, p->node_count++);
+}
+
+/* ---- choosing a production that fits */
+
+static bool fits(const planter *p, uint32_t production, uint32_t depth)
+{
+    uint32_t needed = p->analysis->production_depth[production];
+    return needed != TN_DEPTH_ENDLESS && needed - 1 <= p->options->depth && depth <= p->options->depth - (needed - 1) &&
+           tn_can_choose(p->grammar, production, depth, p->options->max_depth);
+}
+
+/* The shallowest production that can be chosen there: for where none fits. */
+static uint32_t shallowest(const planter *p, uint32_t rule, uint32_t depth)
+{
+    const tn_rule *r = &p->grammar->rules[rule];
+    uint32_t best = TN_NO_RECORD;
+    for (uint32_t i = r->first; i < r->first + r->count; i++)
+        if ((best == TN_NO_RECORD || p->analysis->production_depth[i] < p->analysis->production_depth[best]) &&
+            tn_can_choose(p->grammar, i, depth, p->options->max_depth))
+            best = i;
+    return best;
+}
+
+static uint32_t choose(planter *p, uint32_t rule, uint32_t depth, bool deep)
+{
+    const tn_rule *r = &p->grammar->rules[rule];
+    for (int pass = deep ? 0 : 1; pass < 2; pass++) { /* recursive ones first where depth is wanted */
+        uint64_t count = 0, chosen;
+        for (uint32_t i = r->first; i < r->first + r->count; i++)
+            count += fits(p, i, depth) && (pass || p->analysis->endless[i]);
+        if (!count)
+            continue;
+        chosen = tn_chance_below(p->chance, count);
+        for (uint32_t i = r->first;; i++)
+            if (fits(p, i, depth) && (pass || p->analysis->endless[i]) && chosen-- == 0)
+                return i;
+    }
+    return shallowest(p, rule, depth);
+}
+
+/* ---- expanding it: its loops and options are decided at once */
+
+/* May the words [at, end) be written at this depth? */
+static bool body_fits(const planter *p, uint32_t at, uint32_t end, uint32_t depth)
+{
+    const tn_grammar *g = p->grammar;
+    if (p->node_count >= NODES_MAX)
+        return false;
+    for (; at < end; at++) {
+        if (TN_WORD_OP(g->words[at]) != TN_WORD_RULE)
+            continue;
+        uint32_t needed = p->analysis->rule_depth[TN_WORD_ARGUMENT(g->words[at])];
+        if (needed == TN_DEPTH_ENDLESS || depth + needed > p->options->depth)
+            return false;
+    }
+    return true;
+}
+
+typedef struct open_loop {
+    uint32_t at, rounds;
+} open_loop;
+
+static void expand(planter *p, uint32_t index)
+{
+    const tn_grammar *g = p->grammar;
+    uint32_t rule = p->nodes[index].rule, depth = p->nodes[index].depth;
+    bool starved = p->options->method == TN_TREE_PI_GROW && p->recursive_pending == 0 && p->deepest < p->options->depth;
+    uint32_t production =
+        choose(p, rule, depth, p->options->method == TN_TREE_FULL || (starved && p->analysis->recursive[rule]));
+    open_loop loops[TN_GROUP_DEPTH];
+    size_t open = 0;
+    bool bound[TN_EDGE_LETTERS] = {false};
+    p->nodes[index].steps = p->step_count;
+    if (g->dialect == TN_DIALECT_GENR8 || g->rules[rule].count > 1 || !g->skip_single) {
+        uint64_t choice = codon(p);
+        tn_choice_codon(g, production, depth, p->options->max_depth, &choice);
+        add_step(p, false, choice);
+    }
+    for (uint32_t at = g->productions[production].words; TN_WORD_OP(g->words[at]) != TN_WORD_DONE && !p->failed;) {
+        uint32_t word = g->words[at], argument = TN_WORD_ARGUMENT(word);
+        uint64_t value;
+        switch (TN_WORD_OP(word)) {
+        case TN_WORD_RULE:
+            add_child(p, argument, depth + 1);
+            break;
+        case TN_WORD_SAME:
+            if (!bound[argument])
+                add_step(p, false, codon(p));
+            bound[argument] = true;
+            break;
+        case TN_WORD_EDGE:
+            add_step(p, false, codon(p));
+            break;
+        case TN_WORD_REPEAT:
+            loops[open++] = (open_loop){at, 0};
+            __attribute__((fallthrough));
+        case TN_WORD_AGAIN: {
+            open_loop *loop = &loops[open - 1];
+            uint64_t modulus = (uint64_t)loop->rounds + 2;
+            uint32_t end = loop->at + TN_WORD_ARGUMENT(g->words[loop->at]);
+            value = codon(p);
+            if (!body_fits(p, loop->at + 1, end, depth))
+                value -= value % modulus;
+            add_step(p, false, value);
+            bool goes_on = value % modulus > loop->rounds;
+            at = goes_on ? loop->at : end;
+            loop->rounds += goes_on;
+            open -= !goes_on;
+            break;
+        }
+        case TN_WORD_MAYBE:
+            value = codon(p);
+            if (!body_fits(p, at + 1, at + 1 + argument, depth))
+                value &= ~UINT64_C(1);
+            add_step(p, false, value);
+            at += value & 1 ? 0 : argument;
+            break;
+        case TN_WORD_TERMINAL:
+        case TN_WORD_DONE:
+            break;
+        }
+        at++;
+    }
+    p->nodes[index].steps_end = p->step_count;
+}
+
+/* ---- the whole tree */
+
+static uint32_t take_pending(planter *p)
+{
+    size_t place = p->pending_count - 1;
+    if (p->options->method == TN_TREE_PI_GROW)
+        place = (size_t)tn_chance_below(p->chance, p->pending_count);
+    uint32_t index = p->pending[place];
+    p->pending[place] = p->pending[--p->pending_count];
+    p->recursive_pending -= p->analysis->recursive[p->nodes[index].rule];
+    return index;
+}
+
+static bool put(tn_genome *genome, uint64_t value)
+{
+    if (!tn_genome_reserve(genome, genome->count + 1))
+        return false;
+    genome->codons[genome->count++] = value;
+    return true;
+}
+
+/* Depth-first, leftmost; `pending` serves as the stack, holding the steps to go on from. */
+static bool write_codons(planter *p, tn_genome *genome)
+{
+    genome->count = 0;
+    size_t *cursor = calloc(p->node_count + 1, sizeof *cursor);
+    if (!cursor)
+        return false;
+    for (size_t i = 0; i < p->node_count; i++)
+        cursor[i] = p->nodes[i].steps;
+    bool well = true;
+    p->pending_count = 0;
+    if (room(p, &p->pending, &p->pending_capacity, 0, sizeof *p->pending))
+        p->pending[p->pending_count++] = 0;
+    while (well && p->pending_count && genome->count < p->options->max_codons) {
+        uint32_t top = p->pending[p->pending_count - 1];
+        if (cursor[top] == p->nodes[top].steps_end) {
+            p->pending_count--;
+            continue;
+        }
+        const step *s = &p->steps[cursor[top]++];
+        if (!s->is_child)
+            well = put(genome, s->value);
+        else if ((well = room(p, &p->pending, &p->pending_capacity, p->pending_count, sizeof *p->pending)))
+            p->pending[p->pending_count++] = (uint32_t)s->value;
+    }
+    free(cursor);
+    return well;
+}
+
+static bool add_tail(planter *p, tn_genome *genome)
+{
+    size_t tail = (size_t)((double)genome->count * p->options->tail);
+    if (genome->count + tail > p->options->max_codons)
+        tail = p->options->max_codons - genome->count;
+    if (!tn_genome_reserve(genome, genome->count + tail))
+        return false;
+    tn_random_codons(p->chance, p->options->codon_limit, genome->codons + genome->count, tail);
+    genome->count += tail;
+    return true;
+}
+
+tn_status tn_random_tree(const tn_grammar *grammar, const tn_analysis *analysis, uint32_t rule, uint32_t at_depth,
+                         const tn_tree_options *options, tn_chance *chance, tn_genome *genome, tn_error *error)
+{
+    tn_tree_options own = *options;
+    planter p = {.grammar = grammar, .analysis = analysis, .options = &own, .chance = chance};
+    uint32_t needed = analysis->rule_depth[rule] == TN_DEPTH_ENDLESS ? 0 : at_depth + analysis->rule_depth[rule] - 1;
+    if (own.depth < needed)
+        own.depth = needed;
+    add_child(&p, rule, at_depth);
+    while (p.pending_count && p.node_count < NODES_MAX * 2 && !p.failed)
+        expand(&p, take_pending(&p));
+    bool well = !p.failed && write_codons(&p, genome) && add_tail(&p, genome);
+    free(p.nodes);
+    free(p.steps);
+    free(p.pending);
+    return well ? TN_OK : tn_fail_memory(error);
+}

@@ -1,0 +1,44 @@
+/* Who has children: orders of merit and draws from them. Lower objectives are better; infinity is the worst. */
+#ifndef TARTAN_GENOME_BREEDING_SELECT_H
+#define TARTAN_GENOME_BREEDING_SELECT_H
+
+#include <stddef.h>
+
+#include "runtime/genome/breeding/chance.h"
+
+#define TN_OBJECTIVES_MAX 8u
+
+typedef enum tn_selection {
+    TN_SELECT_TOURNAMENT, /* the best of some drawn at random */
+    TN_SELECT_TRUNCATION, /* any of the best share */
+    TN_SELECT_ROULETTE,   /* in proportion to how much better than the worst */
+    TN_SELECT_NSGA2,      /* tournament by front and crowding; survivors likewise, of parents and children together */
+    TN_SELECT_COUNT
+} tn_selection;
+
+/* One individual's merit, as orders compare it: by front, then crowding (more room is better), then objective 0, then
+ * index. With one objective, front is 0 and room 0 for all. */
+typedef struct tn_merit {
+    const double *objectives;
+    uint32_t front;
+    double room;
+    uint32_t index;
+} tn_merit;
+
+/* Fills front and room of each: nondominated sorting and crowding distance (Deb et al., 2002). Quadratic in count.
+ * `scratch` has room for 3 * count numbers. */
+void tn_nsga2(tn_merit *merits, size_t count, size_t objectives, uint32_t *scratch);
+
+/* Sorts the best to the front. */
+void tn_merit_sort(tn_merit *merits, size_t count);
+
+typedef struct tn_select_options {
+    tn_selection selection;
+    uint32_t tournament; /* how many are drawn */
+    double truncation;   /* the share of the best */
+} tn_select_options;
+
+/* Draws a place in an order of merit (0 is the best). */
+size_t tn_select(const tn_select_options *options, tn_chance *chance, const tn_merit *sorted, size_t count);
+
+#endif

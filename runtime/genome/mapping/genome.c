@@ -1,0 +1,81 @@
+#include "runtime/genome/mapping/genome.h"
+
+#include <stdlib.h>
+
+void tn_genome_clear(tn_genome *genome)
+{
+    free(genome->codons);
+    *genome = (tn_genome){0};
+}
+
+bool tn_genome_reserve(tn_genome *genome, size_t count)
+{
+    if (count <= genome->capacity)
+        return true;
+    size_t capacity = genome->capacity ? genome->capacity : 64;
+    while (capacity < count)
+        capacity *= 2;
+    uint64_t *codons = realloc(genome->codons, capacity * sizeof *codons);
+    if (!codons)
+        return false;
+    genome->codons = codons;
+    genome->capacity = capacity;
+    return true;
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == ',';
+}
+
+/* Reads the digits at *at; false where there is no number, or one past 64 bits. */
+static bool read_codon(const char *line, size_t length, size_t *at, uint64_t *codon, bool *too_large)
+{
+    size_t begin = *at;
+    *codon = 0;
+    *too_large = false;
+    while (*at < length && line[*at] >= '0' && line[*at] <= '9') {
+        uint64_t digit = (uint64_t)(line[(*at)++] - '0');
+        *too_large |= *codon > (UINT64_MAX - digit) / 10;
+        *codon = *codon * 10 + digit;
+    }
+    return *at > begin && (*at == length || is_blank(line[*at])) && !*too_large;
+}
+
+static tn_status bad_codon(const char *line, size_t length, size_t begin, bool too_large, tn_error *error)
+{
+    size_t end = begin;
+    while (end < length && !is_blank(line[end]))
+        end++;
+    int shown = end - begin > 40 ? 40 : (int)(end - begin);
+    if (too_large)
+        tn_fail(error, TN_INVALID, 1221, "the codon %.*s does not fit 64 bits", shown, line + begin);
+    else
+        tn_fail(error, TN_INVALID, 1220, "`%.*s` is not a codon", shown, line + begin);
+    tn_error_help(error, "codons are whole numbers from 0 to 18446744073709551615, parted by blanks");
+    tn_error_place(error, 0, begin + 1, end + 1);
+    return TN_INVALID;
+}
+
+tn_status tn_genome_read(const char *line, size_t length, tn_genome *genome, tn_error *error)
+{
+    genome->count = 0;
+    for (size_t at = 0;;) {
+        while (at < length && is_blank(line[at]))
+            at++;
+        if (at == length)
+            return TN_OK;
+        if (genome->count == TN_GENOME_CODONS_MAX) {
+            tn_fail(error, TN_LIMIT, 1225, "the genome has more than %u codons, the limit", TN_GENOME_CODONS_MAX);
+            return TN_LIMIT;
+        }
+        size_t begin = at;
+        uint64_t codon;
+        bool too_large;
+        if (!read_codon(line, length, &at, &codon, &too_large))
+            return bad_codon(line, length, begin, too_large, error);
+        if (!tn_genome_reserve(genome, genome->count + 1))
+            return tn_fail_memory(error);
+        genome->codons[genome->count++] = codon;
+    }
+}

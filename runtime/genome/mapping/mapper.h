@@ -1,0 +1,111 @@
+/* Mapping: a genome chooses, codon by codon, the sentence of a grammar (Genr8 paper, 5.1 and 5.2).
+ *
+ * Depth-first, leftmost, the start symbol at depth 1. A genome of n codons with W wraps is read as if written W + 1
+ * times. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
+ *
+ * A tn_mapper holds the scratch memory of one thread; make one for each. What a tn_mapping points to lives in the
+ * mapper and is valid until its next use.
+ */
+#ifndef TARTAN_GENOME_MAPPING_MAPPER_H
+#define TARTAN_GENOME_MAPPING_MAPPER_H
+
+#include "runtime/grammar/grammar.h"
+
+typedef struct tn_map_options {
+    uint32_t wraps;     /* further readings of the genome */
+    uint32_t max_depth; /* 0: no limit. ge: a deeper sentence is invalid; genr8: from there on only productions without
+                           non-terminals are chosen */
+    uint64_t max_steps; /* symbols and codons handled, a bound on time and memory; 0: TN_MAP_STEPS */
+    tn_repair repair;   /* genr8 only */
+    bool record;        /* keep the derivation (tn_mapping.events) */
+} tn_map_options;
+
+#define TN_MAP_STEPS 1000000u
+#define TN_MAP_STEP_BYTES 16u /* as many bytes of a terminal count as a step more */
+
+/* What the grammar's own directives ask for. */
+tn_map_options tn_map_options_of(const tn_grammar *grammar);
+
+typedef enum tn_map_reason {
+    TN_MAP_VALID,
+    TN_MAP_OUT_OF_CODONS,
+    TN_MAP_TOO_DEEP,
+    TN_MAP_TOO_LONG,             /* max_steps */
+    TN_MAP_REPAIR_OUT_OF_CODONS, /* the sentence itself is there */
+    TN_MAP_REPAIR_TOO_LONG,
+    TN_MAP_REASON_COUNT
+} tn_map_reason;
+
+/* In words, as "out of codons"; "" for TN_MAP_VALID. */
+const char *tn_map_reason_text(tn_map_reason reason);
+
+typedef enum tn_event_kind {
+    TN_EVENT_EXPAND, /* a rule by a production, up to its TN_EVENT_END */
+    TN_EVENT_END,
+    TN_EVENT_TERMINAL,
+    TN_EVENT_EDGE,   /* value: its number */
+    TN_EVENT_AGAIN,  /* value > modulus - 2: a loop goes on, its body follows */
+    TN_EVENT_STOP,   /* a loop ends */
+    TN_EVENT_TAKE,   /* an option is taken, its body follows */
+    TN_EVENT_SKIP,   /* or not */
+    TN_EVENT_REPAIR, /* value: the edge type that gets a rule, whose successor follows */
+} tn_event_kind;
+
+#define TN_NO_READ UINT64_MAX
+
+/* One step of a derivation, in order. */
+typedef struct tn_event {
+    uint8_t kind;   /* tn_event_kind */
+    char letter;    /* EDGE: 'X', 'Y' or 'Z' for a variable, else 0 */
+    uint32_t depth; /* of the non-terminal; of the production that the step belongs to elsewhere */
+    uint32_t
+        symbol; /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
+    uint32_t production; /* EXPAND */
+    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ where it reads none */
+    uint64_t codon;
+    uint64_t modulus, value; /* value = codon mod modulus */
+    size_t text_begin;       /* in the sentence written so far */
+} tn_event;
+
+typedef struct tn_mapping {
+    bool valid;
+    tn_map_reason reason;
+    bool has_phenotype;    /* also where only the repair failed */
+    const char *phenotype; /* zero-ended */
+    size_t phenotype_size;
+    /* of the phenotype, before repair */
+    uint64_t used; /* codons, counting past the end when wrapping */
+    uint64_t nodes;
+    uint32_t depth;
+    uint64_t wraps; /* (used - 1) / n */
+    /* genr8 */
+    uint32_t max_id; /* how many edge types there are */
+    bool repaired;   /* repair was asked for and done, even if there was nothing to add */
+    const char *repaired_phenotype;
+    size_t repaired_size;
+    uint64_t repaired_used;
+    const uint32_t *repaired_ids; /* edge types that got a rule, in that order */
+    size_t repaired_count;
+    /* where record was asked for; also of an invalid mapping, as far as it went */
+    const tn_event *events;
+    size_t event_count;
+} tn_mapping;
+
+typedef struct tn_mapper tn_mapper;
+
+/* Borrows the grammar. NULL where out of memory. */
+tn_mapper *tn_mapper_new(const tn_grammar *grammar);
+void tn_mapper_free(tn_mapper *mapper);
+
+/* Maps a genome. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
+tn_status tn_map_genome(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options,
+                        tn_mapping *mapping, tn_error *error);
+
+/* What a valid mapping is for: the repaired sentence where there is one, else the phenotype. */
+static inline const char *tn_mapping_sentence(const tn_mapping *mapping, size_t *size)
+{
+    *size = mapping->repaired ? mapping->repaired_size : mapping->phenotype_size;
+    return mapping->repaired ? mapping->repaired_phenotype : mapping->phenotype;
+}
+
+#endif

@@ -1,0 +1,260 @@
+#include "runtime/genome/settings.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "runtime/base/utf8.h"
+
+const tn_setting_row tn_setting_rows[TN_SETTING_COUNT] = {
+#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES)                                                     \
+    [TN_SET_##ID] = {NAME, TN_SETTING_##KIND, FIRST, SECOND, LOW, HIGH, CHOICES},
+#include "runtime/genome/settings.def"
+#undef SETTING
+};
+
+tn_setting tn_setting_named(const char *text, size_t size)
+{
+    tn_setting setting = 0;
+    while (setting < TN_SETTING_COUNT && (strlen(tn_setting_rows[setting].name) != size ||
+                                          strncasecmp(tn_setting_rows[setting].name, text, size) != 0))
+        setting++;
+    return setting;
+}
+
+void tn_evolution_study_default(tn_evolution_study *study)
+{
+    *study = (tn_evolution_study){0};
+    for (size_t i = 0; i < TN_SETTING_COUNT; i++) {
+        const tn_setting_row *row = &tn_setting_rows[i];
+        bool chooses = row->kind == TN_SETTING_CHOICE || row->kind == TN_SETTING_CHOICE_REAL;
+        study->of[i].choice = chooses ? (uint32_t)row->first : 0;
+        study->of[i].first = chooses ? 0 : row->first;
+        study->of[i].second = row->second;
+    }
+}
+
+/* ---- choices */
+
+uint32_t tn_setting_choice(const tn_setting_row *row, const char *word)
+{
+    size_t length = strlen(word);
+    uint32_t index = 0;
+    for (const char *at = row->choices; *at; index++) {
+        size_t size = strcspn(at, "|");
+        if (size == length && strncasecmp(at, word, size) == 0)
+            return index;
+        at += size + (at[size] == '|');
+    }
+    return UINT32_MAX;
+}
+
+uint32_t tn_setting_choice_count(const tn_setting_row *row)
+{
+    uint32_t count = row->choices[0] != '\0';
+    for (const char *at = row->choices; *at; at++)
+        count += *at == '|';
+    return count;
+}
+
+void tn_setting_choice_name(const tn_setting_row *row, uint32_t choice, char name[32])
+{
+    const char *at = row->choices;
+    for (; choice > 0; choice--)
+        at += strcspn(at, "|") + 1;
+    size_t size = strcspn(at, "|");
+    size = size < 31 ? size : 31;
+    memcpy(name, at, size);
+    name[size] = '\0';
+}
+
+/* ---- writing */
+
+static void write_quoted(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) {
+        size_t size = strcspn(text, "\"\\");
+        tn_write_clean(out, text, size);
+        text += size;
+        if (!*text)
+            break;
+        fputc('\\', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+/* The shorter of two spellings that give the same number. */
+static void write_number(FILE *out, double number)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.15g", number);
+    fprintf(out, strtod(text, NULL) == number ? "%.15g" : "%.17g", number);
+}
+
+void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *value)
+{
+    const tn_setting_row *row = &tn_setting_rows[setting];
+    char word[32];
+    fprintf(out, "%s ", row->name);
+    switch (row->kind) {
+    case TN_SETTING_WHOLE:
+    case TN_SETTING_REAL:
+        write_number(out, value->first);
+        return;
+    case TN_SETTING_PAIR:
+        write_number(out, value->first);
+        fputs("..", out);
+        write_number(out, value->second);
+        return;
+    case TN_SETTING_TEXT:
+        write_quoted(out, value->text ? value->text : "");
+        return;
+    case TN_SETTING_CHOICE:
+    case TN_SETTING_CHOICE_REAL:
+        tn_setting_choice_name(row, value->choice, word);
+        fputs(word, out);
+        if (value->written == 2) {
+            fputc(' ', out);
+            write_number(out, value->second);
+        }
+        return;
+    }
+}
+
+/* ---- what is right */
+
+static bool within(const tn_setting_row *row, double number)
+{
+    return number >= row->low && number <= row->high;
+}
+
+static bool whole_within(const tn_setting_row *row, double number)
+{
+    return within(row, number) && number == floor(number);
+}
+
+bool tn_setting_fits(tn_setting setting, const tn_setting_value *value)
+{
+    const tn_setting_row *row = &tn_setting_rows[setting];
+    bool one = value->written == 1;
+    switch (row->kind) {
+    case TN_SETTING_WHOLE:
+        return one && whole_within(row, value->first);
+    case TN_SETTING_REAL:
+        return one && within(row, value->first);
+    case TN_SETTING_PAIR:
+        return one && whole_within(row, value->first) && whole_within(row, value->second) &&
+               value->first <= value->second;
+    case TN_SETTING_TEXT:
+        return one && value->text && value->text[0];
+    case TN_SETTING_CHOICE:
+        return one && value->choice < tn_setting_choice_count(row);
+    case TN_SETTING_CHOICE_REAL:
+        return (one || (value->written == 2 && within(row, value->second))) &&
+               value->choice < tn_setting_choice_count(row);
+    }
+    return false;
+}
+
+typedef struct findings {
+    const tn_evolution_study *study;
+    tn_setting_fault *faults;
+    size_t count;
+} findings;
+
+static void find(findings *f, tn_setting setting, tn_setting other, const char *message, const char *help)
+{
+    if (f->count < TN_SETTING_FAULTS_MAX)
+        f->faults[f->count++] = (tn_setting_fault){setting, other, message, help};
+}
+
+static bool chose(const findings *f, tn_setting setting, const char *word)
+{
+    return f->study->of[setting].choice == tn_setting_choice(&tn_setting_rows[setting], word);
+}
+
+static bool is_written(const findings *f, tn_setting setting)
+{
+    return f->study->of[setting].written > 0;
+}
+
+/* One of match, fit, grow, and keep with drop. */
+static void find_problem(findings *f)
+{
+    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_KEEP, TN_SET_DROP};
+    tn_setting first = TN_SETTING_COUNT;
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        if (!is_written(f, starts[i]))
+            continue;
+        bool pair = starts[i] == TN_SET_DROP && first == TN_SET_KEEP;
+        if (first != TN_SETTING_COUNT && !pair)
+            find(f, starts[i], first, "a study has one problem, and this is another", "leave one of them out");
+        first = first == TN_SETTING_COUNT ? starts[i] : first;
+    }
+    if (first == TN_SETTING_COUNT)
+        find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what is wanted",
+             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` with "
+             "`drop \"PLANS\"`");
+    if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
+        find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,
+             "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
+}
+
+static void find_selection(findings *f)
+{
+    const tn_setting_value *selection = &f->study->of[TN_SET_SELECTION];
+    bool nsga2 = chose(f, TN_SET_SELECTION, "nsga2");
+    for (tn_setting one = TN_SET_MATCH; nsga2 && one <= TN_SET_FIT; one++)
+        if (is_written(f, one))
+            find(f, TN_SET_SELECTION, one, "`selection nsga2` weighs several objectives, and this problem has one",
+                 "write `selection tournament 3`");
+    if (nsga2 && chose(f, TN_SET_REPLACEMENT, "steady-state"))
+        find(f, TN_SET_REPLACEMENT, TN_SET_SELECTION,
+             "`selection nsga2` chooses among parents and children together, which replaces them too",
+             "leave `replacement` out");
+    if (selection->written == 2 && chose(f, TN_SET_SELECTION, "truncation") &&
+        !(selection->second > 0 && selection->second <= 1))
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "`selection truncation` takes the share of the best",
+             "write a number above 0 and not above 1, as 0.5");
+    if (selection->written == 2 && chose(f, TN_SET_SELECTION, "roulette"))
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "`selection roulette` takes no number", "leave the number out");
+    bool drawn = nsga2 || chose(f, TN_SET_SELECTION, "tournament");
+    if (selection->written == 2 && drawn && !(selection->second >= 1 && selection->second == floor(selection->second)))
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "this selection takes how many are drawn for a tournament",
+             "write a whole number of at least 1, as 3");
+}
+
+size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fault faults[TN_SETTING_FAULTS_MAX])
+{
+    findings f = {study, faults, 0};
+    const tn_setting_value *of = study->of;
+    if (!is_written(&f, TN_SET_GRAMMAR))
+        find(&f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say which grammar genomes are mapped through",
+             "add a line such as `grammar \"words\"`");
+    find_problem(&f);
+    find_selection(&f);
+    if (of[TN_SET_ELITES].first >= of[TN_SET_POPULATION].first) {
+        tn_setting blamed = is_written(&f, TN_SET_ELITES) ? TN_SET_ELITES : TN_SET_POPULATION;
+        find(&f, blamed,
+             blamed == TN_SET_ELITES && is_written(&f, TN_SET_POPULATION) ? TN_SET_POPULATION : TN_SETTING_COUNT,
+             "there are as many elites as individuals", "an elite or two are usual");
+    }
+    if (!chose(&f, TN_SET_MUTATION, "genome") && of[TN_SET_MUTATION].second > 1)
+        find(&f, TN_SET_MUTATION, TN_SETTING_COUNT, "this mutation takes a probability", "write a number from 0 to 1");
+    return f.count;
+}
+
+bool tn_evolution_study_of(const tn_module *module, tn_evolution_study *study)
+{
+    tn_evolution_study_default(study);
+    for (size_t i = 0; i < module->SETTING_count; i++) {
+        const tn_setting_record *r = &module->SETTING_records[i];
+        study->of[r->setting] =
+            (tn_setting_value){r->written, r->choice, r->first, r->second, r->text ? tn_text(module, r->text) : NULL,
+                               r->file,    r->begin,  r->end};
+    }
+    return module->SETTING_count > 0;
+}

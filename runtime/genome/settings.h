@@ -1,0 +1,83 @@
+/* The settings of an evolution block as values: what a study says, what a module's SETTING records hold, and what an
+ * engine is started with. settings.def is the table of them.
+ */
+#ifndef TARTAN_GENOME_SETTINGS_H
+#define TARTAN_GENOME_SETTINGS_H
+
+#include <stdio.h>
+
+#include "runtime/module/module.h"
+
+typedef enum tn_setting {
+#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES) TN_SET_##ID,
+#include "runtime/genome/settings.def"
+#undef SETTING
+    TN_SETTING_COUNT
+} tn_setting;
+
+typedef enum tn_setting_kind {
+    TN_SETTING_WHOLE,
+    TN_SETTING_REAL,
+    TN_SETTING_PAIR,
+    TN_SETTING_TEXT,
+    TN_SETTING_CHOICE,
+    TN_SETTING_CHOICE_REAL
+} tn_setting_kind;
+
+typedef struct tn_setting_row {
+    const char *name;
+    tn_setting_kind kind;
+    double first, second; /* defaults */
+    double low, high;
+    const char *choices; /* "a|b|c" */
+} tn_setting_row;
+
+extern const tn_setting_row tn_setting_rows[TN_SETTING_COUNT];
+
+typedef struct tn_setting_value {
+    uint32_t written; /* how many values were: 0 where the default stands; a number after a word counts */
+    uint32_t choice;
+    double first, second; /* a number, the ends of a range; second: the number after a word */
+    const char *text;     /* or NULL; borrowed */
+    uint32_t file, begin, end;
+} tn_setting_value;
+
+/* One of each, the defaults where nothing is written. */
+typedef struct tn_evolution_study {
+    tn_setting_value of[TN_SETTING_COUNT];
+} tn_evolution_study;
+
+void tn_evolution_study_default(tn_evolution_study *study);
+
+/* The setting that a text of `size` bytes names, case aside; TN_SETTING_COUNT where it is none. */
+tn_setting tn_setting_named(const char *text, size_t size);
+
+/* Is this value one that the setting's row allows? */
+bool tn_setting_fits(tn_setting setting, const tn_setting_value *value);
+
+/* The index of a word among a row's choices, case aside; UINT32_MAX where it is none. */
+uint32_t tn_setting_choice(const tn_setting_row *row, const char *word);
+uint32_t tn_setting_choice_count(const tn_setting_row *row);
+
+/* Copies the name of a choice into `name`, of 32 bytes. */
+void tn_setting_choice_name(const tn_setting_row *row, uint32_t choice, char name[32]);
+
+/* Writes a setting as a study writes it, "crossover subtree 0.8". What would upset a terminal is cleaned. */
+void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *value);
+
+/* What is wrong between settings that are each right. */
+typedef struct tn_setting_fault {
+    tn_setting setting; /* that is to blame; TN_SETTING_COUNT: something is missing */
+    tn_setting other;   /* that it does not go with, or TN_SETTING_COUNT */
+    const char *message, *help;
+} tn_setting_fault;
+
+#define TN_SETTING_FAULTS_MAX 16u
+
+/* Fills `faults` and returns how many there are. */
+size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fault faults[TN_SETTING_FAULTS_MAX]);
+
+/* The study that a verified module holds; its texts are the module's. False where it holds none. */
+bool tn_evolution_study_of(const tn_module *module, tn_evolution_study *study);
+
+#endif

@@ -1,0 +1,306 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "runtime/genome/store/run_store_sql.h"
+
+#include "runtime/base/bytes.h"
+
+#define APPLICATION_ID 0x54524E31 /* "TRN1" in the header, so that `file` and we know the database */
+
+static const char schema[] = "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+                             "CREATE TABLE generation(number INTEGER PRIMARY KEY, best REAL, mean REAL, scored "
+                             "INTEGER, no_sentence INTEGER, failed INTEGER,"
+                             " limited INTEGER, distinct_sentences INTEGER, evaluations INTEGER, births INTEGER, "
+                             "mean_codons REAL, mean_depth REAL,"
+                             " members BLOB);"
+                             "CREATE TABLE birth(id INTEGER PRIMARY KEY, kind INTEGER, parent INTEGER, other INTEGER, "
+                             "state INTEGER, fitness REAL,"
+                             " more BLOB, message TEXT);"
+                             "CREATE TABLE event(generation INTEGER, number INTEGER, kind TEXT, text TEXT, PRIMARY "
+                             "KEY(generation, number)) WITHOUT ROWID;"
+                             "CREATE TABLE rescore(generation INTEGER, id INTEGER, state INTEGER, fitness REAL, more "
+                             "BLOB, PRIMARY KEY(generation, id))"
+                             " WITHOUT ROWID;";
+
+void tn_run_store_free(tn_run_store *store)
+{
+    if (!store)
+        return;
+    sqlite3_finalize(store->put_birth);
+    sqlite3_finalize(store->put_generation);
+    sqlite3_finalize(store->put_event);
+    sqlite3_finalize(store->put_rescore);
+    sqlite3_close(store->db);
+    free(store);
+}
+
+static tn_status cannot_open(const char *path, int flags, const tn_run_store *store, tn_error *error)
+{
+    if (!(flags & SQLITE_OPEN_CREATE) && access(path, F_OK) != 0) {
+        tn_fail(error, TN_IO, 901, "there is no run: no file %.200s", path);
+        tn_error_help(error, "name the folder that `tartan evolve` made, as hello.run");
+        return TN_IO;
+    }
+    return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path,
+                   sqlite3_errmsg(store->db));
+}
+
+static tn_status open_at(const char *path, int flags, bool durable, tn_run_store **store, tn_error *error)
+{
+    tn_run_store *s = calloc(1, sizeof *s);
+    *store = s;
+    if (!s)
+        return tn_fail_memory(error);
+    if (sqlite3_open_v2(path, &s->db, flags, NULL) != SQLITE_OK)
+        return cannot_open(path, flags, s, error);
+    sqlite3_busy_timeout(s->db, 5000);
+    return run(s, durable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF", error);
+}
+
+static tn_status prepare_writing(tn_run_store *store, tn_error *error)
+{
+    tn_status status = prepare(store, "INSERT INTO birth VALUES(?,?,?,?,?,?,?,?)", &store->put_birth, error);
+    if (status == TN_OK)
+        status =
+            prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)", &store->put_generation, error);
+    if (status == TN_OK)
+        status = prepare(store, "INSERT INTO event VALUES(?,?,?,?)", &store->put_event, error);
+    if (status == TN_OK)
+        status = prepare(store, "INSERT INTO rescore VALUES(?,?,?,?,?)", &store->put_rescore, error);
+    return status;
+}
+
+static tn_status done(tn_run_store **store, tn_status status)
+{
+    if (status != TN_OK) {
+        tn_run_store_free(*store);
+        *store = NULL;
+    }
+    return status;
+}
+
+tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **store, tn_error *error)
+{
+    *store = NULL;
+    if (access(path, F_OK) == 0) {
+        tn_fail(error, TN_INVALID, 1250, "there is a run in %.200s already", path);
+        tn_error_help(error, "--resume goes on with it; -o DIR puts this run elsewhere");
+        return TN_INVALID;
+    }
+    tn_status status = open_at(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, durable, store, error);
+    char pragma[64];
+    snprintf(pragma, sizeof pragma, "PRAGMA application_id=%d", APPLICATION_ID);
+    if (status == TN_OK)
+        status = run(*store, "BEGIN IMMEDIATE", error);
+    if (status == TN_OK)
+        status = run(*store, pragma, error);
+    if (status == TN_OK)
+        status = run(*store, schema, error);
+    if (status == TN_OK)
+        status = run(*store, "COMMIT", error);
+    if (status == TN_OK)
+        status = prepare_writing(*store, error);
+    return done(store, status);
+}
+
+tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error)
+{
+    int64_t id = 0;
+    tn_status status = open_at(path, read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE, durable, store, error);
+    if (status == TN_OK)
+        status = query_number(*store, "PRAGMA application_id", &id, error);
+    if (status == TN_OK && id != APPLICATION_ID)
+        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
+    if (status == TN_OK && !read_only)
+        status = prepare_writing(*store, error);
+    return done(store, status);
+}
+
+tn_status tn_run_store_begun(const char *path, bool *begun, tn_error *error)
+{
+    int64_t tables = 0, id = 0, rows = 0;
+    tn_run_store *store = NULL;
+    tn_status status = open_at(path, SQLITE_OPEN_READWRITE, false, &store, error);
+    if (status == TN_OK)
+        status = query_number(store, "SELECT count(*) FROM sqlite_master", &tables, error);
+    if (status == TN_OK && tables > 0)
+        status = query_number(store, "PRAGMA application_id", &id, error);
+    if (status == TN_OK && tables > 0 && id != APPLICATION_ID)
+        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
+    if (status == TN_OK && tables > 0)
+        status = query_number(store, "SELECT count(*) FROM meta", &rows, error);
+    if (status == TN_INVALID)
+        tn_error_help(error, "--resume leaves it as it is; -o DIR starts another run");
+    *begun = rows > 0;
+    tn_run_store_free(store);
+    return status;
+}
+
+/* ---- meta */
+
+tn_status tn_run_store_put_meta(tn_run_store *store, const char *const *keys, const char *const *values, size_t count,
+                                tn_error *error)
+{
+    sqlite3_stmt *statement = NULL;
+    tn_status status = run(store, "BEGIN IMMEDIATE", error);
+    if (status == TN_OK)
+        status = prepare(store, "INSERT INTO meta VALUES(?,?)", &statement, error);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        sqlite3_bind_text(statement, 1, keys[i], -1, SQLITE_STATIC);
+        sqlite3_bind_text(statement, 2, values[i], -1, SQLITE_STATIC);
+        status = finish_step(store, statement, error);
+    }
+    sqlite3_finalize(statement);
+    return status == TN_OK ? run(store, "COMMIT", error) : status;
+}
+
+tn_status tn_run_store_get_meta(tn_run_store *store, const char *key, char **value, tn_error *error)
+{
+    sqlite3_stmt *statement = NULL;
+    *value = NULL;
+    tn_status status = prepare(store, "SELECT value FROM meta WHERE key=?", &statement, error);
+    if (status != TN_OK)
+        return status;
+    sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
+    if (sqlite3_step(statement) == SQLITE_ROW && !(*value = copy_column(statement, 0)))
+        status = tn_fail_memory(error);
+    sqlite3_finalize(statement);
+    return status;
+}
+
+tn_status tn_run_store_generations(tn_run_store *store, uint32_t *count, tn_error *error)
+{
+    int64_t number = 0;
+    tn_status status = query_number(store, "SELECT count(*) FROM generation", &number, error);
+    *count = (uint32_t)number;
+    return status;
+}
+
+/* ---- writing a generation */
+
+static void bind_id(sqlite3_stmt *statement, int column, uint64_t id)
+{
+    if (id == TN_NO_PARENT)
+        sqlite3_bind_null(statement, column);
+    else
+        sqlite3_bind_int64(statement, column, (int64_t)id);
+}
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* State, the first objective and the further ones, from column `first` on. */
+static void bind_score(sqlite3_stmt *s, int first, const tn_score *score, size_t objectives)
+{
+    uint8_t more[8 * TN_OBJECTIVES_MAX];
+    for (size_t i = 1; i < objectives; i++)
+        tn_put_u64(more + 8 * (i - 1), bits_of(score->objectives[i]));
+    sqlite3_bind_int(s, first, (int)score->state);
+    if (score->state == TN_SCORED)
+        sqlite3_bind_double(s, first + 1, score->objectives[0]);
+    else
+        sqlite3_bind_null(s, first + 1);
+    if (objectives > 1)
+        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (objectives - 1)), SQLITE_TRANSIENT);
+    else
+        sqlite3_bind_null(s, first + 2);
+}
+
+static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_t objectives, tn_error *error)
+{
+    sqlite3_stmt *s = store->put_birth;
+    sqlite3_bind_int64(s, 1, (int64_t)born->id);
+    sqlite3_bind_int(s, 2, born->kind);
+    bind_id(s, 3, born->parents[0]);
+    bind_id(s, 4, born->parents[1]);
+    bind_score(s, 5, &born->score, objectives);
+    bool said = born->score.state == TN_SCORE_FAILED || born->score.state == TN_SCORE_LIMIT;
+    if (born->score.state == TN_SCORE_NO_SENTENCE)
+        sqlite3_bind_text(s, 8, tn_map_reason_text(born->reason), -1, SQLITE_STATIC);
+    else if (said && born->message[0])
+        sqlite3_bind_text(s, 8, born->message, -1, SQLITE_STATIC);
+    else
+        sqlite3_bind_null(s, 8);
+    return finish_step(store, s, error);
+}
+
+static tn_status put_generation(tn_run_store *store, const tn_evolution *evolution, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *members = tn_evolution_members(evolution, &count);
+    tn_generation_stats t = tn_evolution_stats(evolution);
+    sqlite3_stmt *s = store->put_generation;
+    uint8_t *ids = malloc(8 * count + 1);
+    if (!ids)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        tn_put_u64(ids + 8 * i, members[i]->id);
+    sqlite3_bind_int64(s, 1, t.generation);
+    sqlite3_bind_double(s, 2, t.best[0]);
+    sqlite3_bind_double(s, 3, t.mean);
+    sqlite3_bind_int64(s, 4, t.scored);
+    sqlite3_bind_int64(s, 5, t.no_sentence);
+    sqlite3_bind_int64(s, 6, t.failed);
+    sqlite3_bind_int64(s, 7, t.limited);
+    sqlite3_bind_int64(s, 8, t.distinct);
+    sqlite3_bind_int64(s, 9, (int64_t)t.evaluations);
+    sqlite3_bind_int64(s, 10, (int64_t)t.births);
+    sqlite3_bind_double(s, 11, t.mean_codons);
+    sqlite3_bind_double(s, 12, t.mean_depth);
+    sqlite3_bind_blob(s, 13, ids, (int)(8 * count), free);
+    return finish_step(store, s, error);
+}
+
+static tn_status put_events(tn_run_store *store, uint32_t generation, const tn_run_event *events, size_t count,
+                            tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        sqlite3_bind_int64(store->put_event, 1, generation);
+        sqlite3_bind_int64(store->put_event, 2, (int64_t)i);
+        sqlite3_bind_text(store->put_event, 3, events[i].kind, -1, SQLITE_STATIC);
+        sqlite3_bind_text(store->put_event, 4, events[i].text, -1, SQLITE_STATIC);
+        status = finish_step(store, store->put_event, error);
+    }
+    return status;
+}
+
+static tn_status put_rescored(tn_run_store *store, uint32_t generation, const tn_rescored *rescored, size_t count,
+                              size_t objectives, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        sqlite3_bind_int64(store->put_rescore, 1, generation);
+        sqlite3_bind_int64(store->put_rescore, 2, (int64_t)rescored[i].id);
+        bind_score(store->put_rescore, 3, &rescored[i].score, objectives);
+        status = finish_step(store, store->put_rescore, error);
+    }
+    return status;
+}
+
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+                           const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
+                           size_t rescored_count, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *born = tn_evolution_born(evolution, &count);
+    uint32_t generation = tn_evolution_generation(evolution);
+    tn_status status = run(store, "BEGIN IMMEDIATE", error);
+    if (status == TN_OK)
+        status = put_events(store, generation, events, event_count, error);
+    if (status == TN_OK)
+        status = put_rescored(store, generation, rescored, rescored_count, objectives, error);
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        status = put_birth(store, born[i], objectives, error);
+    if (status == TN_OK)
+        status = put_generation(store, evolution, error);
+    if (status == TN_OK)
+        return run(store, "COMMIT", error);
+    sqlite3_exec(store->db, "ROLLBACK", NULL, NULL, NULL);
+    return status;
+}

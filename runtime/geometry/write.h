@@ -1,0 +1,30 @@
+/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, and lines as DXF. */
+#ifndef TARTAN_GEOMETRY_WRITE_H
+#define TARTAN_GEOMETRY_WRITE_H
+
+#include <stdio.h>
+
+#include "runtime/geometry/mesh.h"
+
+typedef struct tn_mesh_style {
+    const char *const *notes; /* how it was made: a comment line each, where the format has comments */
+    size_t note_count;
+    bool normals;
+    bool y_up; /* turn z up to y up (GLB always is) */
+} tn_mesh_style;
+
+/* Text; coordinates to twelve digits of the largest one. Groups are `g` and lines `l`. */
+tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+/* Binary, little-endian, doubles; faces have a colour where there are groups, lines are the element `edge`. */
+tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+/* glTF 2.0 in one file: metres and y up by its specification, floats; faces are triangles; a primitive and a material
+ * for each group. */
+tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+/* DXF, release 12: the mesh's lines as polylines, a layer for each group; where exactly two lines of a layer meet they
+ * are one polyline, so that an outline is one closed line. Level ones are plane, others are in space. */
+tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+#endif

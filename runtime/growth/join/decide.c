@@ -1,0 +1,317 @@
+#include "runtime/growth/join/decide.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#include "runtime/base/share.h"
+#include "runtime/growth/pass/room.h"
+
+#define MANY 512u /* faces, for patterns to be worth their finding */
+
+/* ---- deciders */
+
+bool tn_deciders_prepare(tn_workspace *space, int count)
+{
+    if (count > space->decider_count) {
+        tn_decider *grown = realloc(space->deciders, (size_t)count * sizeof *grown);
+        if (!grown)
+            return false;
+        for (int i = space->decider_count; i < count; i++)
+            grown[i] = (tn_decider){0};
+        space->deciders = grown;
+        space->decider_count = count;
+    }
+    for (int i = 0; i < space->decider_count; i++) {
+        tn_decider *one = &space->deciders[i];
+        tn_cuts_empty(&one->cuts);
+        one->pending_count = one->later_count = 0;
+        one->failed = false;
+    }
+    return true;
+}
+
+void tn_deciders_forget(tn_workspace *space)
+{
+    for (int i = 0; i < space->decider_count; i++)
+        tn_patterns_forget(&space->deciders[i].patterns);
+}
+
+void tn_deciders_clear(tn_workspace *space)
+{
+    for (int i = 0; i < space->decider_count; i++) {
+        tn_decider *one = &space->deciders[i];
+        tn_loop_clear(&one->loop);
+        tn_patterns_clear(&one->patterns);
+        tn_cuts_clear(&one->cuts);
+        free(one->pending);
+        free(one->later);
+    }
+    free(space->deciders);
+    space->deciders = NULL;
+    space->decider_count = 0;
+}
+
+/* ---- one face */
+
+typedef struct decision {
+    tn_pass *pass;
+    tn_decider *decider;
+    tn_face_chunk *chunk;
+} decision;
+
+static void tally(const decision *d, uint32_t face, uint64_t darts, uint32_t faces, uint32_t joins)
+{
+    d->chunk->darts += darts;
+    d->chunk->faces += faces;
+    d->chunk->joins += joins;
+    if (d->pass->made)
+        d->pass->made[d->pass->old->face_rank[face]] = joins;
+}
+
+static void take_cut(const decision *d, uint32_t face, const tn_cuts *cuts, uint32_t index, uint32_t mark)
+{
+    const tn_cut *cut = &cuts->items[index];
+    d->pass->cut_of[face] = index | mark;
+    tally(d, face, cut->dart_count, cut->loop_count, cut->join_count);
+}
+
+static bool note_failures(const tn_pass *pass, const tn_loop *loop)
+{
+    uint64_t failures[TN_JOIN_FAILURE_COUNT] = {0};
+    if (!tn_loop_explain(loop, pass, failures))
+        return false;
+    for (int i = 0; i < TN_JOIN_FAILURE_COUNT; i++) {
+#pragma omp atomic
+        pass->growth->counts.failures[i] += failures[i];
+    }
+    return true;
+}
+
+static tn_pending *add_pending(tn_decider *decider, size_t count)
+{
+    if (!tn_make_room((void **)&decider->pending, &decider->pending_room, decider->pending_count + count,
+                      sizeof *decider->pending))
+        return NULL;
+    decider->pending_count += count;
+    return decider->pending + decider->pending_count - count;
+}
+
+/* The branches of a face's loop that did not join. */
+static bool keep_pending(tn_decider *decider, const tn_cuts *cuts, const tn_cut *cut, uint32_t face)
+{
+    const tn_cut_waiting *waiting = cuts->waiting + cut->waiting_first;
+    tn_pending *list = add_pending(decider, cut->waiting_count);
+    for (uint32_t i = 0; list && i < cut->waiting_count; i++) {
+        const tn_loop_branch *branch = &decider->loop.branches[waiting[i].branch];
+        list[i] = (tn_pending){.dart = waiting[i].dart,
+                               .face = face,
+                               .loop = waiting[i].loop,
+                               .id = branch->id,
+                               .label = branch->label,
+                               .age = branch->age,
+                               .reversed = branch->reversed};
+        tn_vector_put(list[i].direction, branch->direction);
+    }
+    return list;
+}
+
+/* The same of a face of a pattern. */
+static bool keep_pattern_pending(const decision *d, const tn_cuts *cuts, const tn_cut *cut, uint32_t face)
+{
+    const tn_pass *pass = d->pass;
+    const tn_cut_waiting *waiting = cuts->waiting + cut->waiting_first;
+    tn_pending *list = add_pending(d->decider, cut->waiting_count);
+    for (uint32_t i = 0; list && i < cut->waiting_count; i++) {
+        uint32_t dart = pass->old->face_first[face] + tn_reference_dart(waiting[i].branch);
+        uint32_t index = waiting[i].branch & 0xffff;
+        uint32_t edge = pass->old->side[dart] / 2;
+        const tn_record *record = &pass->records[edge];
+        const tn_template_branch *branch = &pass->growth->system->templates[record->template].branches[index];
+        tn_vector heading, up;
+        double length;
+        tn_pass_frame(pass, edge, edge, &heading, &up, &length);
+        list[i] = (tn_pending){.dart = waiting[i].dart,
+                               .face = face,
+                               .loop = waiting[i].loop,
+                               .id = record->branch + index,
+                               .label = branch->label,
+                               .age = tn_changed_age(branch->age, record->age),
+                               .reversed = branch->reversed};
+        tn_vector_put(list[i].direction, tn_branch_direction(heading, up, branch));
+    }
+    return list;
+}
+
+/* Works out one face by itself. Without `taken` it may be put off. */
+static bool decide_alone(const decision *d, uint32_t face, tn_pair_set *taken)
+{
+    tn_pass *pass = d->pass;
+    tn_decider *decider = d->decider;
+    tn_loop *loop = &decider->loop;
+    bool interior = face != TN_OUTER_FACE, keeps = interior && !pass->joins_last;
+    if (!tn_loop_expand(loop, pass, face, interior))
+        return false;
+    switch (tn_loop_join_branches(loop, pass, face, taken)) {
+    case TN_JOIN_MEMORY:
+        return false;
+    case TN_JOIN_LATER:
+        if (!tn_make_room((void **)&decider->later, &decider->later_room, decider->later_count + 1,
+                          sizeof *decider->later))
+            return false;
+        decider->later[decider->later_count++] = face;
+        return true;
+    default:
+        break;
+    }
+    if (pass->growth->options.explain && pass->joins_last && !note_failures(pass, loop))
+        return false;
+    for (uint32_t i = 0; i < loop->join_count; i++) {
+        const tn_loop_branch *low = &loop->branches[loop->joins[i].low], *high = &loop->branches[low->partner];
+        pass->joints[low->id] = tn_state(low->label, low->age > high->age ? low->age : high->age, false);
+    }
+    if (!tn_cuts_add(&decider->cuts, loop, keeps))
+        return false;
+    uint32_t index = (uint32_t)decider->cuts.count - 1;
+    take_cut(d, face, &decider->cuts, index, 0);
+    const tn_cut *cut = &decider->cuts.items[index];
+    return cut->waiting_count == 0 || keep_pending(decider, &decider->cuts, cut, face);
+}
+
+/* The darts of a face that no branch is in; 0 where there is one. */
+static uint64_t plain_darts(const tn_pass *pass, uint32_t face)
+{
+    uint64_t darts = 0;
+    for (uint32_t d = pass->old->face_first[face]; d < pass->old->face_first[face + 1]; d++) {
+        uint32_t side = pass->old->side[d];
+        const tn_record *record = &pass->records[side / 2];
+        if (tn_is_kept(record)) {
+            darts++;
+            continue;
+        }
+        const tn_shape *shape = &pass->growth->shapes[record->template];
+        if (face != TN_OUTER_FACE && (side & 1 ? shape->right_branches : shape->left_branches))
+            return 0;
+        darts += shape->template->segment_count;
+    }
+    return darts;
+}
+
+static bool has_pending(const tn_pass *pass, uint32_t face)
+{
+    const tn_pending_list *list = &pass->growth->pending;
+    return list->count && list->face_first[face] != list->face_first[face + 1];
+}
+
+static bool decide_face(const decision *d, uint32_t face)
+{
+    tn_pass *pass = d->pass;
+    if (pass->runs || pass->growth->options.explain || (face != TN_OUTER_FACE && has_pending(pass, face)))
+        return decide_alone(d, face, NULL);
+    bool many = pass->old->face_count >= MANY;
+    if (many && face != TN_OUTER_FACE && tn_face_size(pass->old, face) <= TN_PATTERN_DARTS) {
+        const tn_cuts *cuts = &d->decider->patterns.cuts;
+        uint32_t index;
+        if (!tn_patterns_decide(&d->decider->patterns, pass, face, &d->decider->loop, &index))
+            return false;
+        if (index == TN_NONE)
+            return decide_alone(d, face, NULL);
+        take_cut(d, face, cuts, index, TN_CUT_OF_PATTERN);
+        const tn_cut *cut = &cuts->items[index];
+        return pass->joins_last || cut->waiting_count == 0 || keep_pattern_pending(d, cuts, cut, face);
+    }
+    uint64_t darts = plain_darts(pass, face);
+    if (darts == 0)
+        return decide_alone(d, face, NULL);
+    pass->cut_of[face] = TN_CUT_PLAIN;
+    tally(d, face, darts, 1, 0);
+    return true;
+}
+
+/* ---- all faces */
+
+static void decide_chunk(void *context, uint32_t number)
+{
+    tn_pass *pass = context;
+    tn_workspace *space = &pass->growth->space;
+    uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
+    uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
+    int decider = pass->threads > 1 && pass->chunk_count > 1 ? omp_get_thread_num() : 0; /* as tn_share does */
+    pass->chunks[number] = (tn_face_chunk){.decider = decider};
+    decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
+    for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
+        if (f % TN_TOGETHER == 0)
+            tn_ask_ahead(pass, f, pass->aims, sizeof *pass->aims, pass->branch_first);
+        d.decider->failed = !decide_face(&d, f);
+    }
+}
+
+static void sift_by_rank(const uint32_t *rank, uint32_t *heap, size_t at, size_t count)
+{
+    uint32_t moving = heap[at];
+    for (size_t child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && rank[heap[child]] < rank[heap[child + 1]])
+            child++;
+        if (rank[moving] >= rank[heap[child]])
+            break;
+        heap[at] = heap[child];
+    }
+    heap[at] = moving;
+}
+
+static void sort_by_rank(const uint32_t *rank, uint32_t *faces, size_t count)
+{
+    for (size_t i = count / 2; i-- > 0;)
+        sift_by_rank(rank, faces, i, count);
+    for (size_t end = count; end-- > 1;) {
+        uint32_t last = faces[end];
+        faces[end] = faces[0];
+        faces[0] = last;
+        sift_by_rank(rank, faces, 0, end);
+    }
+}
+
+/* The faces that waited, in the order of their ranks. */
+static bool decide_later(tn_pass *pass)
+{
+    tn_workspace *space = &pass->growth->space;
+    size_t count = 0;
+    for (int i = 0; i < space->decider_count; i++)
+        count += space->deciders[i].later_count;
+    pass->growth->waited |= count > 0;
+    pass->growth->needs_ranks = count && !pass->growth->ranked;
+    if (count == 0 || pass->growth->needs_ranks)
+        return true;
+    tn_pair_set taken = {0};
+    uint32_t *faces = malloc(count * sizeof *faces);
+    bool fine = faces != NULL;
+    for (int i = 0; fine && i < space->decider_count; i++)
+        for (size_t j = 0; j < space->deciders[i].later_count; j++)
+            faces[--count] = space->deciders[i].later[j];
+    for (int i = 0; i < space->decider_count; i++)
+        count += space->deciders[i].later_count;
+    if (fine)
+        sort_by_rank(pass->old->face_rank, faces, count);
+    for (size_t i = 0; i < count && fine; i++) {
+        tn_face_chunk *chunk = &pass->chunks[faces[i] / TN_CHUNK_FACES];
+        decision d = {pass, &space->deciders[chunk->decider], chunk};
+        fine = decide_alone(&d, faces[i], &taken);
+    }
+    tn_pair_set_clear(&taken);
+    free(faces);
+    return fine;
+}
+
+tn_status tn_pass_decide(tn_pass *pass, tn_error *error)
+{
+    tn_workspace *space = &pass->growth->space;
+    pass->chunk_count = (pass->old->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES;
+    if (!tn_pages_reserve(&space->chunks, pass->chunk_count * sizeof *pass->chunks) ||
+        !tn_deciders_prepare(space, pass->threads))
+        return tn_fail_memory(error);
+    pass->chunks = space->chunks.data;
+    tn_share(pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass);
+    bool fine = true;
+    for (int i = 0; i < space->decider_count; i++)
+        fine = fine && !space->deciders[i].failed;
+    return fine && decide_later(pass) ? TN_OK : tn_fail_memory(error);
+}

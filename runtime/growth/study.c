@@ -1,0 +1,154 @@
+#include "runtime/growth/study.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "runtime/mesh/openmesh.h"
+
+void tn_study_clear(tn_study *study)
+{
+    for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
+        tn_boundary_mesh_free(study->meshes[i]);
+    free(study->meshes);
+    free(study->forces);
+    free(study->boundaries);
+    free(study->goal.named);
+    *study = (tn_study){0};
+}
+
+static void read_settings(const tn_study_record *record, tn_study *study)
+{
+    tn_growth_options *o = &study->options;
+    study->steps = record->steps;
+    o->scale[0] = record->scale_x;
+    o->scale[1] = record->scale_y;
+    o->scale[2] = record->scale_z;
+    o->start[0] = record->start_x;
+    o->start[1] = record->start_y;
+    o->start[2] = record->start_z;
+    o->start_length = record->start_length;
+    o->branch_angle = record->branch_angle;
+    o->branch_length = record->branch_length;
+    o->seed = (uint64_t)record->seed;
+    o->edge_limit = (uint64_t)record->edge_limit;
+    o->fixed_centre = record->flags & TN_STUDY_FIXED_CENTRE;
+    o->fixed_perimeter = record->flags & TN_STUDY_FIXED_PERIMETER;
+    o->facing = record->flags & TN_STUDY_FACING;
+    o->mirror = record->flags & TN_STUDY_MIRROR;
+    study->goal.raw = record->flags & TN_STUDY_RAW_FITNESS;
+}
+
+/* name, told from the folder of a file; the caller frees it. */
+static char *beside(const char *file, const char *name)
+{
+    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    size_t folder = slash ? (size_t)(slash - file) + 1 : 0, size = strlen(name) + 1;
+    char *path = malloc(folder + size);
+    if (path) {
+        memcpy(path, file, folder);
+        memcpy(path + folder, name, size);
+    }
+    return path;
+}
+
+static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error *error)
+{
+    tn_mesh mesh;
+    tn_status status = tn_openmesh_read(path, &mesh, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_mesh_triangulate(&mesh, error);
+    if (status == TN_OK)
+        status = tn_boundary_mesh_new(mesh.positions, mesh.vertex_count, mesh.corners, mesh.face_count, result, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+/* Beside what was opened, or where the study lay when it was compiled. */
+static tn_status find_mesh(const tn_module *module, const char *opened, const char *name, tn_boundary_mesh **result,
+                           tn_error *error)
+{
+    uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
+    const char *study = source < module->SOURCE_count ? tn_text(module, module->SOURCE_records[source].path) : opened;
+    char *near = beside(opened, name), *once = beside(study, name);
+    tn_status status = near && once ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && access(near, F_OK) == 0) {
+        status = read_mesh(near, result, error);
+    } else if (status == TN_OK && access(once, F_OK) == 0) {
+        status = read_mesh(once, result, error);
+    } else if (status == TN_OK) {
+        status = tn_fail(error, TN_IO, 901, "there is no mesh %.200s", near);
+        if (strcmp(near, once) == 0)
+            tn_error_help(error, "a boundary's path starts at the folder of the study that names it");
+        else
+            tn_error_help(error, "put it there; where the study was compiled it was %.200s", once);
+    }
+    free(near);
+    free(once);
+    return status;
+}
+
+static tn_status read_boundary(const tn_module *module, const tn_boundary_record *record, const char *path,
+                               tn_study *study, uint32_t index, tn_error *error)
+{
+    tn_boundary *boundary = &study->boundaries[index];
+    *boundary = (tn_boundary){.kind = record->kind,
+                              .mode = record->mode,
+                              .inside = record->inside != 0,
+                              .a = {record->a_x, record->a_y, record->a_z},
+                              .b = {record->b_x, record->b_y, record->b_z},
+                              .radius = record->radius};
+    if (record->kind != TN_BOUNDARY_MESH)
+        return TN_OK;
+    tn_status status = find_mesh(module, path, tn_text(module, record->mesh), &study->meshes[index], error);
+    boundary->mesh = study->meshes[index];
+    return status;
+}
+
+static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *error)
+{
+    tn_fitness_goal *goal = &study->goal;
+    goal->named = calloc(module->GOAL_count + 1, sizeof *goal->named);
+    if (!goal->named)
+        return tn_fail_memory(error);
+    study->has_goal = module->GOAL_count > 0;
+    for (size_t i = 0; i < module->GOAL_count; i++) {
+        const tn_goal_record *record = &module->GOAL_records[i];
+        if (record->term == TN_FITNESS_TERM_COUNT) {
+            goal->named[goal->named_count++] =
+                (tn_named_goal){tn_text(module, record->name), module->code,
+                                module->FUNCTION_records[record->function].code_begin, record->target, record->weight};
+            continue;
+        }
+        study->goal.wanted[record->term] = true;
+        study->goal.target[record->term] = record->target;
+        study->goal.weight[record->term] = record->weight;
+    }
+    return TN_OK;
+}
+
+tn_status tn_study_read(const tn_module *module, const char *path, tn_study *study, tn_error *error)
+{
+    *study =
+        (tn_study){.title = "", .steps = 4, .options = tn_growth_options_default()}; /* Genr8's own number of steps */
+    if (module->STUDY_count) {
+        read_settings(&module->STUDY_records[0], study);
+        study->title = tn_text(module, module->STUDY_records[0].name);
+    }
+    study->forces = calloc(module->FORCE_count + 1, sizeof *study->forces);
+    study->boundaries = calloc(module->BOUNDARY_count + 1, sizeof *study->boundaries);
+    study->meshes = calloc(module->BOUNDARY_count + 1, sizeof *study->meshes);
+    if (!study->forces || !study->boundaries || !study->meshes)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < module->FORCE_count; i++) {
+        const tn_force_record *f = &module->FORCE_records[i];
+        study->forces[i] = (tn_force){f->kind, {f->x, f->y, f->z}, f->strength, f->exponent};
+    }
+    study->environment = (tn_environment){study->forces, (uint32_t)module->FORCE_count, study->boundaries,
+                                          (uint32_t)module->BOUNDARY_count};
+    tn_status status = read_goals(module, study, error);
+    for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
+        status = read_boundary(module, &module->BOUNDARY_records[i], path, study, i, error);
+    return status;
+}

@@ -1,0 +1,29 @@
+/* How a module says that its rewrite system is to be grown: options, surroundings, goals. Where the module has no study
+ * (a .hemls file), the defaults. */
+#ifndef TARTAN_GROWTH_STUDY_H
+#define TARTAN_GROWTH_STUDY_H
+
+#include "runtime/growth/growth.h"
+#include "runtime/growth/stats.h"
+#include "runtime/module/module.h"
+
+typedef struct tn_study {
+    const char *title; /* borrowed from the module; "" where it has none */
+    uint32_t steps;
+    tn_growth_options options;
+    tn_environment environment;
+    tn_fitness_goal goal;
+    bool has_goal;
+    tn_force *forces;
+    tn_boundary *boundaries;
+    tn_boundary_mesh **meshes; /* [boundary], NULL for other shapes */
+} tn_study;
+
+/* Reads it, and the boundary meshes from their files. A mesh's path starts at the folder of `path`, the study or module
+ * that was opened; where there is none, at the folder in which the study lay when it was compiled. Clear it in any
+ * case.
+ */
+tn_status tn_study_read(const tn_module *module, const char *path, tn_study *study, tn_error *error);
+void tn_study_clear(tn_study *study);
+
+#endif

@@ -1,0 +1,218 @@
+#include "runtime/plan/analysis/coverage.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/library/count.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/schema/classes.h"
+
+#define JOINT_STATES 1000000u /* of the automata of several clauses together, unless more are asked for */
+
+struct tn_coverage {
+    const tn_schema *schema;
+    tn_classes *classes;
+    tn_coverage_clause *clauses;
+    size_t count;
+    uint32_t min, max, max_states;
+    tn_dfa **with, **without; /* [count] */
+    bool *changed;            /* [count]: is the clause another one without the part? */
+    bool *base_of;            /* [count]: the clauses that the base leaves out */
+    tn_sparse *base;          /* of all other clauses; NULL: not made */
+};
+
+static tn_status lower_all(tn_coverage *c, const uint32_t *offsets, size_t count, tn_dfa **automata, tn_error *error)
+{
+    tn_lowering *lowering = NULL;
+    tn_status status = tn_lowering_new(c->classes, c->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_disable(lowering, offsets, count);
+    for (size_t i = 0; status == TN_OK && i < c->count; i++) {
+        tn_dfa_free(automata[i]);
+        automata[i] = NULL;
+        status = tn_lower(lowering, c->clauses[i].function, &automata[i], error);
+    }
+    tn_lowering_free(lowering);
+    return status;
+}
+
+tn_status tn_coverage_new(const tn_schema *schema, const tn_coverage_clause *clauses, size_t count, uint32_t min,
+                          uint32_t max, uint32_t max_states, tn_coverage **coverage, tn_error *error)
+{
+    tn_coverage *c = calloc(1, sizeof *c);
+    uint32_t *functions = malloc((count + 1) * sizeof *functions);
+    if (!c || !functions) {
+        free(c);
+        free(functions);
+        return tn_fail_memory(error);
+    }
+    *c = (tn_coverage){.schema = schema, .count = count, .min = min, .max = max, .max_states = max_states};
+    c->clauses = malloc((count + 1) * sizeof *c->clauses);
+    c->with = calloc(count + 1, sizeof *c->with);
+    c->without = calloc(count + 1, sizeof *c->without);
+    c->changed = calloc(count + 1, sizeof *c->changed);
+    c->base_of = calloc(count + 1, sizeof *c->base_of);
+    bool ok = c->clauses && c->with && c->without && c->changed && c->base_of;
+    for (size_t i = 0; ok && i < count; i++) {
+        c->clauses[i] = clauses[i];
+        functions[i] = clauses[i].function;
+    }
+    tn_status status = ok ? tn_classes_new(schema, functions, count, &c->classes, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = lower_all(c, NULL, 0, c->with, error);
+    free(functions);
+    if (status == TN_OK)
+        *coverage = c;
+    else
+        tn_coverage_free(c);
+    return status;
+}
+
+void tn_coverage_free(tn_coverage *c)
+{
+    if (!c)
+        return;
+    for (size_t i = 0; i < c->count; i++) {
+        if (c->with)
+            tn_dfa_free(c->with[i]);
+        if (c->without)
+            tn_dfa_free(c->without[i]);
+    }
+    tn_sparse_free(c->base);
+    tn_classes_free(c->classes);
+    free(c->clauses);
+    free(c->with);
+    free(c->without);
+    free(c->changed);
+    free(c->base_of);
+    free(c);
+}
+
+tn_status tn_coverage_without(tn_coverage *c, const uint32_t *offsets, size_t count, tn_error *error)
+{
+    tn_status status = lower_all(c, offsets, count, c->without, error);
+    for (size_t i = 0; status == TN_OK && i < c->count; i++)
+        c->changed[i] = !tn_dfa_equal(c->with[i], c->without[i]);
+    return status;
+}
+
+static tn_bounds joint_bounds(const tn_coverage *c)
+{
+    return tn_bounds_make(c->max_states > JOINT_STATES ? c->max_states : JOINT_STATES);
+}
+
+/* *sparse := *sparse and the clause, or without what it prunes; minimal. */
+static tn_status narrow(const tn_coverage *c, tn_sparse **sparse, const tn_dfa *clause, tn_dfa_operation operation,
+                        tn_error *error)
+{
+    tn_bounds bounds = joint_bounds(c);
+    return tn_sparse_apply(sparse, clause, operation, "library", &bounds, error);
+}
+
+/* The plans that the unchanged clauses leave; kept for the next part of the same rule. */
+static tn_status make_base(tn_coverage *c, tn_error *error)
+{
+    if (c->base && memcmp(c->base_of, c->changed, c->count * sizeof *c->changed) == 0)
+        return TN_OK;
+    tn_dfa *all = NULL;
+    tn_sparse_free(c->base);
+    c->base = NULL;
+    tn_status status = tn_dfa_constant(c->classes->count, true, &all, error);
+    if (status == TN_OK)
+        status = tn_sparse_make(all, 0, &c->base, error);
+    tn_dfa_free(all);
+    for (int prunes = 0; prunes < 2; prunes++)
+        for (size_t i = 0; status == TN_OK && i < c->count; i++)
+            if (!c->changed[i] && c->clauses[i].requires == !prunes)
+                status = narrow(c, &c->base, c->with[i], prunes ? TN_DFA_MINUS : TN_DFA_AND, error);
+    memcpy(c->base_of, c->changed, c->count * sizeof *c->changed);
+    if (status != TN_OK) {
+        tn_sparse_free(c->base);
+        c->base = NULL;
+    }
+    return status;
+}
+
+/* *into := *into and (or less) another. */
+static tn_status join(const tn_coverage *c, tn_dfa **into, const tn_dfa *other, tn_dfa_operation operation,
+                      tn_error *error)
+{
+    tn_bounds bounds = joint_bounds(c);
+    tn_dfa *joined = NULL;
+    tn_status status = tn_dfa_product(*into, other, operation, "difference", &bounds, &joined, error);
+    if (status != TN_OK)
+        return status;
+    tn_dfa_free(*into);
+    *into = joined;
+    return TN_OK;
+}
+
+/* What the changed clauses keep (or, `required` alone, require), as `automata` have them. */
+static tn_status keep(const tn_coverage *c, tn_dfa *const *automata, bool required, tn_dfa **kept, tn_error *error)
+{
+    tn_status status = tn_dfa_constant(c->classes->count, true, kept, error);
+    for (size_t i = 0; status == TN_OK && i < c->count; i++)
+        if (c->changed[i] && (c->clauses[i].requires || !required))
+            status = join(c, kept, automata[i], c->clauses[i].requires ? TN_DFA_AND : TN_DFA_MINUS, error);
+    return status;
+}
+
+/* flips += plans of the base that are in `a` and not in `b`. */
+static tn_status count_less(const tn_coverage *c, tn_dfa *a, const tn_dfa *b, mpz_t flips, tn_error *error)
+{
+    tn_bounds bounds = joint_bounds(c);
+    tn_dfa *less = tn_dfa_share(a);
+    tn_sparse *both = NULL;
+    mpz_t count;
+    mpz_init(count);
+    tn_status status = join(c, &less, b, TN_DFA_MINUS, error);
+    if (status == TN_OK)
+        status = tn_sparse_product(c->base, less, TN_DFA_AND, "difference", &bounds, &both, error);
+    if (status == TN_OK)
+        status = tn_count_range(both, c->classes, c->min, c->max, count, error);
+    if (status == TN_OK)
+        mpz_add(flips, flips, count);
+    tn_sparse_free(both);
+    tn_dfa_free(less);
+    mpz_clear(count);
+    return status;
+}
+
+tn_status tn_coverage_flips(tn_coverage *c, mpz_t flips, tn_error *error)
+{
+    tn_dfa *with = NULL, *without = NULL, *required = NULL;
+    bool any = false;
+    for (size_t i = 0; i < c->count; i++)
+        any = any || c->changed[i];
+    mpz_set_ui(flips, 0);
+    if (!any)
+        return TN_OK;
+    tn_status status = make_base(c, error);
+    if (status == TN_OK)
+        status = keep(c, c->with, false, &with, error);
+    if (status == TN_OK)
+        status = keep(c, c->without, false, &without, error);
+    if (status == TN_OK)
+        status = keep(c, c->with, true, &required, error);
+    if (status == TN_OK)
+        status = join(c, &without, required, TN_DFA_AND, error); /* only generated plans count */
+    if (status == TN_OK)
+        status = count_less(c, with, without, flips, error);
+    if (status == TN_OK)
+        status = count_less(c, without, with, flips, error);
+    tn_dfa_free(with);
+    tn_dfa_free(without);
+    tn_dfa_free(required);
+    if (status == TN_LIMIT && error && !error->help[0])
+        tn_error_help(error, "raise it with --max-states, or give fewer trays");
+    return status;
+}
+
+bool tn_coverage_holds(const tn_coverage *c, size_t i, bool without, const tn_tray *trays, size_t length)
+{
+    const tn_dfa *dfa = without ? c->without[i] : c->with[i];
+    uint32_t state = 0;
+    for (size_t k = 0; k < length; k++)
+        state = tn_dfa_read(dfa, state, c->classes->of_tray[trays[k]]);
+    return dfa->accept[state];
+}

@@ -1,0 +1,183 @@
+#include "runtime/plan/automata/numbering.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/random.h"
+
+/* Tables hold at most this many keys: their slots are at most half full and counted in 32 bits. */
+#define MAX_KEYS (UINT32_C(1) << 30)
+
+static bool numbering_grow(tn_numbering *numbering)
+{
+    if (numbering->count >= MAX_KEYS)
+        return false;
+    uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
+    uint64_t *keys = realloc(numbering->keys, capacity / 2 * sizeof *keys);
+    if (!keys)
+        return false;
+    numbering->keys = keys;
+    uint32_t *slots = calloc(capacity, sizeof *slots);
+    if (!slots)
+        return false;
+    for (uint32_t i = 0; i < numbering->count; i++) {
+        uint32_t at = (uint32_t)tn_mix64(keys[i]) & (capacity - 1);
+        while (slots[at])
+            at = (at + 1) & (capacity - 1);
+        slots[at] = i + 1;
+    }
+    free(numbering->slots);
+    numbering->slots = slots;
+    numbering->capacity = capacity;
+    return true;
+}
+
+uint32_t tn_number(tn_numbering *numbering, uint64_t key)
+{
+    if (numbering->count >= numbering->capacity / 2 && !numbering_grow(numbering))
+        return UINT32_MAX;
+    uint32_t mask = numbering->capacity - 1;
+    uint32_t at = (uint32_t)tn_mix64(key) & mask;
+    for (; numbering->slots[at]; at = (at + 1) & mask)
+        if (numbering->keys[numbering->slots[at] - 1] == key)
+            return numbering->slots[at] - 1;
+    numbering->keys[numbering->count] = key;
+    numbering->slots[at] = ++numbering->count;
+    return numbering->count - 1;
+}
+
+uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key)
+{
+    uint32_t mask = numbering->capacity - 1;
+    if (numbering->capacity == 0)
+        return UINT32_MAX;
+    for (uint32_t at = (uint32_t)tn_mix64(key) & mask; numbering->slots[at]; at = (at + 1) & mask)
+        if (numbering->keys[numbering->slots[at] - 1] == key)
+            return numbering->slots[at] - 1;
+    return UINT32_MAX;
+}
+
+uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
+{
+    if (numbering->count >= numbering->capacity / 2) {
+        if (numbering->count >= MAX_KEYS)
+            return UINT32_MAX;
+        uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
+        uint64_t *keys = realloc(numbering->keys, capacity / 2 * sizeof *keys);
+        if (!keys)
+            return UINT32_MAX;
+        numbering->keys = keys;
+        numbering->capacity = capacity;
+    }
+    numbering->keys[numbering->count] = key;
+    return numbering->count++;
+}
+
+void tn_numbering_clear(tn_numbering *numbering)
+{
+    free(numbering->keys);
+    free(numbering->slots);
+    *numbering = (tn_numbering){0};
+}
+
+bool tn_key_push(tn_key *key, uint32_t word)
+{
+    if (key->size == key->capacity) {
+        size_t capacity = key->capacity ? key->capacity * 2 : 32;
+        uint32_t *data = realloc(key->data, capacity * sizeof *data);
+        if (!data)
+            return false;
+        key->data = data;
+        key->capacity = capacity;
+    }
+    key->data[key->size++] = word;
+    return true;
+}
+
+bool tn_key_copy(tn_key *key, const uint32_t *data, size_t size)
+{
+    key->size = 0;
+    for (size_t i = 0; i < size; i++)
+        if (!tn_key_push(key, data[i]))
+            return false;
+    return true;
+}
+
+static uint32_t hash_words(const uint32_t *data, size_t size)
+{
+    uint64_t hash = size;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ data[i]) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
+    return (uint32_t)tn_mix64(hash);
+}
+
+static bool interner_grow(tn_interner *interner)
+{
+    if (interner->count >= MAX_KEYS)
+        return false;
+    uint32_t capacity = interner->capacity ? interner->capacity * 2 : 64;
+    size_t *first = realloc(interner->first, (capacity / 2 + 1) * sizeof *first);
+    if (!first)
+        return false;
+    if (!interner->first)
+        first[0] = 0;
+    interner->first = first;
+    uint32_t *slots = calloc(capacity, sizeof *slots);
+    if (!slots)
+        return false;
+    for (uint32_t i = 0; i < interner->count; i++) {
+        size_t size;
+        const uint32_t *words = tn_interned(interner, i, &size);
+        uint32_t at = hash_words(words, size) & (capacity - 1);
+        while (slots[at])
+            at = (at + 1) & (capacity - 1);
+        slots[at] = i + 1;
+    }
+    free(interner->slots);
+    interner->slots = slots;
+    interner->capacity = capacity;
+    return true;
+}
+
+static bool interner_append(tn_interner *interner, const uint32_t *data, size_t size)
+{
+    if (interner->words_capacity - interner->words_used < size) {
+        size_t capacity = interner->words_capacity * 2 + size + 256;
+        uint32_t *words = realloc(interner->words, capacity * sizeof *words);
+        if (!words)
+            return false;
+        interner->words = words;
+        interner->words_capacity = capacity;
+    }
+    if (size > 0)
+        memcpy(interner->words + interner->words_used, data, size * sizeof *data);
+    interner->words_used += size;
+    interner->first[interner->count + 1] = interner->words_used;
+    return true;
+}
+
+uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size)
+{
+    if (interner->count >= interner->capacity / 2 && !interner_grow(interner))
+        return UINT32_MAX;
+    uint32_t mask = interner->capacity - 1;
+    uint32_t at = hash_words(data, size) & mask;
+    for (; interner->slots[at]; at = (at + 1) & mask) {
+        size_t other_size;
+        const uint32_t *other = tn_interned(interner, interner->slots[at] - 1, &other_size);
+        if (other_size == size && (size == 0 || memcmp(other, data, size * sizeof *data) == 0))
+            return interner->slots[at] - 1;
+    }
+    if (!interner_append(interner, data, size))
+        return UINT32_MAX;
+    interner->slots[at] = ++interner->count;
+    return interner->count - 1;
+}
+
+void tn_interner_clear(tn_interner *interner)
+{
+    free(interner->words);
+    free(interner->first);
+    free(interner->slots);
+    *interner = (tn_interner){0};
+}

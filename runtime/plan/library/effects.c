@@ -1,0 +1,267 @@
+/* How many plans each clause of a library keeps out, and how many only it keeps out.
+ *
+ * Only clause i, applied as number i, keeps out what the clauses before it keep, it does not, and those after it keep.
+ * So each count starts from an automaton that is needed anyway, and goes on with other plans than the library's: an
+ * automaton of its own a clause. Most are soon smaller, and of hundreds of prunes most run empty early. The last clause
+ * is met in a product that is counted and never minimised. The clauses are independent of one another and go over the
+ * threads.
+ */
+#include <stdlib.h>
+
+#include "runtime/plan/library/library_data.h"
+
+#define SAVED_EDGES (UINT64_C(1) << 24) /* of the automata kept for starting from: 128 MB */
+
+typedef struct tn_counting_alone {
+    const tn_library *library;
+    size_t *order;     /* [applied_count]: the clauses as they are applied here */
+    tn_bounds bounds;  /* of each automaton's making */
+    size_t saved;      /* automata kept */
+    tn_sparse **after; /* [saved + 1]: the plans that the first clauses keep */
+    tn_effect *effects;
+} tn_counting_alone;
+
+static tn_dfa_operation dropping(const tn_library *library, size_t clause)
+{
+    return tn_library_prunes(library, clause) ? TN_DFA_AND : TN_DFA_MINUS;
+}
+
+/* How many plans of the library's lengths `base` accepts and the clause matches (TN_DFA_AND) or does not. */
+static tn_status count_with(const tn_library *library, const tn_sparse *base, const tn_dfa *clause,
+                            tn_dfa_operation operation, mpz_t count, tn_error *error)
+{
+    tn_bounds bounds = tn_library_bounds(library);
+    tn_sparse *both = NULL;
+    tn_status status = tn_sparse_combine(base, clause, operation, "library", &bounds, &both, error);
+    if (status == TN_OK)
+        status = tn_count_range(both, library->classes, library->min, library->max, count, error);
+    tn_sparse_free(both);
+    return status;
+}
+
+static tn_status apply(const tn_library *library, size_t clause, tn_dfa_operation operation, tn_bounds *bounds,
+                       tn_sparse **base, tn_error *error)
+{
+    return tn_library_apply(library, library->clauses[clause], operation, bounds, base, error);
+}
+
+/* *base := what of it the clauses of these numbers keep. */
+static tn_status keep(const tn_counting_alone *counting, size_t from, size_t to, tn_bounds *bounds, tn_sparse **base,
+                      tn_error *error)
+{
+    const tn_library *library = counting->library;
+    tn_status status = TN_OK;
+    for (size_t i = from; status == TN_OK && i < to && (*base)->states > 0; i++) {
+        size_t clause = counting->order[i];
+        status = apply(library, clause, tn_library_keeping(library, clause), bounds, base, error);
+    }
+    return status;
+}
+
+/* Applies the clauses up to number `to` and keeps what the memory for that holds. */
+static tn_status save_starts(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    uint64_t edges = 0;
+    for (size_t i = 0; i <= counting->saved; i++)
+        edges += counting->after[i]->first[counting->after[i]->states];
+    while (status == TN_OK && counting->saved < to && edges <= SAVED_EDGES) {
+        tn_sparse *next = NULL;
+        status = tn_sparse_minimise(counting->after[counting->saved], &next, error); /* a copy */
+        if (status == TN_OK)
+            status = keep(counting, counting->saved, counting->saved + 1, bounds, &next, error);
+        if (status != TN_OK) {
+            tn_sparse_free(next);
+            break;
+        }
+        counting->after[++counting->saved] = next;
+        edges += next->first[next->states];
+    }
+    return status;
+}
+
+/* Totals come first, since they bound the plans; what they leave tells how the other requirements are ordered. Prunes
+ * are applied as the library does. */
+static tn_status begin(tn_counting_alone *counting, bool within, tn_error *error)
+{
+    const tn_library *library = counting->library;
+    size_t count = library->applied_count, required = library->required_count, totals = 0, next = 0;
+    tn_bounds bounds = counting->bounds;
+    counting->after = calloc(count + 1, sizeof *counting->after);
+    counting->order = malloc((count + 1) * sizeof *counting->order);
+    if (!counting->after || !counting->order)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < required; i++)
+        if (tn_library_clause(library, library->applied[i])->kind == TN_CLAUSE_TOTAL)
+            counting->order[totals++] = library->applied[i];
+    next = totals;
+    for (size_t i = 0; i < count; i++)
+        if (tn_library_clause(library, library->applied[i])->kind != TN_CLAUSE_TOTAL)
+            counting->order[next++] = library->applied[i];
+    tn_status status = tn_library_everything(library, within, &counting->after[0], error);
+    if (status == TN_OK && count)
+        status = save_starts(counting, totals < count ? totals : count - 1, &bounds, error);
+    if (status == TN_OK)
+        status = tn_library_order(library, counting->after[counting->saved], counting->order + totals,
+                                  required - totals, error);
+    return status == TN_OK && count ? save_starts(counting, count - 1, &bounds, error) : status;
+}
+
+/* Of the clause applied as this number. */
+static tn_status count_only(const tn_counting_alone *counting, size_t number, mpz_t only, tn_error *error)
+{
+    const tn_library *library = counting->library;
+    size_t last = library->applied_count - 1, from = number < counting->saved ? number : counting->saved;
+    size_t clause = counting->order[number], last_clause = counting->order[last];
+    tn_bounds bounds = counting->bounds;
+    tn_sparse *base = NULL;
+    tn_status status = tn_sparse_minimise(counting->after[from], &base, error); /* a copy */
+    if (status == TN_OK)
+        status = keep(counting, from, number, &bounds, &base, error);
+    if (status == TN_OK && number < last)
+        status = apply(library, clause, dropping(library, clause), &bounds, &base, error);
+    if (status == TN_OK && number < last)
+        status = keep(counting, number + 1, last, &bounds, &base, error);
+    if (status == TN_OK)
+        status = count_with(library, base, library->clauses[last_clause],
+                            number < last ? tn_library_keeping(library, last_clause) : dropping(library, clause), only,
+                            error);
+    tn_sparse_free(base);
+    return status;
+}
+
+/* Where, and what to do about it. */
+static void show_limit(const tn_library *library, size_t clause, tn_error *error)
+{
+    if (error->code_offset == TN_NO_OFFSET)
+        error->code_offset =
+            library->schema->module->FUNCTION_records[tn_library_clause(library, clause)->holds].code_begin;
+    tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-states");
+}
+
+/* What is not counted yet, in at most so many steps a clause as the bounds have. */
+static tn_status count_rest(tn_counting_alone *counting, bool within, tn_error *error)
+{
+    const tn_library *library = counting->library;
+    tn_error failure;
+    tn_status started = begin(counting, within, &failure), status = TN_OK;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (size_t i = 0; i < library->applied_count; i++) {
+        size_t clause = started == TN_OK ? counting->order[i] : library->applied[i];
+        tn_effect *effect = &counting->effects[clause];
+        if (effect->status != TN_LIMIT)
+            continue;
+        if (started != TN_OK)
+            effect->error = failure;
+        effect->status = started == TN_OK ? count_only(counting, i, effect->only, &effect->error) : started;
+        if (effect->status == TN_LIMIT)
+            show_limit(library, clause, &effect->error);
+    }
+    for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
+        const tn_effect *effect = &counting->effects[library->applied[i]];
+        if (effect->status == TN_OK || effect->status == TN_LIMIT)
+            continue;
+        status = effect->status;
+        if (error)
+            *error = effect->error;
+    }
+    return status;
+}
+
+static bool is_counted(const tn_library *library, const tn_effect *effects)
+{
+    for (size_t i = 0; i < library->applied_count; i++)
+        if (effects[library->applied[i]].status == TN_LIMIT)
+            return false;
+    return true;
+}
+
+static tn_status try_only(const tn_library *library, bool within, uint64_t work, tn_effect *effects, tn_error *error)
+{
+    tn_counting_alone counting = {.library = library, .bounds = tn_library_bounds(library), .effects = effects};
+    if (is_counted(library, effects))
+        return TN_OK;
+    if (work < counting.bounds.max_work)
+        counting.bounds.max_work = work;
+    tn_status status = count_rest(&counting, within, error);
+    for (size_t i = 0; counting.after && i <= library->applied_count; i++)
+        tn_sparse_free(counting.after[i]);
+    free(counting.after);
+    free(counting.order);
+    return status;
+}
+
+/* How many plans clause i keeps out: a prune, of those generated; a requirement, of all. */
+static tn_status count_out(const tn_library *library, const tn_sparse *everything, size_t i, tn_effect *effect,
+                           tn_error *error)
+{
+    const tn_sparse *base = tn_library_prunes(library, i) ? library->generator : everything;
+    tn_status status =
+        count_with(library, base, library->clauses[i], dropping(library, i), effect->out, &effect->error);
+    if (status == TN_LIMIT) {
+        mpz_set_si(effect->out, -1);
+        show_limit(library, i, &effect->error);
+        return TN_OK;
+    }
+    if (status != TN_OK && error)
+        *error = effect->error;
+    return status;
+}
+
+static tn_status find_effects(const tn_library *library, tn_effect *effects, tn_error *error)
+{
+    tn_sparse *everything = NULL;
+    tn_status status = tn_library_everything(library, library->within, &everything, error);
+    for (size_t i = 0; status == TN_OK && i < library->applied_count; i++)
+        status = count_out(library, everything, library->applied[i], &effects[library->applied[i]], error);
+    tn_sparse_free(everything);
+    if (status == TN_OK && !library->within)
+        status = try_only(library, false, library->max_eager, effects, error);
+    return status == TN_OK ? try_only(library, true, UINT64_MAX, effects, error) : status;
+}
+
+static tn_status add_effects(const tn_library *library, tn_error *error)
+{
+    size_t count = library->record->clause_count;
+    tn_effect *effects = calloc(count + 1, sizeof *effects);
+    if (!effects)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        mpz_inits(effects[i].out, effects[i].only, NULL);
+        effects[i].status = TN_LIMIT; /* not counted yet */
+    }
+    tn_status status = find_effects(library, effects, error);
+    if (status == TN_OK)
+        library->late->effects = effects;
+    else
+        tn_effects_free(effects, count);
+    return status;
+}
+
+void tn_effects_free(tn_effect *effects, size_t count)
+{
+    for (size_t i = 0; effects && i < count; i++)
+        mpz_clears(effects[i].out, effects[i].only, NULL);
+    free(effects);
+}
+
+tn_status tn_library_effect(const tn_library *library, uint32_t i, mpz_t out, mpz_t only, uint32_t *states,
+                            tn_error *error)
+{
+    pthread_mutex_lock(&library->late->lock);
+    tn_status status = library->late->effects ? TN_OK : add_effects(library, error);
+    pthread_mutex_unlock(&library->late->lock);
+    if (status != TN_OK)
+        return status;
+    const tn_effect *effect = &library->late->effects[i];
+    *states = library->clauses[i]->states;
+    mpz_set(out, effect->out);
+    mpz_set(only, effect->only);
+    if (effect->status == TN_LIMIT)
+        mpz_set_si(only, -1);
+    if (effect->status == TN_OK && mpz_sgn(out) >= 0)
+        return TN_OK;
+    if (error)
+        *error = effect->error;
+    return TN_LIMIT;
+}

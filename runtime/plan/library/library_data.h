@@ -1,0 +1,131 @@
+/* What a tn_library is made of, for the files that implement library.h. */
+#ifndef TARTAN_PLAN_LIBRARY_LIBRARY_DATA_H
+#define TARTAN_PLAN_LIBRARY_LIBRARY_DATA_H
+
+#include <math.h>
+#include <pthread.h>
+
+#include "runtime/plan/automata/sparse.h"
+#include "runtime/plan/library/count.h"
+#include "runtime/plan/library/library.h"
+#include "runtime/plan/schema/classes.h"
+
+#define TN_LIBRARY_STATES_DEFAULT 1000000u
+#define TN_LIBRARY_LENGTH_DEFAULT 4096u
+#define TN_LIBRARY_EAGER_DEFAULT 3000000u
+#define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
+
+/* What one clause does to a library. */
+typedef struct tn_effect {
+    mpz_t out;        /* as in tn_library_effect; negative: not counted */
+    mpz_t only;       /* where status is TN_OK */
+    tn_status status; /* TN_LIMIT: not counted, or not yet */
+    tn_error error;   /* why not */
+} tn_effect;
+
+/* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
+typedef struct tn_library_late {
+    pthread_mutex_t lock;
+    tn_effect *effects; /* [record->clause_count], NULL: not found yet */
+    bool mirror_found;
+    mpz_t *mirror; /* [max + 1]: plans of a length less the second ones of mirror pairs */
+} tn_library_late;
+
+struct tn_library {
+    const tn_schema *schema;
+    const tn_library_record *record;
+    tn_classes *classes;
+    uint32_t max_states; /* of a clause's automata */
+    uint32_t max_joint;  /* of the automata of several clauses together */
+    uint64_t max_table;
+    uint32_t min, max; /* of trays; min > max: no plan at all */
+    tn_dfa **clauses;  /* [record->clause_count], in file order */
+    size_t *applied;   /* [applied_count]: which of the clauses, as they are applied: requirements, then prunes */
+    size_t applied_count, required_count;
+    tn_sparse *generator; /* of what the requirements and totals leave */
+    tn_sparse *live;      /* of the kept plans, without a dead state */
+    tn_dfa *kept;         /* the same, complete: its last state is the dead one */
+    bool within;          /* generator and live hold only plans of min..max trays */
+    tn_bounds bounds;     /* of combining the clauses */
+    uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
+    uint64_t max_eager;
+    mpz_t *generated;      /* [max + 1]: by length */
+    uint32_t *tray_column; /* [trays]: column of `kept` */
+    tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
+    tn_row *rows;          /* [max + 1]: kept plans by trays to come */
+    double *nearly;        /* [max + 1][states]: the rows, nearly (tn_nearly) */
+    uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
+    uint32_t alive_words;
+    mpz_t *before;       /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
+    uint32_t stride;     /* trays between the marks of `passed` */
+    uint32_t *passed;    /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
+    uint64_t *hash_room; /* of columns + 2 states, used under late->lock */
+    tn_library_late *late;
+};
+
+static inline bool tn_library_alive(const tn_library *library, uint32_t left, uint32_t state)
+{
+    return library->alive[(size_t)left * library->alive_words + state / 64] >> (state % 64) & 1;
+}
+
+static inline uint32_t tn_library_step(const tn_library *library, uint32_t state, tn_tray tray)
+{
+    return library->kept->delta[(size_t)state * library->kept->columns + library->tray_column[tray]];
+}
+
+/* A count divided by 2^(64 limbs), nearly: at most 1 for a count of so many limbs. Only ever guides exact arithmetic.
+ */
+static inline double tn_nearly(const mpz_t count, size_t limbs)
+{
+    long exponent;
+    double fraction = mpz_get_d_2exp(&exponent, count);
+    return ldexp(fraction, (int)(exponent - (long)(64 * limbs)));
+}
+
+static inline const tn_clause_record *tn_library_clause(const tn_library *library, size_t i)
+{
+    return &library->schema->module->CLAUSE_records[library->record->clause_first + i];
+}
+
+static inline bool tn_library_prunes(const tn_library *library, size_t i)
+{
+    return tn_library_clause(library, i)->kind == TN_CLAUSE_PRUNE;
+}
+
+/* What leaves of some plans those that clause i keeps; the other operation leaves those that it keeps out. */
+static inline tn_dfa_operation tn_library_keeping(const tn_library *library, size_t i)
+{
+    return tn_library_prunes(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
+}
+
+/* What combining automata may cost: in proportion to the states that they may have. */
+tn_bounds tn_library_bounds(const tn_library *library);
+
+/* *sparse := *sparse with what a clause requires, or without what it prunes (operation), minimal. */
+tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
+                           tn_bounds *bounds, tn_sparse **sparse, tn_error *error);
+
+/* Every plan, to begin with: of the library's lengths, or of any. */
+tn_status tn_library_everything(const tn_library *library, bool within, tn_sparse **out, tn_error *error);
+
+/* Puts clauses in the order to apply them to an automaton in: those that multiply its states come last, when it is as
+ * large as it gets anyway. base NULL: those with the fewest states first. */
+tn_status tn_library_order(const tn_library *library, const tn_sparse *base, size_t *clauses, size_t count,
+                           tn_error *error);
+
+/* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
+ * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
+tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
+                        tn_library **library, tn_error *error);
+
+/* An array of zeroed integers; NULL where out of memory. */
+mpz_t *tn_integers_new(size_t count);
+void tn_integers_free(mpz_t *integers, size_t count);
+
+/* Free `effects` of so many clauses; NULL is fine (effects.c). */
+void tn_effects_free(tn_effect *effects, size_t count);
+
+/* Fills rows, nearly, alive, before, generated and passed (tables.c). */
+tn_status tn_library_tables(tn_library *library, tn_error *error);
+
+#endif

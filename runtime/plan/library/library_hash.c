@@ -1,0 +1,127 @@
+/* The hash of what a library means: the schema as plans are written in it, the lengths, and the set of plans kept.
+ *
+ * The set is hashed by a polynomial with a term for each plan: the product of variables, one for each tray and number
+ * of trays to come. Different sets are different polynomials, of a degree of at most the plans' length, and such differ
+ * at a random point but for (length / modulus) of all points (Schwartz 1980, Zippel 1979). The value at two fixed,
+ * random-looking points modulo 2^61 - 1 is found like a count, over any automaton of the library: neither the wording
+ * nor the order of the rules shows, nor how the automaton was built. All numbers go into the hash in little-endian. */
+#include <stdlib.h>
+#include <string.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "runtime/base/random.h"
+#include "runtime/plan/library/library_data.h"
+
+__extension__ typedef unsigned __int128 wide;
+
+#define PRIME ((UINT64_C(1) << 61) - 1)
+#define POINTS 2
+#define SUMMANDS_MAX 32 /* products of numbers below PRIME that a wide one holds, with room */
+
+static void add_number(XXH3_state_t *hash, uint64_t number)
+{
+    uint8_t bytes[8];
+    for (int i = 0; i < 8; i++)
+        bytes[i] = (uint8_t)(number >> (8 * i));
+    XXH3_128bits_update(hash, bytes, sizeof bytes);
+}
+
+static void add_text(XXH3_state_t *hash, const tn_module *module, tn_string text)
+{
+    const char *bytes = tn_text(module, text);
+    add_number(hash, strlen(bytes));
+    XXH3_128bits_update(hash, bytes, strlen(bytes));
+}
+
+static void add_schema(XXH3_state_t *hash, const tn_schema *schema)
+{
+    add_number(hash, schema->field_count);
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        add_text(hash, schema->module, schema->fields[f].name);
+        add_number(hash, schema->fields[f].kind);
+        add_number(hash, schema->fields[f].value_count);
+        for (uint32_t v = schema->value_start[f]; v < schema->value_start[f + 1]; v++) {
+            add_text(hash, schema->module, schema->values[v].spelling);
+            add_number(hash, (uint64_t)schema->values[v].length);
+        }
+    }
+    add_number(hash, schema->tray_count);
+    XXH3_128bits_update(hash, schema->tray_values, (size_t)schema->tray_count * schema->field_count);
+}
+
+static uint64_t reduce(wide number)
+{
+    uint64_t low = (uint64_t)number & PRIME;
+    wide high = number >> 61; /* below 2^67 */
+    uint64_t sum = low + ((uint64_t)high & PRIME) + (uint64_t)(high >> 61);
+    sum = (sum & PRIME) + (sum >> 61);
+    return sum >= PRIME ? sum - PRIME : sum;
+}
+
+/* weights := the sum of the variables of each column's trays, with `left` trays to come. */
+static void weigh_columns(const tn_library *library, unsigned point, uint32_t left, uint64_t *weights)
+{
+    memset(weights, 0, library->kept->columns * sizeof *weights);
+    for (tn_tray t = 0; t < library->schema->tray_count; t++) {
+        uint64_t *weight = &weights[library->tray_column[t]];
+        *weight = (*weight + tn_random64(point, left, t) % PRIME) % PRIME;
+    }
+}
+
+/* The value of what is kept from a state with one tray more than `values` are for. */
+static uint64_t value_of(const tn_library *library, uint32_t state, const uint64_t *weights, const uint64_t *values)
+{
+    const tn_sparse *live = library->live;
+    wide sum = 0;
+    size_t summands = 0;
+    for (size_t e = live->first[state]; e < live->first[state + 1]; e++) {
+        sum += (wide)weights[live->label[e]] * values[live->target[e]];
+        if (++summands % SUMMANDS_MAX == 0)
+            sum = reduce(sum);
+    }
+    return reduce(sum);
+}
+
+/* Adds the value of the plans of each length. */
+static void add_plans(XXH3_state_t *hash, const tn_library *library, unsigned point)
+{
+    uint64_t *weights = library->hash_room, *values = weights + library->kept->columns;
+    uint64_t *next = values + library->kept->states;
+    uint32_t states = library->live->states;
+    for (uint32_t s = 0; s < states; s++)
+        values[s] = library->live->accept[s];
+    for (uint32_t length = 0;; length++) {
+        if (length >= library->min)
+            add_number(hash, states > 0 ? values[0] : 0);
+        if (length >= library->max)
+            return;
+        weigh_columns(library, point, length, weights);
+        for (uint32_t s = 0; s < states; s++)
+            next[s] = tn_library_alive(library, length + 1, s) ? value_of(library, s, weights, values) : 0;
+        uint64_t *swap = values;
+        values = next;
+        next = swap;
+    }
+}
+
+void tn_library_hash(const tn_library *library, char hex[33])
+{
+    XXH3_state_t hash;
+    XXH3_128bits_reset(&hash);
+    add_schema(&hash, library->schema);
+    add_number(&hash, library->min);
+    add_number(&hash, library->max);
+    pthread_mutex_lock(&library->late->lock);
+    for (unsigned point = 0; point < POINTS; point++)
+        add_plans(&hash, library, point);
+    pthread_mutex_unlock(&library->late->lock);
+    XXH128_canonical_t canonical;
+    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(&hash));
+    for (int i = 0; i < 16; i++) {
+        hex[2 * i] = "0123456789abcdef"[canonical.digest[i] >> 4];
+        hex[2 * i + 1] = "0123456789abcdef"[canonical.digest[i] & 15];
+    }
+    hex[32] = 0;
+}

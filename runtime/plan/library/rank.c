@@ -1,0 +1,125 @@
+/* Plan to rank and back. */
+#include <stdlib.h>
+
+#include "runtime/plan/library/library_data.h"
+
+/* How many trays of a column come before a tray, from the nearest mark. `mark` is the tray of that mark. */
+static uint32_t marked(const tn_library *library, tn_tray tray, uint32_t column)
+{
+    return library->passed[(size_t)(tray / library->stride) * library->kept->columns + column];
+}
+
+/* sum := plans that start in `state` with a tray before `tray`, `left` trays to come after it. */
+static void plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
+{
+    const tn_dfa *kept = library->kept;
+    const tn_row *row = &library->rows[left];
+    const uint32_t *next = kept->delta + (size_t)state * kept->columns;
+    mpz_set_ui(sum, 0);
+    for (uint32_t c = 0; c < kept->columns; c++) {
+        uint32_t trays = marked(library, tray, c);
+        if (trays > 0 && tn_library_alive(library, left, next[c]))
+            tn_row_add(row, next[c], trays, sum);
+    }
+    for (tn_tray t = tray - tray % library->stride; t < tray; t++)
+        tn_row_add(row, next[library->tray_column[t]], 1, sum);
+}
+
+bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank)
+{
+    if (!tn_library_has(library, trays, length))
+        return false;
+    mpz_t sum;
+    mpz_init(sum);
+    mpz_set(rank, library->before[length]);
+    uint32_t state = 0;
+    for (size_t i = 0; i < length; i++) {
+        plans_before(library, state, trays[i], (uint32_t)(length - 1 - i), sum);
+        mpz_add(rank, rank, sum);
+        state = tn_library_step(library, state, trays[i]);
+    }
+    mpz_clear(sum);
+    return true;
+}
+
+/* As plans_before, nearly, and divided like the nearly row. */
+static double nearly_before(const tn_library *library, const double *nearly, const uint32_t *next, tn_tray tray)
+{
+    double sum = 0;
+    for (uint32_t c = 0; c < library->kept->columns; c++)
+        sum += marked(library, tray, c) * nearly[next[c]];
+    for (tn_tray t = tray - tray % library->stride; t < tray; t++)
+        sum += nearly[next[library->tray_column[t]]];
+    return sum;
+}
+
+/* About the tray in which plan `rest` of those from a state starts, by halving. */
+static tn_tray guess_tray(const tn_library *library, const uint32_t *next, uint32_t left, const mpz_t rest)
+{
+    const double *nearly = library->nearly + (size_t)left * library->kept->states;
+    double wanted = tn_nearly(rest, library->rows[left].limbs);
+    tn_tray low = 0, high = library->schema->tray_count;
+    while (high - low > 1) {
+        tn_tray middle = low + (high - low) / 2;
+        if (nearly_before(library, nearly, next, middle) <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The tray in which plan `rest` (from 0) of those from `state` starts; `rest` becomes its rank among those with that
+ * tray. The guess only saves work: from it, exact counts step to the tray. */
+static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t left, mpz_t rest, mpz_t sum, mpz_t one)
+{
+    const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
+    const tn_row *row = &library->rows[left];
+    tn_tray tray = guess_tray(library, next, left, rest);
+    plans_before(library, state, tray, left, sum);
+    while (mpz_cmp(sum, rest) > 0) {
+        tray--;
+        mpz_set_ui(one, 0);
+        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        mpz_sub(sum, sum, one);
+    }
+    mpz_sub(rest, rest, sum);
+    for (;; tray++) { /* rest is below the plans that start with this tray or a later one */
+        mpz_set_ui(one, 0);
+        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        if (mpz_cmp(rest, one) < 0)
+            return tray;
+        mpz_sub(rest, rest, one);
+    }
+}
+
+/* The length of the plan of a rank below the number kept, by halving. */
+static uint32_t find_length(const tn_library *library, const mpz_t rank)
+{
+    uint32_t low = library->min, high = library->max + 1; /* before[low] <= rank < before[high] */
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (mpz_cmp(library->before[middle], rank) <= 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+bool tn_library_unrank(const tn_library *library, const mpz_t rank, tn_tray *trays, uint32_t *length)
+{
+    if (mpz_sgn(rank) < 0 || mpz_cmp(rank, library->before[library->max + 1]) >= 0)
+        return false;
+    mpz_t rest, sum, one;
+    mpz_inits(rest, sum, one, NULL);
+    *length = find_length(library, rank);
+    mpz_sub(rest, rank, library->before[*length]);
+    uint32_t state = 0;
+    for (uint32_t i = 0; i < *length; i++) {
+        trays[i] = find_tray(library, state, *length - 1 - i, rest, sum, one);
+        state = tn_library_step(library, state, trays[i]);
+    }
+    mpz_clears(rest, sum, one, NULL);
+    return true;
+}

@@ -1,0 +1,433 @@
+#include "runtime/plan/match/lower.h"
+
+#include <stdlib.h>
+
+#include "runtime/module/code.h"
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/match/marked.h"
+#include "runtime/plan/match/rules.h"
+
+/* The forms in which a function may be needed: of the plan as a whole (PLAIN: over the classes), or as a relation (over
+ * marked words); each as it is written or with the plan reversed. */
+typedef enum tn_form { FORM_PLAIN = 1, FORM_REVERSED = 2, FORM_COUNT = 4 } tn_form;
+
+typedef struct tn_lowered {
+    tn_dfa *dfa;     /* NULL: not yet, or failed */
+    tn_error *error; /* why it failed; NULL otherwise */
+} tn_lowered;
+
+/* All rules of a lowering together may take this many times the work of one. */
+#define RULES_WORK 8
+
+struct tn_lowering {
+    const tn_module *module;
+    const tn_classes *classes;
+    tn_bounds bounds;
+    tn_marked marked;
+    uint64_t spent;           /* work on the rules before */
+    const uint32_t *disabled; /* code offsets of instructions that give nothing */
+    size_t disabled_count;
+    tn_lowered *lowered; /* [functions][FORM_COUNT] */
+};
+
+/* An instruction of a function, and in which form its result is wanted. */
+typedef struct tn_node {
+    tn_instruction code;
+    uint32_t offset;
+    bool plain;
+} tn_node;
+
+typedef struct tn_term {
+    tn_node *nodes; /* in code order, without the final RETURN */
+    size_t count;
+    tn_dfa **stack;
+    size_t depth;
+} tn_term;
+
+tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_lowering **out, tn_error *error)
+{
+    tn_lowering *lowering = calloc(1, sizeof *lowering);
+    if (!lowering)
+        return tn_fail_memory(error);
+    lowering->module = classes->schema->module;
+    lowering->classes = classes;
+    lowering->bounds = tn_bounds_make(max_states ? max_states : TN_STATES_DEFAULT);
+    lowering->bounds.stop = lowering->module->stop;
+    lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
+    tn_status status = lowering->lowered ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
+                                         : tn_fail_memory(error);
+    if (status != TN_OK) {
+        tn_lowering_free(lowering);
+        return status;
+    }
+    *out = lowering;
+    return TN_OK;
+}
+
+void tn_lowering_free(tn_lowering *lowering)
+{
+    if (!lowering)
+        return;
+    for (size_t i = 0; lowering->lowered && i < lowering->module->FUNCTION_count * FORM_COUNT; i++) {
+        tn_dfa_free(lowering->lowered[i].dfa);
+        free(lowering->lowered[i].error);
+    }
+    free(lowering->lowered);
+    tn_marked_clear(&lowering->marked);
+    free(lowering);
+}
+
+void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count)
+{
+    lowering->disabled = offsets;
+    lowering->disabled_count = count;
+}
+
+static bool is_disabled(const tn_lowering *lowering, uint32_t offset)
+{
+    for (size_t i = 0; i < lowering->disabled_count; i++)
+        if (lowering->disabled[i] == offset)
+            return true;
+    return false;
+}
+
+/* ---- reading a function */
+
+/* At the plan's level AND, OR and NOT are about the plan, so their operands are wanted plain too. Code is in postfix
+ * order: the operands of a node are found from its end backwards. `start` of a node is where its own code begins. */
+static void mark_plain(tn_term *term, const size_t *start, bool plain)
+{
+    if (term->count == 0)
+        return;
+    term->nodes[term->count - 1].plain = plain;
+    for (size_t i = term->count; i-- > 0;) {
+        tn_opcode opcode = term->nodes[i].code.opcode;
+        if (!term->nodes[i].plain || (opcode != TN_OP_AND && opcode != TN_OP_OR && opcode != TN_OP_NOT))
+            continue;
+        term->nodes[i - 1].plain = true;
+        if (opcode != TN_OP_NOT)
+            term->nodes[start[i - 1] - 1].plain = true;
+    }
+}
+
+/* Where each node's code begins, from the stack's effects. */
+static bool find_starts(const tn_term *term, size_t *start)
+{
+    size_t *open = malloc((term->count + 1) * sizeof *open);
+    if (!open)
+        return false;
+    size_t depth = 0;
+    for (size_t i = 0; i < term->count; i++) {
+        tn_opcode_effect effect = tn_code_effect((uint8_t)term->nodes[i].code.opcode);
+        size_t first = i;
+        for (uint8_t p = 0; p < effect.pops; p++)
+            first = open[--depth];
+        start[i] = first;
+        open[depth++] = first;
+    }
+    free(open);
+    return true;
+}
+
+static void term_clear(tn_term *term)
+{
+    while (term->depth > 0)
+        tn_dfa_free(term->stack[--term->depth]);
+    free(term->stack);
+    free(term->nodes);
+}
+
+static tn_status term_read(const tn_module *module, uint32_t function, bool plain, tn_term *term, tn_error *error)
+{
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    size_t bytes = record->code_end - record->code_begin;
+    *term = (tn_term){0};
+    term->nodes = calloc(bytes + 1, sizeof *term->nodes);
+    term->stack = calloc((size_t)record->stack_max + 1, sizeof *term->stack);
+    size_t *start = malloc((bytes + 1) * sizeof *start);
+    bool ok = term->nodes && term->stack && start;
+    for (uint32_t offset = record->code_begin; ok && offset < record->code_end;) {
+        tn_instruction code = tn_code_read(module->code, offset);
+        if (code.opcode == TN_OP_RETURN)
+            break;
+        term->nodes[term->count++] = (tn_node){.code = code, .offset = offset};
+        offset += code.length;
+    }
+    ok = ok && find_starts(term, start);
+    if (ok)
+        mark_plain(term, start, plain);
+    free(start);
+    if (ok)
+        return TN_OK;
+    term_clear(term);
+    return tn_fail_memory(error);
+}
+
+/* ---- lowering instructions */
+
+/* The functions called, in the form in which the caller wants them. */
+static tn_lowered *called(const tn_lowering *lowering, const tn_node *node, uint32_t form, uint32_t *wanted)
+{
+    uint32_t other = (form & FORM_REVERSED) ^ (node->code.opcode == TN_OP_MIRROR ? FORM_REVERSED : 0);
+    *wanted = (uint32_t)node->code.first * FORM_COUNT + (other | (node->plain ? FORM_PLAIN : 0));
+    return &lowering->lowered[*wanted];
+}
+
+static tn_status lower_boolean(tn_lowering *lowering, const tn_node *node, tn_dfa *const *in, tn_dfa **out,
+                               tn_error *error)
+{
+    switch (node->code.opcode) {
+    case TN_OP_AND:
+        return tn_dfa_product(in[0], in[1], TN_DFA_AND, "and", &lowering->bounds, out, error);
+    case TN_OP_OR:
+        return tn_dfa_product(in[0], in[1], TN_DFA_OR, "or", &lowering->bounds, out, error);
+    default:
+        return node->plain ? tn_dfa_complement(in[0], out, error) : tn_marked_not(&lowering->marked, in[0], out, error);
+    }
+}
+
+/* The relation of an instruction whose operands are relations. */
+static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node, bool reversed, tn_dfa *const *in,
+                                tn_dfa **out, tn_error *error)
+{
+    const tn_marked *marked = &lowering->marked;
+    uint32_t first = (uint32_t)node->code.first, second = (uint32_t)node->code.second;
+    switch (node->code.opcode) {
+    case TN_OP_TRAY:
+        return tn_marked_tray(marked, first, out, error);
+    case TN_OP_SOMEWHERE:
+        return tn_marked_somewhere(marked, in[0], out, error);
+    case TN_OP_NONEMPTY:
+        return tn_dfa_product(in[0], marked->nonempty, TN_DFA_AND, "rule", marked->bounds, out, error);
+    case TN_OP_OPTIONAL:
+        return tn_dfa_product(in[0], marked->empty, TN_DFA_OR, "optional", marked->bounds, out, error);
+    case TN_OP_CHAIN:
+        return tn_marked_chain(marked, in[reversed], in[!reversed], out, error);
+    case TN_OP_BEGINNING:
+    case TN_OP_END: {
+        const tn_dfa *place = (node->code.opcode == TN_OP_BEGINNING) != reversed ? marked->beginning : marked->end;
+        return tn_dfa_product(in[0], place, TN_DFA_AND, "neighbour", marked->bounds, out, error);
+    }
+    case TN_OP_MANY:
+        return tn_marked_many(marked, in[0], out, error);
+    case TN_OP_QUANTITY:
+        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
+    case TN_OP_SUM:
+        first -= lowering->classes->schema->record->field_first;
+        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, second, first, out, error);
+    case TN_OP_OCCURRENCES:
+        return tn_marked_count(marked, in[0], reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS, first, TN_NO_FIELD, out,
+                               error);
+    case TN_OP_DISTANCE:
+        return tn_marked_distance(marked, in[0], in[1], in[2], reversed, out, error);
+    default:
+        return tn_fail(error, TN_INTERNAL, 0, "an instruction that makes no relation");
+    }
+}
+
+static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa *const *in, tn_dfa **out,
+                            tn_error *error)
+{
+    uint32_t wanted;
+    if (is_disabled(lowering, node->offset))
+        return tn_dfa_constant(lowering->classes->count + !node->plain, false, out, error);
+    switch (node->code.opcode) {
+    case TN_OP_CALL:
+    case TN_OP_MIRROR:
+        *out = tn_dfa_share(called(lowering, node, form, &wanted)->dfa);
+        return TN_OK;
+    case TN_OP_AND:
+    case TN_OP_OR:
+    case TN_OP_NOT:
+        return lower_boolean(lowering, node, in, out, error);
+    case TN_OP_SOMEWHERE:
+        if (node->plain)
+            return tn_marked_anywhere(&lowering->marked, in[0], out, error);
+        break;
+    default:
+        break;
+    }
+    tn_dfa *relation = NULL;
+    tn_status status = lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
+    if (status != TN_OK || !node->plain) {
+        *out = relation;
+        return status;
+    }
+    status = tn_marked_whole(&lowering->marked, relation, out, error);
+    tn_dfa_free(relation);
+    return status;
+}
+
+/* Lowers a function whose callees are lowered. */
+static tn_status lower_term(tn_lowering *lowering, tn_term *term, uint32_t form, tn_dfa **out, tn_error *error)
+{
+    for (size_t i = 0; i < term->count; i++) {
+        const tn_node *node = &term->nodes[i];
+        uint8_t pops = tn_code_effect((uint8_t)node->code.opcode).pops;
+        tn_dfa **in = term->stack + (term->depth - pops);
+        tn_dfa *result = NULL;
+        tn_status status = lower_node(lowering, node, form, in, &result, error);
+        if (status != TN_OK) {
+            if (error)
+                error->code_offset = node->offset;
+            return status;
+        }
+        for (; pops > 0; pops--)
+            tn_dfa_free(term->stack[--term->depth]);
+        term->stack[term->depth++] = result;
+    }
+    *out = term->stack[--term->depth];
+    return TN_OK;
+}
+
+/* ---- functions: callees first, on a stack of our own */
+
+/* Pushes the callees that are not lowered yet. A callee that failed is reported. */
+static tn_status push_callees(tn_lowering *lowering, const tn_term *term, uint32_t form, tn_key *pending,
+                              tn_error *error)
+{
+    for (size_t i = 0; i < term->count; i++) {
+        const tn_node *node = &term->nodes[i];
+        if (node->code.opcode != TN_OP_CALL && node->code.opcode != TN_OP_MIRROR)
+            continue;
+        uint32_t wanted;
+        const tn_lowered *callee = called(lowering, node, form, &wanted);
+        if (callee->error) {
+            if (error)
+                *error = *callee->error;
+            return callee->error->status;
+        }
+        if (!callee->dfa && !tn_key_push(pending, wanted))
+            return tn_fail_memory(error);
+    }
+    return TN_OK;
+}
+
+/* Keeps a failure for the other callers, since it would only be found again. */
+static tn_status keep_failure(tn_lowered *lowered, const tn_error *error)
+{
+    lowered->error = malloc(sizeof *lowered->error);
+    if (lowered->error)
+        *lowered->error = *error;
+    return error->status;
+}
+
+/* Lowers the last pending function, or pushes what it needs first. */
+static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error *error)
+{
+    uint32_t wanted = pending->data[pending->size - 1], form = wanted % FORM_COUNT;
+    size_t before = pending->size;
+    tn_lowered *lowered = &lowering->lowered[wanted];
+    if (lowered->dfa) {
+        pending->size--;
+        return TN_OK;
+    }
+    tn_term term;
+    tn_error failure = {0};
+    tn_status status = term_read(lowering->module, wanted / FORM_COUNT, form & FORM_PLAIN, &term, error);
+    if (status != TN_OK)
+        return status;
+    status = push_callees(lowering, &term, form, pending, &failure);
+    if (status == TN_OK && pending->size == before) {
+        status = lower_term(lowering, &term, form, &lowered->dfa, &failure);
+        pending->size--;
+    }
+    term_clear(&term);
+    if (status == TN_OK)
+        return TN_OK;
+    if (error)
+        *error = failure;
+    return keep_failure(lowered, &failure);
+}
+
+static tn_status too_much_work(const tn_lowering *lowering, uint32_t function, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, 802, "the automata of these rules take more than %llu steps to build together",
+            (unsigned long long)lowering->bounds.max_work * RULES_WORK);
+    tn_error_help(error, "split the rules over several files");
+    if (error)
+        error->code_offset = lowering->module->FUNCTION_records[function].code_begin;
+    return TN_LIMIT;
+}
+
+static tn_status lower_form(tn_lowering *lowering, uint32_t function, uint32_t form, tn_dfa **out, tn_error *error)
+{
+    uint32_t wanted = function * FORM_COUNT + form;
+    tn_lowered *lowered = &lowering->lowered[wanted];
+    if (lowered->error) {
+        if (error)
+            *error = *lowered->error;
+        return lowered->error->status;
+    }
+    lowering->spent += lowering->bounds.work;
+    lowering->bounds.work = 0;
+    if (lowering->spent > lowering->bounds.max_work * RULES_WORK)
+        return too_much_work(lowering, function, error);
+    tn_key pending = {0};
+    tn_status status = tn_key_push(&pending, wanted) ? TN_OK : tn_fail_memory(error);
+    while (status == TN_OK && pending.size > 0)
+        status = lower_pending(lowering, &pending, error);
+    free(pending.data);
+    if (status != TN_OK)
+        return status;
+    *out = tn_dfa_share(lowered->dfa);
+    return TN_OK;
+}
+
+tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+{
+    return lower_form(lowering, function, FORM_PLAIN, out, error);
+}
+
+tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+{
+    return lower_form(lowering, function, FORM_PLAIN | FORM_REVERSED, out, error);
+}
+
+/* Lowers the nodes before the one at `offset`, and hands out what that one would take. */
+static tn_status lower_until(tn_lowering *lowering, tn_term *term, uint32_t form, uint32_t offset, tn_dfa **parts,
+                             size_t *count, tn_error *error)
+{
+    size_t at = 0;
+    while (at < term->count && term->nodes[at].offset != offset)
+        at++;
+    if (at == term->count || term->nodes[at].plain)
+        return tn_fail(error, TN_INTERNAL, 0, "an instruction that makes no relation");
+    uint8_t pops = tn_code_effect((uint8_t)term->nodes[at].code.opcode).pops;
+    term->count = at;
+    tn_dfa *last = NULL;
+    tn_status status = at > 0 ? lower_term(lowering, term, form, &last, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    for (size_t i = pops; i-- > 0; last = NULL)
+        parts[i] = last ? last : term->stack[--term->depth];
+    tn_dfa_free(last);
+    *count = pops;
+    return TN_OK;
+}
+
+tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
+                            tn_error *error)
+{
+    /* Where the whole function has been lowered, all that its instructions call has been too. */
+    tn_function_kind kind = (tn_function_kind)lowering->module->FUNCTION_records[function].kind;
+    uint32_t form = kind == TN_FUNCTION_HOLDS ? FORM_PLAIN : 0;
+    tn_dfa *whole = NULL;
+    *count = 0;
+    tn_status status = lower_form(lowering, function, form, &whole, error);
+    tn_dfa_free(whole);
+    if (status != TN_OK)
+        return status;
+    tn_term term;
+    status = term_read(lowering->module, function, form, &term, error);
+    if (status != TN_OK)
+        return status;
+    status = lower_until(lowering, &term, form, offset, parts, count, error);
+    term_clear(&term);
+    return status;
+}
+
+const tn_marked *tn_lowering_marked(const tn_lowering *lowering)
+{
+    return &lowering->marked;
+}

@@ -1,0 +1,42 @@
+/* Lowers rule functions to automata over tray classes: plans that the function holds of as a whole.
+ *
+ * A lowering keeps the automata of the functions met so far, in each direction in which they are called, so that
+ * functions that many rules share are lowered once. It owns them, borrows the classes, and belongs to one thread.
+ */
+#ifndef TARTAN_PLAN_MATCH_LOWER_H
+#define TARTAN_PLAN_MATCH_LOWER_H
+
+#include "runtime/plan/automata/dfa.h"
+#include "runtime/plan/match/marked.h"
+#include "runtime/plan/schema/classes.h"
+
+typedef struct tn_lowering tn_lowering;
+
+/* max_states: of any intermediate automaton (0: TN_STATES_DEFAULT). The classes must be those of the functions to be
+ * lowered. */
+tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_lowering **lowering, tn_error *error);
+void tn_lowering_free(tn_lowering *lowering);
+
+/* Makes what the instructions at these code offsets give the empty relation, for coverage. Only before the first
+ * function is lowered; the offsets are borrowed. */
+void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count);
+
+/* The minimal automaton, over the classes, of the plans whose whole stretch [0, N) is in the function's relation. The
+ * caller frees *out. TN_LIMIT (E0802) where an intermediate automaton passes the bounds; the error's code_offset is the
+ * instruction in whose construction that was. */
+tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
+/* The same of the function on the reversed plan: the plans whose reverse tn_lower's automaton accepts. */
+tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
+/* The automata (over the classes and the marker, see marked.h) of the relations that the instruction at `offset`, one
+ * of the function's that makes a relation, takes from the stack: parts has room for TN_OPERANDS_MAX. The caller frees
+ * them. */
+#define TN_OPERANDS_MAX 3
+tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
+                            tn_error *error);
+
+/* What the constructions of this lowering share, and the bounds that they keep. */
+const tn_marked *tn_lowering_marked(const tn_lowering *lowering);
+
+#endif

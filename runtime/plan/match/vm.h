@@ -1,0 +1,42 @@
+/* The reference engine: interprets a rule function straight from the equations, on bit relations (relation.h).
+ *
+ * A vm holds the memory that evaluating needs; it grows to the largest plan seen and is reused, so that
+ * matching allocates nothing per plan. It belongs to one thread and borrows the schema.
+ *
+ * A function's relation is found once for each plan and direction. Calls are kept on a stack of the vm's own, so that
+ * no chain of functions overflows the C stack.
+ */
+#ifndef TARTAN_PLAN_MATCH_VM_H
+#define TARTAN_PLAN_MATCH_VM_H
+
+#include "runtime/plan/schema/schema.h"
+
+typedef struct tn_plan_vm tn_plan_vm;
+
+/* max_length: the longest plan (0: TN_VM_LENGTH_DEFAULT); a longer one is TN_LIMIT, E0805. */
+#define TN_VM_LENGTH_DEFAULT 4096u
+tn_status tn_plan_vm_new(const tn_schema *schema, size_t max_length, tn_plan_vm **vm, tn_error *error);
+void tn_plan_vm_free(tn_plan_vm *vm);
+
+/* Changes what evaluating may use; 0 leaves a bound as it is. memory: bytes in all (E0807 past it). work: word
+ * operations, about a nanosecond each, for one call of tn_plan_vm_holds or tn_plan_vm_relation (E0808 past it). */
+#define TN_VM_MEMORY_DEFAULT (UINT64_C(1) << 30)
+#define TN_VM_WORK_DEFAULT (UINT64_C(1) << 37)
+void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work);
+
+/* Starts on a plan (copied); forgets what was found for the one before. */
+tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, tn_error *error);
+
+/* H(r, 0, N) for a rule function of kind HOLDS. An error's code_offset is the instruction that it came from. */
+tn_status tn_plan_vm_holds(tn_plan_vm *vm, uint32_t function, bool *holds, tn_error *error);
+
+/* Is [begin, end) in the relation of a function (WHOLE or HOLDS)? 0 <= begin <= end <= the plan's length. */
+tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, size_t end, bool *in, tn_error *error);
+
+/* The relation of a stretch of a function's code that leaves one relation on the stack (a term: the code of one part of
+ * a rule), on the plan or, reversed, on the plan turned round (places are then counted from its end). Rows of *words
+ * words each (relation.h), valid until the vm is used again. */
+tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end, bool reversed,
+                          const uint64_t **relation, size_t *words, tn_error *error);
+
+#endif

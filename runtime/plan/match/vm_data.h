@@ -1,0 +1,62 @@
+/* What a tn_plan_vm is made of, for the files that implement vm.h. */
+#ifndef TARTAN_PLAN_MATCH_VM_DATA_H
+#define TARTAN_PLAN_MATCH_VM_DATA_H
+
+#include "runtime/module/code.h"
+#include "runtime/plan/match/vm.h"
+
+#define TN_VM_ROWS 4 /* of bits, that an operation needs beside its relations */
+
+/* A function that is being evaluated, on the plan or (reversed) on the plan turned round. */
+typedef struct vm_frame {
+    uint32_t function;
+    uint32_t offset; /* of the instruction to run next */
+    bool reversed;
+} vm_frame;
+
+/* Where a function's relation lies among those found, if that was for this plan. */
+typedef struct vm_memo {
+    uint32_t generation;
+    uint32_t slot;
+} vm_memo;
+
+/* Relations one after another, each of the vm's relation_size words. */
+typedef struct vm_relations {
+    uint64_t *words;
+    size_t capacity; /* words */
+    size_t count;    /* relations */
+} vm_relations;
+
+struct tn_plan_vm {
+    const tn_schema *schema;
+    const tn_module *module;
+    size_t max_length;
+    uint64_t memory_limit, memory; /* bytes */
+    uint64_t work_limit, work;     /* words; what is left of the limit */
+
+    tn_tray *trays;
+    size_t length;
+    size_t words;         /* of a row */
+    size_t relation_size; /* words of a relation */
+    uint32_t generation;  /* of the plan; a memo of another one is void */
+    vm_memo *memos;       /* [function][reversed] */
+    vm_relations found;   /* relations of functions */
+    vm_relations stack;   /* operands of all frames */
+    vm_frame *frames;
+    size_t frame_count, frame_capacity;
+
+    /* Room for a plan of `room` trays and one operation on it, all in one block. */
+    size_t room;
+    void *room_block;
+    size_t room_bytes;
+    uint64_t *rows;  /* TN_VM_ROWS rows */
+    size_t *places;  /* [N + 1] */
+    int64_t *sums;   /* [N + 1] */
+    uint8_t *truths; /* [N + 1] */
+};
+
+/* Runs an operation on the relations from `top` on, the last of the stack: any instruction but CALL, MIRROR and RETURN
+ * (vm_operations.c). */
+void tn_plan_vm_operate(tn_plan_vm *vm, const tn_instruction *op, uint64_t *top, bool reversed);
+
+#endif

@@ -1,0 +1,242 @@
+#include "runtime/plan/picture/draw_explain.h"
+
+#include <math.h>
+
+#include "runtime/draw/canvas.h"
+#include "runtime/draw/paper.h"
+#include "runtime/draw/type.h"
+#include "runtime/plan/picture/draw_parts.h"
+
+#define MARGIN 24.0
+#define TITLE_SIZE 11.0
+#define TITLE_ROOM 20.0
+#define TEXT_SIZE 7.0
+#define RULE_SIZE 8.0
+#define ROW_HEIGHT 13.0
+#define RULE_ROOM 9.0 /* above a rule */
+#define LABEL_WIDTH 250.0
+#define EVIDENCE_WIDTH 200.0
+#define INDENT 10.0
+#define GAP 12.0
+#define TRAY_MIN 14.0    /* the narrowest tray, in points: marks stay visible */
+#define PLAN_WIDTH 420.0 /* about how wide the plan is */
+#define BAR_INSET 1.6
+
+static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17};
+
+typedef struct picture {
+    cairo_t *context;
+    const tn_schema *schema;
+    const tn_drawn_plan *plan;
+    const char *title;
+    tn_draw_roles roles;
+    tn_draw_extent extent;
+    tn_draw_table table;
+    double scale; /* points a nanometre */
+    double left;  /* of the plan */
+    double plan_width, plan_height;
+    double width, height;
+} picture;
+
+/* Where tray i starts, from the left end of the plan. */
+static double tray_at(const picture *p, size_t i)
+{
+    if (!p->roles.to_scale)
+        return p->table.box_width * (double)i;
+    double x = 0;
+    for (size_t k = 0; k < i; k++)
+        x += (double)tn_tray_value_record(p->schema, p->plan->trays[k], p->roles.length)->length * p->scale;
+    return x;
+}
+
+static void measure_to_scale(picture *p)
+{
+    int64_t narrowest = INT64_MAX;
+    for (size_t i = 0; i < p->plan->length; i++) {
+        int64_t length = tn_tray_value_record(p->schema, p->plan->trays[i], p->roles.length)->length;
+        narrowest = length > 0 && length < narrowest ? length : narrowest;
+    }
+    tn_draw_measure(&p->roles, p->plan, &p->extent);
+    p->scale = p->extent.width > 0 ? PLAN_WIDTH / p->extent.width : 1e-9;
+    p->scale = fmin(p->scale, 72.0 / 3657600000.0 * 1.2); /* a 12' tray is at most 1.2 inches */
+    if (narrowest != INT64_MAX)
+        p->scale = fmax(p->scale, TRAY_MIN / (double)narrowest);
+    p->plan_width = fmax(p->extent.width * p->scale, 40);
+    p->plan_height =
+        (p->extent.above + p->extent.below) * p->scale + tn_draw_dimension_room(&p->extent) + 2 * TN_MARK_ROOM;
+}
+
+static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
+{
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t *context = cairo_create(surface);
+    p->left = MARGIN + LABEL_WIDTH + GAP + TN_MARK_ROOM;
+    if (p->roles.to_scale) {
+        measure_to_scale(p);
+    } else {
+        tn_draw_table_measure(context, &p->roles, &p->table);
+        p->plan_width = fmax(p->table.box_width * (double)p->plan->length, 40);
+        p->plan_height = tn_draw_table_height(&p->table, &p->roles) + GAP;
+    }
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    p->width = p->left + p->plan_width + TN_MARK_ROOM + GAP + EVIDENCE_WIDTH + MARGIN;
+    p->height = 2 * MARGIN + (p->title ? TITLE_ROOM : 0) + p->plan_height;
+    for (size_t i = 0; i < count; i++)
+        p->height += ROW_HEIGHT + (reasons[i].depth == 0 ? RULE_ROOM : 0);
+}
+
+static void draw_plan(const picture *p, double y)
+{
+    if (!p->roles.to_scale) {
+        tn_draw_table_plan(p->context, &p->roles, &p->table, p->plan, p->left - p->table.name_width, y);
+        return;
+    }
+    double spine = y + TN_MARK_ROOM + p->extent.above * p->scale;
+    tn_draw_plan(p->context, &p->roles, p->plan, p->scale, p->left, spine, spine + p->extent.below * p->scale,
+                 &p->extent);
+}
+
+static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
+                 bool filled)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (stretches[i].begin >= stretches[i].end)
+            continue;
+        double from = p->left + tray_at(p, stretches[i].begin) + 1, to = p->left + tray_at(p, stretches[i].end) - 1;
+        cairo_rectangle(p->context, from, y + BAR_INSET, to - from, ROW_HEIGHT - 2 * BAR_INSET);
+    }
+    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
+    cairo_set_line_width(p->context, 1.1);
+    if (filled)
+        cairo_fill(p->context);
+    else
+        cairo_stroke(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+}
+
+/* Where the part was looked for in vain. */
+static void line_of_absence(const picture *p, tn_stretch region, double y)
+{
+    double middle = y + ROW_HEIGHT / 2;
+    cairo_move_to(p->context, p->left + tray_at(p, region.begin) + 1, middle);
+    cairo_line_to(p->context, p->left + tray_at(p, region.end) - 1, middle);
+    cairo_set_source_rgb(p->context, red[0], red[1], red[2]);
+    cairo_set_line_width(p->context, 0.7);
+    cairo_stroke(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+}
+
+static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y)
+{
+    bars(p, reason->marks, reason->mark_count, y, green, true);
+    if (reason->matched)
+        return;
+    if (reason->region.begin < reason->region.end && reason->mark_count == 0)
+        line_of_absence(p, reason->region, y);
+    bars(p, &reason->partly, 1, y, pale, true);
+    bars(p, &reason->lacking, 1, y, red, false);
+}
+
+/* A sign before the text: a filled square where the part matches, an open one where it does not. */
+static void draw_sign(const picture *p, const tn_drawn_reason *reason, double x, double y)
+{
+    const double *colour = reason->matched ? green : red;
+    cairo_rectangle(p->context, x, y + 4.2, 4.6, 4.6);
+    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
+    cairo_set_line_width(p->context, 1);
+    if (reason->matched)
+        cairo_fill(p->context);
+    else
+        cairo_stroke(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+}
+
+static void draw_rule(const picture *p, const tn_drawn_reason *reason, double y)
+{
+    cairo_move_to(p->context, MARGIN, y);
+    cairo_line_to(p->context, p->width - MARGIN, y);
+    cairo_set_line_width(p->context, TN_LINE_HAIR);
+    cairo_stroke(p->context);
+    tn_type_face(p->context, RULE_SIZE, true);
+    tn_type_fit(p->context, MARGIN, y + 9.5, TN_ALIGN_LEFT, LABEL_WIDTH, reason->text);
+    tn_type_face(p->context, TEXT_SIZE, false);
+    if (reason->evidence)
+        tn_type_fit(p->context, p->left, y + 9.5, TN_ALIGN_LEFT, p->width - MARGIN - p->left, reason->evidence);
+}
+
+static void draw_part(const picture *p, const tn_drawn_reason *reason, double y)
+{
+    double x = MARGIN + INDENT * (fmin(reason->depth, 14) - 1);
+    draw_sign(p, reason, x, y);
+    tn_type_face(p->context, TEXT_SIZE, false);
+    tn_type_fit(p->context, x + 8, y + 9, TN_ALIGN_LEFT, MARGIN + LABEL_WIDTH - x - 8, reason->text);
+    draw_marks(p, reason, y);
+    if (reason->evidence)
+        tn_type_fit(p->context, p->width - MARGIN - EVIDENCE_WIDTH, y + 9, TN_ALIGN_LEFT, EVIDENCE_WIDTH,
+                    reason->evidence);
+}
+
+/* How many rows stand below that of a rule. */
+static size_t parts_of(const tn_drawn_reason *reasons, size_t count, size_t rule)
+{
+    size_t end = rule + 1;
+    while (end < count && reasons[end].depth > 0)
+        end++;
+    return end - rule - 1;
+}
+
+/* The limits between trays, through the rows of a rule. */
+static void draw_grid(const picture *p, double from, double to)
+{
+    for (size_t i = 0; i <= p->plan->length; i++) {
+        cairo_move_to(p->context, p->left + tray_at(p, i), from);
+        cairo_line_to(p->context, p->left + tray_at(p, i), to);
+    }
+    cairo_set_source_rgb(p->context, 0.8, 0.8, 0.8);
+    cairo_set_line_width(p->context, TN_LINE_HAIR);
+    cairo_stroke(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+}
+
+static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t count)
+{
+    double y = MARGIN;
+    if (p->title) {
+        tn_type_face(p->context, TITLE_SIZE, true);
+        tn_type_fit(p->context, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
+        y += TITLE_ROOM;
+    }
+    draw_plan(p, y);
+    y += p->plan_height;
+    for (size_t i = 0; i < count; i++) {
+        if (reasons[i].depth == 0) {
+            y += RULE_ROOM;
+            draw_rule(p, &reasons[i], y);
+            draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts_of(reasons, count, i)));
+        } else {
+            draw_part(p, &reasons[i], y);
+        }
+        y += ROW_HEIGHT;
+    }
+}
+
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
+                          size_t count, const char *title, tn_picture *to, tn_error *error)
+{
+    picture p = {.schema = schema, .plan = plan, .title = title};
+    tn_canvas *canvas = NULL;
+    if (count > TN_DRAW_REASONS_MAX)
+        return tn_fail(error, TN_LIMIT, 820, "there are %zu parts to draw; the limit is %u", count,
+                       TN_DRAW_REASONS_MAX);
+    tn_draw_roles_find(schema, &p.roles);
+    measure(&p, reasons, count);
+    tn_status status = tn_canvas_begin(to, p.width, p.height, title, &canvas, error);
+    if (status == TN_OK) {
+        p.context = tn_canvas_context(canvas);
+        draw_all(&p, reasons, count);
+        status = tn_canvas_commit(canvas, error);
+    }
+    tn_canvas_free(canvas);
+    return status;
+}

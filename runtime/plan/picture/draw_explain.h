@@ -1,0 +1,30 @@
+/* Why a plan is as a rule says, as a picture: the plan, and under it a row for each part of the rules, with the trays
+ * that it matched in green and what it lacks in red. */
+#ifndef TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
+#define TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
+
+#include "runtime/draw/canvas.h"
+#include "runtime/plan/analysis/explain.h"
+#include "runtime/plan/picture/draw.h"
+
+/* A row. Depth 0 is a rule, whose evidence is what its author says of it. */
+typedef struct tn_drawn_reason {
+    const char *text, *evidence; /* evidence may be NULL */
+    unsigned depth;
+    bool matched;
+    bool drops;              /* a rule that drops the plan */
+    const tn_stretch *marks; /* where it matched */
+    uint32_t mark_count;
+    tn_stretch region;  /* where it was looked for */
+    tn_stretch partly;  /* not matched: where a piece of it is; or empty */
+    tn_stretch lacking; /* not matched: the tray that comes closest; or empty */
+} tn_drawn_reason;
+
+/* The most rows of a picture (E0820 past it). */
+#define TN_DRAW_REASONS_MAX 2000u
+
+/* title may be NULL. Errors as in tn_plans_draw. */
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
+                          size_t count, const char *title, tn_picture *to, tn_error *error);
+
+#endif

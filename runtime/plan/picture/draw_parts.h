@@ -1,0 +1,82 @@
+/* The parts of a plan drawing, between its own files: what the roles say, one plan to scale, one as a table, the title
+ * strip. Nothing here allocates or fails. All places are in points. */
+#ifndef TARTAN_PLAN_PICTURE_DRAW_PARTS_H
+#define TARTAN_PLAN_PICTURE_DRAW_PARTS_H
+
+#include <cairo.h>
+
+#include "runtime/base/length_style.h"
+#include "runtime/plan/picture/draw.h"
+
+#define TN_NO_FIELD UINT32_MAX
+#define TN_BANDS_MAX 32u
+
+/* Line weights, as on a drawing by hand: what is cut, what is seen, what only measures. */
+#define TN_LINE_CUT 1.3
+#define TN_LINE_EDGE 0.5
+#define TN_LINE_HAIR 0.22
+
+/* What a schema's roles mean for drawing it. */
+typedef struct tn_draw_roles {
+    const tn_schema *schema;
+    bool to_scale;                                  /* it has a length and at least one band */
+    uint32_t length, level, public_end, great_hall; /* fields, or TN_NO_FIELD */
+    uint32_t bands[TN_BANDS_MAX];                   /* fields, top to bottom */
+    uint32_t band_count;
+    uint32_t spine; /* index into bands */
+    tn_length_style style;
+} tn_draw_roles;
+
+void tn_draw_roles_find(const tn_schema *schema, tn_draw_roles *roles);
+
+/* Has the field no role, so that its values can only be written? */
+bool tn_draw_written(const tn_draw_roles *roles, uint32_t field);
+
+/* Writes a length in the units that the author uses. */
+void tn_draw_length(const tn_draw_roles *roles, int64_t nanometres, char *text, size_t size);
+
+/* How much room plans need around their spine, at 1:1 in nanometres, and lines of writing below. */
+typedef struct tn_draw_extent {
+    double width, above, below;
+    unsigned written_lines;
+    bool mark_below; /* a public end in the middle, shown from below */
+} tn_draw_extent;
+
+void tn_draw_measure(const tn_draw_roles *roles, const tn_drawn_plan *plan,
+                     tn_draw_extent *extent); /* takes the greater */
+
+/* Room of the marks and dimensions around a plan to scale, in points. */
+#define TN_MARK_ROOM 13.0
+double tn_draw_dimension_room(const tn_draw_extent *extent);
+
+/* Draws a plan with the left end of its spine at (x, y); `scale` is points a nanometre; `bottom` is where dimensions
+ * start. */
+void tn_draw_plan(cairo_t *context, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
+                  double y, double bottom, const tn_draw_extent *extent);
+
+/* The pieces of it that the legend shows too. */
+void tn_draw_fill(cairo_t *context, tn_fill_role role, double x, double y, double width, double height);
+void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height);
+void tn_draw_hall_mark(cairo_t *context, double x, double y, double radius);
+void tn_draw_public_mark(cairo_t *context, double x, double y, double dx,
+                         double dy); /* tip at (x, y), pointing (dx, dy) */
+
+/* A plan as a table of boxes. */
+typedef struct tn_draw_table {
+    double name_width; /* of the column of field names */
+    double box_width, row_height;
+} tn_draw_table;
+
+void tn_draw_table_measure(cairo_t *context, const tn_draw_roles *roles, tn_draw_table *table);
+double tn_draw_table_width(const tn_draw_table *table, size_t length);
+double tn_draw_table_height(const tn_draw_table *table, const tn_draw_roles *roles);
+void tn_draw_table_plan(cairo_t *context, const tn_draw_roles *roles, const tn_draw_table *table,
+                        const tn_drawn_plan *plan, double x, double y);
+
+/* The strip along the bottom of a sheet: key, legend, title and how it was made. Its upper left corner is the origin.
+ * `scale` 0: not to scale; otherwise the bar allows for the strip itself being drawn `zoom` times as large. */
+#define TN_STRIP_HEIGHT 118.0
+void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
+                   double zoom, size_t page, size_t pages, double width);
+
+#endif

@@ -1,0 +1,326 @@
+/* One plan drawn to scale: masses, lines, marks and dimensions. */
+#include <math.h>
+#include <stdio.h>
+
+#include "runtime/draw/type.h"
+#include "runtime/plan/picture/draw_parts.h"
+
+#define DIMENSION_SIZE 5.5
+#define WRITTEN_SIZE 4.6
+#define WRITTEN_MIN 10.0 /* a tray narrower than this has no room for words */
+#define WRITTEN_LEADING 5.8
+#define HATCH_SPACING 2.8
+#define DIMENSION_GAP 11.0 /* from the plan to the line that measures trays */
+#define OVERALL_GAP 10.5   /* from there to the line that measures the whole */
+
+/* A band of one tray, in points. */
+typedef struct rectangle {
+    double x, y, width, height;
+    tn_fill_role role;
+} rectangle;
+
+/* The plan being drawn. */
+typedef struct picture {
+    cairo_t *context;
+    const tn_draw_roles *roles;
+    const tn_drawn_plan *plan;
+    double scale, x, y;
+} picture;
+
+static const tn_value_record *value_of(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
+{
+    return tn_tray_value_record(roles->schema, tray, field);
+}
+
+static int64_t depth_of(const tn_draw_roles *roles, tn_tray tray, uint32_t band)
+{
+    const tn_value_record *value = value_of(roles, tray, roles->bands[band]);
+    return value->role == TN_FILL_ABSENT ? 0 : value->length;
+}
+
+static bool is_set(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
+{
+    return field != TN_NO_FIELD && tn_tray_value(roles->schema, tray, field) == 1;
+}
+
+/* Is there something to write about this field's value? The first value goes without saying. */
+static bool is_worth_writing(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
+{
+    return tn_draw_written(roles, field) && tn_tray_value(roles->schema, tray, field) != 0;
+}
+
+void tn_draw_measure(const tn_draw_roles *roles, const tn_drawn_plan *plan, tn_draw_extent *extent)
+{
+    double width = 0;
+    for (size_t i = 0; i < plan->length; i++) {
+        tn_tray tray = plan->trays[i];
+        double above = 0, below = 0;
+        unsigned lines = 0;
+        width += (double)value_of(roles, tray, roles->length)->length;
+        for (uint32_t b = 0; b < roles->band_count; b++)
+            *(b < roles->spine ? &above : &below) += (double)depth_of(roles, tray, b);
+        for (uint32_t f = 0; f < roles->schema->field_count; f++)
+            lines += is_worth_writing(roles, tray, f);
+        extent->above = fmax(extent->above, above);
+        extent->below = fmax(extent->below, below);
+        extent->written_lines = lines > extent->written_lines ? lines : extent->written_lines;
+        if (i > 0 && i + 1 < plan->length && is_set(roles, tray, roles->public_end))
+            extent->mark_below = true;
+    }
+    extent->width = fmax(extent->width, width);
+}
+
+double tn_draw_dimension_room(const tn_draw_extent *extent)
+{
+    return DIMENSION_GAP + OVERALL_GAP + extent->written_lines * WRITTEN_LEADING +
+           (extent->mark_below ? TN_MARK_ROOM : 0) + 4;
+}
+
+/* Lines at 45 degrees, x + y = a multiple of the spacing, so that the hatches of neighbours meet. */
+static void hatch(cairo_t *context, double x, double y, double width, double height)
+{
+    for (double sum = ceil((x + y) / HATCH_SPACING) * HATCH_SPACING; sum < x + y + width + height;
+         sum += HATCH_SPACING) {
+        double from = fmax(x, sum - y - height), to = fmin(x + width, sum - y);
+        if (to - from < 0.01)
+            continue;
+        cairo_move_to(context, from, sum - from);
+        cairo_line_to(context, to, sum - to);
+    }
+    cairo_set_line_width(context, TN_LINE_HAIR + 0.08);
+    cairo_stroke(context);
+}
+
+void tn_draw_fill(cairo_t *context, tn_fill_role role, double x, double y, double width, double height)
+{
+    if (role == TN_FILL_SOLID)
+        hatch(context, x, y, width, height);
+    cairo_rectangle(context, x, y, width, height);
+    cairo_set_line_width(context, role == TN_FILL_SOLID ? TN_LINE_EDGE : TN_LINE_HAIR);
+    cairo_stroke(context);
+}
+
+void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height)
+{
+    static const double dashes[] = {3, 1.6};
+    cairo_save(context);
+    cairo_set_dash(context, dashes, 2, 0);
+    cairo_set_line_width(context, 0.4);
+    cairo_move_to(context, x, y);
+    cairo_line_to(context, x + width, y + height);
+    cairo_move_to(context, x + width, y);
+    cairo_line_to(context, x, y + height);
+    cairo_stroke(context);
+    cairo_restore(context);
+    if (levels < 3)
+        return;
+    char text[16];
+    snprintf(text, sizeof text, "%u", levels);
+    tn_type_face(context, DIMENSION_SIZE, false);
+    tn_type_line(context, x + width / 2, y + 7, TN_ALIGN_CENTRE, text);
+}
+
+void tn_draw_hall_mark(cairo_t *context, double x, double y, double radius)
+{
+    cairo_new_sub_path(context);
+    cairo_arc(context, x, y, radius, 0, 2 * 3.14159265358979323846);
+    cairo_set_source_rgb(context, 1, 1, 1);
+    cairo_fill_preserve(context);
+    cairo_set_source_rgb(context, 0, 0, 0);
+    cairo_set_line_width(context, 0.7);
+    cairo_stroke(context);
+}
+
+void tn_draw_public_mark(cairo_t *context, double x, double y, double dx, double dy)
+{
+    const double length = 7, half = 3.4;
+    cairo_move_to(context, x, y);
+    cairo_line_to(context, x - dx * length - dy * half, y - dy * length + dx * half);
+    cairo_line_to(context, x - dx * length + dy * half, y - dy * length - dx * half);
+    cairo_close_path(context);
+    cairo_fill(context);
+}
+
+/* The rectangle of a band of a tray that starts at `x`; false where the band is absent there. */
+static bool band_rectangle(const picture *p, tn_tray tray, uint32_t band, double x, rectangle *out)
+{
+    const tn_draw_roles *roles = p->roles;
+    int64_t depth = depth_of(roles, tray, band), offset = 0;
+    if (depth <= 0)
+        return false;
+    if (band < roles->spine) {
+        for (uint32_t b = band; b < roles->spine; b++)
+            offset -= depth_of(roles, tray, b);
+    } else {
+        for (uint32_t b = roles->spine; b < band; b++)
+            offset += depth_of(roles, tray, b);
+    }
+    *out = (rectangle){x, p->y + (double)offset * p->scale,
+                       (double)value_of(roles, tray, roles->length)->length * p->scale, (double)depth * p->scale,
+                       (tn_fill_role)value_of(roles, tray, roles->bands[band])->role};
+    return true;
+}
+
+static double tray_width(const picture *p, size_t i)
+{
+    return (double)value_of(p->roles, p->plan->trays[i], p->roles->length)->length * p->scale;
+}
+
+/* Puts the rectangles of all bands on the path. */
+static void outline(const picture *p)
+{
+    double x = p->x;
+    rectangle r;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++))
+        for (uint32_t b = 0; b < p->roles->band_count; b++)
+            if (band_rectangle(p, p->plan->trays[i], b, x, &r))
+                cairo_rectangle(p->context, r.x, r.y, r.width, r.height);
+}
+
+/* The heavy contour is what remains of thick outlines when the insides are painted white over them. */
+static void draw_masses(const picture *p)
+{
+    outline(p);
+    cairo_set_line_width(p->context, 2 * TN_LINE_CUT);
+    cairo_set_line_join(p->context, CAIRO_LINE_JOIN_MITER);
+    cairo_stroke(p->context);
+    outline(p);
+    cairo_set_source_rgb(p->context, 1, 1, 1);
+    cairo_fill(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+    double x = p->x;
+    rectangle r;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++))
+        for (uint32_t b = 0; b < p->roles->band_count; b++)
+            if (band_rectangle(p, p->plan->trays[i], b, x, &r))
+                tn_draw_fill(p->context, r.role, r.x, r.y, r.width, r.height);
+}
+
+/* The room of a tray, which height, public end and great hall are said of: its spine band, or, where that is absent,
+ * the largest band there is (Fig. 7 of the paper: "an open, public end, double height, great hall, body zone"). */
+static bool room_of(const picture *p, tn_tray tray, double x, rectangle *room)
+{
+    if (band_rectangle(p, tray, p->roles->spine, x, room))
+        return true;
+    double area = 0;
+    rectangle r;
+    for (uint32_t b = 0; b < p->roles->band_count; b++) {
+        if (!band_rectangle(p, tray, b, x, &r) || r.width * r.height <= area)
+            continue;
+        *room = r;
+        area = r.width * r.height;
+    }
+    return area > 0;
+}
+
+static void draw_public_end(const picture *p, size_t i, const rectangle *room, double bottom)
+{
+    double middle = room->y + room->height / 2, gap = TN_LINE_CUT + 3;
+    if (i == 0)
+        tn_draw_public_mark(p->context, room->x - gap, middle, 1, 0);
+    else if (i + 1 == p->plan->length)
+        tn_draw_public_mark(p->context, room->x + room->width + gap, middle, -1, 0);
+    else
+        tn_draw_public_mark(p->context, room->x + room->width / 2, bottom + gap, 0, -1);
+}
+
+static void draw_marks(const picture *p, double bottom)
+{
+    const tn_draw_roles *roles = p->roles;
+    double x = p->x;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
+        tn_tray tray = p->plan->trays[i];
+        rectangle room;
+        if (!room_of(p, tray, x, &room))
+            continue;
+        uint32_t levels = roles->level == TN_NO_FIELD ? 1 : tn_tray_value(roles->schema, tray, roles->level) + 1;
+        if (levels > 1)
+            tn_draw_level_mark(p->context, levels, room.x, room.y, room.width, room.height);
+        if (is_set(roles, tray, roles->great_hall))
+            tn_draw_hall_mark(p->context, room.x + room.width / 2, room.y + room.height / 2,
+                              fmin(9, fmin(room.width, room.height) * 0.27));
+        if (is_set(roles, tray, roles->public_end))
+            draw_public_end(p, i, &room, bottom);
+    }
+}
+
+/* An architect's tick: a short stroke across the dimension line. */
+static void tick(cairo_t *context, double x, double y)
+{
+    cairo_move_to(context, x, y - 2.2);
+    cairo_line_to(context, x, y + 2.2);
+    cairo_set_line_width(context, TN_LINE_HAIR);
+    cairo_stroke(context);
+    cairo_move_to(context, x - 1.5, y + 1.5);
+    cairo_line_to(context, x + 1.5, y - 1.5);
+    cairo_set_line_width(context, 0.7);
+    cairo_stroke(context);
+}
+
+static void dimension_line(const picture *p, double from, double to, double y)
+{
+    cairo_move_to(p->context, from, y);
+    cairo_line_to(p->context, to, y);
+    cairo_set_line_width(p->context, TN_LINE_HAIR);
+    cairo_stroke(p->context);
+}
+
+/* What no mark shows is written below the tray, a line for each field. */
+static void write_values(const picture *p, size_t i, double x, double y, double width)
+{
+    tn_tray tray = p->plan->trays[i];
+    const tn_schema *schema = p->roles->schema;
+    if (width < WRITTEN_MIN)
+        return;
+    tn_type_face(p->context, WRITTEN_SIZE, false);
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        if (!is_worth_writing(p->roles, tray, f))
+            continue;
+        tn_type_fit(p->context, x + width / 2, y, TN_ALIGN_CENTRE, width - 1,
+                    tn_text(schema->module, value_of(p->roles, tray, f)->spelling));
+        y += WRITTEN_LEADING;
+    }
+}
+
+static void draw_dimensions(const picture *p, double bottom, const tn_draw_extent *extent)
+{
+    double y = bottom + DIMENSION_GAP, x = p->x;
+    int64_t total = 0;
+    char text[64];
+    for (size_t i = 0; i < p->plan->length; i++) {
+        const tn_value_record *value = value_of(p->roles, p->plan->trays[i], p->roles->length);
+        const char *spelling = tn_text(p->roles->schema->module, value->name);
+        double width = (double)value->length * p->scale;
+        tick(p->context, x, y);
+        tn_type_face(p->context, DIMENSION_SIZE, false);
+        if (tn_type_width(p->context, spelling) < width)
+            tn_type_line(p->context, x + width / 2, y - 2, TN_ALIGN_CENTRE, spelling);
+        write_values(p, i, x, y + WRITTEN_LEADING + 0.5, width);
+        total += value->length;
+        x += width;
+    }
+    tick(p->context, x, y);
+    dimension_line(p, p->x, x, y);
+    y += OVERALL_GAP + extent->written_lines * WRITTEN_LEADING;
+    tick(p->context, p->x, y);
+    tick(p->context, x, y);
+    dimension_line(p, p->x, x, y);
+    tn_draw_length(p->roles, total, text, sizeof text);
+    tn_type_face(p->context, DIMENSION_SIZE, false);
+    if (tn_type_width(p->context, text) < x - p->x)
+        tn_type_line(p->context, (p->x + x) / 2, y - 2, TN_ALIGN_CENTRE, text);
+}
+
+void tn_draw_plan(cairo_t *context, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
+                  double y, double bottom, const tn_draw_extent *extent)
+{
+    picture p = {context, roles, plan, scale, x, y};
+    if (plan->length == 0) {
+        tn_type_face(context, DIMENSION_SIZE, false);
+        tn_type_line(context, x, y + 6, TN_ALIGN_LEFT, "no trays");
+        return;
+    }
+    draw_masses(&p);
+    draw_marks(&p, bottom);
+    draw_dimensions(&p, bottom + (extent->mark_below ? TN_MARK_ROOM : 0), extent);
+}

@@ -1,0 +1,35 @@
+/* Rules as pictures, in the vocabulary of the paper's section 3.2 (Fig. 6 to 8): a box for a rule with a sign of its
+ * kind; the parts of an `and` side by side and those of an `or` one above the other, dashed lines between; a neighbour
+ * as its trays side by side, its box left out inside another rule; a quantity with its condition on top; a distance
+ * with source, separator and destination; tray specifiers as the tray that they describe. What the paper does not have
+ * (many, optional, occurrences, sum) is drawn in the same manner. Schemas without roles get labelled boxes for trays.
+ */
+#ifndef TARTAN_PLAN_PICTURE_DRAW_RULE_H
+#define TARTAN_PLAN_PICTURE_DRAW_RULE_H
+
+#include "runtime/draw/canvas.h"
+#include "runtime/plan/match/parts.h"
+#include "runtime/plan/picture/draw_parts.h"
+
+/* The longest side of a picture, in points (E0820 past it): 200 inches, the most that a PDF page may have. */
+#define TN_DRAW_RULE_SIDE_MAX 14400.0
+
+/* A rule, or a clause written out in its library. */
+typedef struct tn_drawn_rule {
+    const char *name, *doc;
+    uint32_t function; /* of either judgement */
+} tn_drawn_rule;
+
+tn_drawn_rule tn_drawn_rule_of(const tn_module *module, uint32_t rule); /* a RULE record */
+
+/* Draws rules (of the schema) one below the other. Errors as in tn_plans_draw, and as in tn_parts_read. */
+tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, size_t count, tn_picture *to,
+                        tn_error *error);
+
+/* ---- tray specifiers (draw_rule_tray.c) */
+
+/* How much room the symbol of a specifier needs. */
+void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
+void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
+
+#endif

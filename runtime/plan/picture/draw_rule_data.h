@@ -1,0 +1,56 @@
+/* What the files that draw rules share: the picture at hand, and the paper's signs (section 3.2). */
+#ifndef TARTAN_PLAN_PICTURE_DRAW_RULE_DATA_H
+#define TARTAN_PLAN_PICTURE_DRAW_RULE_DATA_H
+
+#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/picture/draw_rule.h"
+
+#define TN_RULE_SIGN_SIZE 8.0
+#define TN_RULE_END_WIDTH 13.0 /* of the mark of the plan's beginning or end */
+#define TN_RULE_WORDS_MAX (TN_CONDITION_TEXT_MAX + 80)
+
+typedef struct tn_size {
+    double width, height;
+} tn_size;
+
+/* One rule being drawn. */
+typedef struct tn_rule_picture {
+    cairo_t *context;
+    const tn_schema *schema;
+    tn_draw_roles roles;
+    tn_parts parts;
+    tn_size *sizes; /* [part] */
+    const tn_drawn_rule *rule;
+} tn_rule_picture;
+
+static inline const tn_part *tn_rule_part(const tn_rule_picture *p, uint32_t part)
+{
+    return &p->parts.parts[part];
+}
+
+/* What stands on top of a part's box: the word for its kind, or its condition as its author wrote it. */
+void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_RULE_WORDS_MAX]);
+
+void tn_draw_rule_box(cairo_t *context, double x, double y, tn_size s);
+void tn_draw_rule_dashes(cairo_t *context, double x1, double y1, double x2, double y2);
+void tn_draw_rule_arrow(cairo_t *context, double from, double to, double y);
+
+/* Two trays side by side: the sign of a neighbour. */
+void tn_draw_neighbour_sign(cairo_t *context, double x, double y);
+
+/* `or` under an arrow both ways: a row or its mirror image. */
+void tn_draw_symmetric_sign(cairo_t *context, double x, double y);
+
+/* The plan's outer wall, with the side beyond it struck out. */
+void tn_draw_plan_end(cairo_t *context, double x, double y, double height, bool left);
+
+/* Above the source of a distance. */
+void tn_draw_check_mark(cairo_t *context, double x, double y);
+
+/* A rule by its name. */
+void tn_draw_tag(cairo_t *context, const char *name, double x, double y, tn_size s);
+
+/* Brackets, and that it may be left out. */
+void tn_draw_optional(cairo_t *context, double x, double y, tn_size s);
+
+#endif

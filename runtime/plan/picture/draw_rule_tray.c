@@ -1,0 +1,395 @@
+/* Tray specifiers as symbols (Fig. 6 and 7 of the paper): the zones one above the other, dense hatched, open white,
+ * empty struck out, any fill dotted; depths beside them, the width below; marks for height, public end and great hall,
+ * none where any value will do. Several fills stand side by side in their zone. What has no symbol is written below. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "runtime/draw/type.h"
+#include "runtime/plan/picture/draw_rule.h"
+
+#define TRAY_WIDTH 34.0
+#define SPINE_HEIGHT 30.0
+#define BAND_HEIGHT 18.0
+#define MARK_ROOM 15.0 /* on both sides of the tray: the public end */
+#define SIDE_ROOM 4.0  /* where there is no such mark */
+#define DEPTH_GAP 3.0
+#define TEXT_SIZE 6.0
+#define TEXT_LEADING 7.6
+#define WIDTH_ROOM 13.0
+#define LABEL_SIZE 6.6
+#define LABEL_LEADING 9.0
+#define LABEL_PADDING 6.0
+#define ITEM_MAX 160
+#define FILLS_MAX 8 /* of a zone that are drawn */
+#define PI 3.14159265358979323846
+
+static bool allows(const tn_draw_roles *roles, uint32_t spec, uint32_t field, uint32_t value)
+{
+    uint32_t bit = roles->schema->value_start[field] + value;
+    return tn_spec_word(roles->schema->module, spec, bit / 64) >> (bit % 64) & 1;
+}
+
+static uint32_t allowed(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
+{
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < roles->schema->fields[field].value_count; v++)
+        count += allows(roles, spec, field, v);
+    return count;
+}
+
+static bool is_free(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
+{
+    return field == TN_NO_FIELD || allowed(roles, spec, field) == roles->schema->fields[field].value_count;
+}
+
+static const tn_value_record *value_at(const tn_draw_roles *roles, uint32_t field, uint32_t value)
+{
+    return &roles->schema->values[roles->schema->value_start[field] + value];
+}
+
+/* Appends what fits. */
+static void say(char text[ITEM_MAX], const char *more)
+{
+    size_t used = strlen(text);
+    snprintf(text + used, ITEM_MAX - used, "%s", more);
+}
+
+/* "8' or 12'"; of names, where that is shorter, "not end". */
+static void list_values(const tn_draw_roles *roles, uint32_t spec, uint32_t field, char text[ITEM_MAX])
+{
+    uint32_t count = roles->schema->fields[field].value_count, some = allowed(roles, spec, field);
+    bool other = count - some < some && roles->schema->fields[field].kind != TN_FIELD_LENGTH;
+    text[0] = '\0';
+    if (other)
+        say(text, "not ");
+    bool first = true;
+    for (uint32_t v = 0; v < count; v++) {
+        if (allows(roles, spec, field, v) == other)
+            continue;
+        say(text, first ? "" : " or ");
+        say(text, tn_text(roles->schema->module, value_at(roles, field, v)->spelling));
+        first = false;
+    }
+    if (some == 0)
+        snprintf(text, ITEM_MAX, "none");
+}
+
+/* "storeys two or three", "passage", "not passage". */
+static void field_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field, char text[ITEM_MAX])
+{
+    const tn_field_record *record = &roles->schema->fields[field];
+    const char *name = tn_text(roles->schema->module, record->name);
+    char values[ITEM_MAX];
+    if (record->kind == TN_FIELD_FLAG && allowed(roles, spec, field) == 1) {
+        snprintf(text, ITEM_MAX, "%s%s", allows(roles, spec, field, 1) ? "" : "not ", name);
+        return;
+    }
+    list_values(roles, spec, field, values);
+    snprintf(text, ITEM_MAX, "%.60s ", name);
+    say(text, values);
+}
+
+/* ---- zones */
+
+/* The allowed depths of one fill of a zone: "4' or 8'", or nothing where all are. */
+static void depth_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field, uint32_t fill, char text[ITEM_MAX])
+{
+    const tn_module *module = roles->schema->module;
+    bool all = true, first = true;
+    text[0] = '\0';
+    for (uint32_t v = 0; v < roles->schema->fields[field].value_count; v++) {
+        const tn_value_record *value = value_at(roles, field, v);
+        if (strcmp(tn_text(module, value->name), tn_text(module, value_at(roles, field, fill)->name)) != 0)
+            continue;
+        if (!allows(roles, spec, field, v)) {
+            all = false;
+            continue;
+        }
+        say(text, first ? "" : " or ");
+        say(text, tn_text(module, value->measure));
+        first = false;
+    }
+    if (all)
+        text[0] = '\0';
+}
+
+/* The fills of a zone that a specifier allows: the first allowed value of each. */
+static uint32_t list_fills(const tn_draw_roles *roles, uint32_t spec, uint32_t field, uint32_t fills[FILLS_MAX])
+{
+    const tn_module *module = roles->schema->module;
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < roles->schema->fields[field].value_count && count < FILLS_MAX; v++) {
+        bool known = !allows(roles, spec, field, v);
+        for (uint32_t i = 0; i < count; i++)
+            known = known || strcmp(tn_text(module, value_at(roles, field, fills[i])->name),
+                                    tn_text(module, value_at(roles, field, v)->name)) == 0;
+        if (!known)
+            fills[count++] = v;
+    }
+    return count;
+}
+
+/* The depths of the fills once where all have the same, or those of each: "dense 4', empty". */
+static void zone_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field, char text[ITEM_MAX])
+{
+    uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
+    char depths[ITEM_MAX], first[ITEM_MAX] = "";
+    bool same = true;
+    text[0] = '\0';
+    if (is_free(roles, spec, field))
+        return;
+    for (uint32_t i = 0; i < count; i++) {
+        depth_text(roles, spec, field, fills[i], depths);
+        same = same && (i == 0 || strcmp(depths, first) == 0);
+        if (i == 0)
+            snprintf(first, sizeof first, "%s", depths);
+    }
+    if (same)
+        say(text, first);
+    for (uint32_t i = 0; !same && i < count; i++) {
+        depth_text(roles, spec, field, fills[i], depths);
+        say(text, i ? ", " : "");
+        say(text, tn_text(roles->schema->module, value_at(roles, field, fills[i])->name));
+        say(text, *depths ? " " : "");
+        say(text, depths);
+    }
+}
+
+/* Is every fill allowed, of whatever depth? */
+static bool any_fill(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
+{
+    const tn_module *module = roles->schema->module;
+    uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
+    for (uint32_t v = 0; v < roles->schema->fields[field].value_count; v++) {
+        bool known = false;
+        for (uint32_t i = 0; i < count && !known; i++)
+            known = strcmp(tn_text(module, value_at(roles, field, fills[i])->name),
+                           tn_text(module, value_at(roles, field, v)->name)) == 0;
+        if (!known)
+            return false;
+    }
+    return true;
+}
+
+/* Dotted, with nothing in it: any fill will do. */
+static void draw_any(cairo_t *context, double x, double y, double width, double height)
+{
+    static const double dots[] = {1, 2};
+    cairo_save(context);
+    cairo_rectangle(context, x, y, width, height);
+    cairo_set_source_rgb(context, 0.94, 0.94, 0.94);
+    cairo_fill_preserve(context);
+    cairo_set_source_rgb(context, 0, 0, 0);
+    cairo_set_dash(context, dots, 2, 0);
+    cairo_set_line_width(context, 0.5);
+    cairo_stroke(context);
+    cairo_restore(context);
+}
+
+/* A circle struck through: nothing is there. */
+static void draw_absent(cairo_t *context, double x, double y, double width, double height)
+{
+    double cx = x + width / 2, cy = y + height / 2, r = 3.6;
+    cairo_new_sub_path(context);
+    cairo_arc(context, cx, cy, r, 0, 2 * PI);
+    cairo_move_to(context, cx - r, cy + r);
+    cairo_line_to(context, cx + r, cy - r);
+    cairo_set_line_width(context, 0.6);
+    cairo_stroke(context);
+}
+
+static void draw_zone(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t field, double x, double y,
+                      double height)
+{
+    uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
+    bool any = any_fill(roles, spec, field);
+    if (any)
+        draw_any(context, x, y, TRAY_WIDTH, height);
+    double width = TRAY_WIDTH / (count ? count : 1);
+    for (uint32_t i = 0; i < count && !any; i++) {
+        tn_fill_role role = (tn_fill_role)value_at(roles, field, fills[i])->role;
+        if (role == TN_FILL_ABSENT)
+            draw_absent(context, x + width * i, y, width, height);
+        else
+            tn_draw_fill(context, role, x + width * i, y, width, height);
+    }
+    char text[ITEM_MAX];
+    zone_text(roles, spec, field, text);
+    tn_type_face(context, TEXT_SIZE, false);
+    tn_type_line(context, x + TRAY_WIDTH + DEPTH_GAP, y + height / 2 + 2, TN_ALIGN_LEFT, text);
+}
+
+static double band_height(const tn_draw_roles *roles, uint32_t band)
+{
+    return band == roles->spine ? SPINE_HEIGHT : BAND_HEIGHT;
+}
+
+/* ---- marks */
+
+static void strike(cairo_t *context, double x, double y, double radius)
+{
+    cairo_move_to(context, x - radius, y + radius);
+    cairo_line_to(context, x + radius, y - radius);
+    cairo_set_line_width(context, 0.9);
+    cairo_stroke(context);
+}
+
+static void draw_great_hall(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+{
+    if (is_free(roles, spec, roles->great_hall))
+        return;
+    tn_draw_hall_mark(context, x, y, 6);
+    if (!allows(roles, spec, roles->great_hall, 1))
+        strike(context, x, y, 7.5);
+}
+
+static void draw_public(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double left, double y,
+                        bool mirrored)
+{
+    if (is_free(roles, spec, roles->public_end))
+        return;
+    double x = mirrored ? left + TRAY_WIDTH + 11 : left - 3;
+    tn_draw_public_mark(context, x, y, mirrored ? -1 : 1, 0);
+    if (!allows(roles, spec, roles->public_end, 1))
+        strike(context, mirrored ? x - 4 + 7 : x - 4, y, 5.5);
+}
+
+/* A bar for each storey, one above the other; of several numbers the highest, with the words. */
+static void draw_levels(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double left, double y,
+                        double height)
+{
+    if (is_free(roles, spec, roles->level))
+        return;
+    uint32_t most = 0, count = roles->schema->fields[roles->level].value_count;
+    for (uint32_t v = 0; v < count; v++)
+        most = allows(roles, spec, roles->level, v) ? v + 1 : most;
+    if (allowed(roles, spec, roles->level) == 1 && most > 1) {
+        tn_draw_level_mark(context, most, left, y, TRAY_WIDTH, height);
+        return;
+    }
+    for (uint32_t i = 0; i < most; i++)
+        cairo_rectangle(context, left + TRAY_WIDTH / 2 - 5, y + height - 7 - 5 * i, 10, 3);
+    cairo_set_line_width(context, 0.7);
+    cairo_stroke(context);
+}
+
+static void draw_width(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+{
+    char text[ITEM_MAX];
+    if (is_free(roles, spec, roles->length))
+        return;
+    list_values(roles, spec, roles->length, text);
+    for (int end = 0; end < 2; end++) {
+        cairo_move_to(context, x + end * TRAY_WIDTH, y + 1.5);
+        cairo_line_to(context, x + end * TRAY_WIDTH, y + 5.5);
+    }
+    cairo_move_to(context, x, y + 3.5);
+    cairo_line_to(context, x + TRAY_WIDTH, y + 3.5);
+    cairo_set_line_width(context, TN_LINE_HAIR + 0.1);
+    cairo_stroke(context);
+    tn_type_face(context, TEXT_SIZE, true);
+    tn_type_line(context, x + TRAY_WIDTH / 2, y + 11.5, TN_ALIGN_CENTRE, text);
+}
+
+/* ---- what is written */
+
+/* Is the field's restriction written out? */
+static bool is_written(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
+{
+    return !is_free(roles, spec, field) && (!roles->to_scale || tn_draw_written(roles, field));
+}
+
+static double written_width(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
+{
+    double width = 0;
+    *lines = 0;
+    tn_type_face(context, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    for (uint32_t f = 0; f < roles->schema->field_count; f++) {
+        char text[ITEM_MAX];
+        if (!is_written(roles, spec, f))
+            continue;
+        field_text(roles, spec, f, text);
+        width = fmax(width, tn_type_width(context, text));
+        ++*lines;
+    }
+    return width;
+}
+
+static void write_fields(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y,
+                         double leading)
+{
+    tn_type_face(context, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    for (uint32_t f = 0; f < roles->schema->field_count; f++) {
+        char text[ITEM_MAX];
+        if (!is_written(roles, spec, f))
+            continue;
+        field_text(roles, spec, f, text);
+        tn_type_line(context, x, y, TN_ALIGN_CENTRE, text);
+        y += leading;
+    }
+}
+
+/* ---- the symbol */
+
+static double mark_room(const tn_draw_roles *roles, uint32_t spec)
+{
+    return is_free(roles, spec, roles->public_end) ? SIDE_ROOM : MARK_ROOM;
+}
+
+void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height)
+{
+    uint32_t lines;
+    double written = written_width(context, roles, spec, &lines);
+    if (!roles->to_scale) {
+        *width = fmax(written, 18) + 2 * LABEL_PADDING;
+        *height = fmax(lines, 1) * LABEL_LEADING + 2 * LABEL_PADDING - 2;
+        return;
+    }
+    double depths = 0;
+    *height = 0;
+    for (uint32_t b = 0; b < roles->band_count; b++) {
+        char text[ITEM_MAX];
+        zone_text(roles, spec, roles->bands[b], text);
+        depths = fmax(depths, *text ? tn_type_width(context, text) + DEPTH_GAP : 0);
+        *height += band_height(roles, b);
+    }
+    double room = mark_room(roles, spec);
+    *width = fmax(room + TRAY_WIDTH + fmax(depths, room), written);
+    *height += WIDTH_ROOM + lines * TEXT_LEADING;
+}
+
+static void draw_label(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+{
+    double width, height;
+    uint32_t lines;
+    tn_draw_spec_measure(context, roles, spec, &width, &height);
+    cairo_rectangle(context, x, y, width, height);
+    cairo_set_line_width(context, TN_LINE_CUT);
+    cairo_stroke(context);
+    written_width(context, roles, spec, &lines);
+    double baseline = y + LABEL_PADDING + LABEL_LEADING - 3;
+    if (lines == 0)
+        tn_type_line(context, x + width / 2, baseline, TN_ALIGN_CENTRE, "any");
+    write_fields(context, roles, spec, x + width / 2, baseline, LABEL_LEADING);
+}
+
+void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored)
+{
+    if (!roles->to_scale) {
+        draw_label(context, roles, spec, x, y);
+        return;
+    }
+    double left = x + mark_room(roles, spec), at = y, spine = y;
+    for (uint32_t b = 0; b < roles->band_count; b++) {
+        double height = band_height(roles, b);
+        draw_zone(context, roles, spec, roles->bands[b], left, at, height);
+        spine = b == roles->spine ? at : spine;
+        at += height;
+    }
+    draw_levels(context, roles, spec, left, spine, SPINE_HEIGHT);
+    draw_great_hall(context, roles, spec, left + TRAY_WIDTH / 2, spine + SPINE_HEIGHT / 2);
+    draw_public(context, roles, spec, left, spine + SPINE_HEIGHT / 2, mirrored);
+    draw_width(context, roles, spec, left, at);
+    write_fields(context, roles, spec, left + TRAY_WIDTH / 2, at + WIDTH_ROOM + TEXT_LEADING - 2, TEXT_LEADING);
+}

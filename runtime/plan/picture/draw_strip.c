@@ -1,0 +1,346 @@
+/* The strip along the bottom of a sheet: a key tray, the legend, the scale, the title and how the sheet was made. All
+ * words are the schema's own. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "runtime/base/length.h"
+#include "runtime/draw/paper.h"
+#include "runtime/draw/type.h"
+#include "runtime/plan/picture/draw_parts.h"
+
+#define HEADING_SIZE 5.2
+#define LABEL_SIZE 6.4
+#define DOC_SIZE 5.6
+#define TITLE_SIZE 15.0
+#define KEY_WIDTH 132.0
+#define TITLE_WIDTH 300.0
+#define SCALE_WIDTH 128.0
+#define PADDING 12.0
+#define ENTRY_HEIGHT 15.5
+#define SWATCH_WIDTH 20.0
+#define SWATCH_HEIGHT 10.0
+
+/* The strip being drawn. */
+typedef struct strip {
+    cairo_t *context;
+    const tn_draw_roles *roles;
+    double x, y; /* upper left corner of the section being drawn */
+    double width;
+    unsigned entry, rows; /* of the legend */
+} strip;
+
+static const char *text_at(const strip *s, tn_string string)
+{
+    return tn_text(s->roles->schema->module, string);
+}
+
+static void heading(const strip *s, const char *text)
+{
+    tn_type_face(s->context, HEADING_SIZE, true);
+    tn_type_line(s->context, s->x + PADDING, s->y + 13, TN_ALIGN_LEFT, text);
+}
+
+static void divider(const strip *s, double x)
+{
+    cairo_move_to(s->context, x, s->y);
+    cairo_line_to(s->context, x, s->y + TN_STRIP_HEIGHT);
+    cairo_set_line_width(s->context, TN_LINE_EDGE);
+    cairo_stroke(s->context);
+}
+
+/* The value that stands for a band in the key: the deepest, where the spine is void if it can be. */
+static const tn_value_record *key_value(const strip *s, uint32_t field)
+{
+    const tn_schema *schema = s->roles->schema;
+    const tn_value_record *best = NULL;
+    for (uint32_t v = schema->value_start[field]; v < schema->value_start[field + 1]; v++) {
+        const tn_value_record *value = &schema->values[v];
+        bool better = !best || value->length > best->length ||
+                      (value->length == best->length && value->role == TN_FILL_VOID && best->role == TN_FILL_SOLID);
+        if (value->role != TN_FILL_ABSENT && better)
+            best = value;
+    }
+    return best;
+}
+
+/* One tray with all of its bands, each named at its side. */
+static void draw_key(const strip *s)
+{
+    const tn_draw_roles *roles = s->roles;
+    const double room = TN_STRIP_HEIGHT - 36, tray = 34;
+    double depth = 0, x = s->x + PADDING + 1, y = s->y + 22;
+    for (uint32_t b = 0; b < roles->band_count; b++) {
+        const tn_value_record *value = key_value(s, roles->bands[b]);
+        depth += value ? (double)value->length : 0;
+    }
+    heading(s, "ONE TRAY");
+    if (depth <= 0)
+        return;
+    cairo_rectangle(s->context, x, y, tray, room);
+    cairo_set_line_width(s->context, 2 * TN_LINE_CUT);
+    cairo_stroke(s->context);
+    cairo_rectangle(s->context, x, y, tray, room);
+    cairo_set_source_rgb(s->context, 1, 1, 1);
+    cairo_fill(s->context);
+    cairo_set_source_rgb(s->context, 0, 0, 0);
+    for (uint32_t b = 0; b < roles->band_count; b++) {
+        const tn_value_record *value = key_value(s, roles->bands[b]);
+        if (!value)
+            continue;
+        double height = (double)value->length / depth * room;
+        tn_draw_fill(s->context, (tn_fill_role)value->role, x, y, tray, height);
+        cairo_move_to(s->context, x + tray + 4, y + height / 2);
+        cairo_line_to(s->context, x + tray + 12, y + height / 2);
+        cairo_set_line_width(s->context, TN_LINE_HAIR);
+        cairo_stroke(s->context);
+        tn_type_face(s->context, LABEL_SIZE, false);
+        tn_type_fit(s->context, x + tray + 15, y + height / 2 + 2.3, TN_ALIGN_LEFT, KEY_WIDTH - tray - 15 - 2 * PADDING,
+                    text_at(s, roles->schema->fields[roles->bands[b]].name));
+        y += height;
+    }
+}
+
+/* The place of the next entry's swatch; false where the legend is full. */
+static bool next_entry(strip *s, double *x, double *y, double *width)
+{
+    unsigned column = s->entry / s->rows, row = s->entry % s->rows;
+    double column_width = (s->width - PADDING) / 2;
+    if (column > 1)
+        return false;
+    s->entry++;
+    *x = s->x + PADDING + column * column_width;
+    *y = s->y + 20 + row * ENTRY_HEIGHT;
+    *width = column_width - SWATCH_WIDTH - PADDING;
+    return true;
+}
+
+static void label(const strip *s, double x, double y, double width, const char *name, const char *doc)
+{
+    x += SWATCH_WIDTH + 6;
+    tn_type_face(s->context, LABEL_SIZE, true);
+    double used = tn_type_width(s->context, name) + 4;
+    tn_type_fit(s->context, x, y + 7.3, TN_ALIGN_LEFT, width, name);
+    tn_type_face(s->context, DOC_SIZE, false);
+    if (used < width)
+        tn_type_fit(s->context, x + used, y + 7.3, TN_ALIGN_LEFT, width - used, doc);
+}
+
+/* Is `value` the first one of its name and role, over all bands? */
+static bool is_first_fill(const strip *s, uint32_t band, uint32_t v)
+{
+    const tn_schema *schema = s->roles->schema;
+    const tn_value_record *value = &schema->values[v];
+    for (uint32_t b = 0; b <= band; b++) {
+        uint32_t field = s->roles->bands[b];
+        for (uint32_t u = schema->value_start[field]; u < schema->value_start[field + 1]; u++) {
+            if (u == v)
+                return true;
+            if (schema->values[u].role == value->role &&
+                strcmp(text_at(s, schema->values[u].name), text_at(s, value->name)) == 0)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Says in which bands a fill occurs: "machine, body". */
+static void name_bands(const strip *s, const tn_value_record *value, char *text, size_t size)
+{
+    const tn_schema *schema = s->roles->schema;
+    size_t used = 0;
+    text[0] = '\0';
+    for (uint32_t b = 0; b < s->roles->band_count && used + 2 < size; b++) {
+        uint32_t field = s->roles->bands[b];
+        bool has = false;
+        for (uint32_t u = schema->value_start[field]; u < schema->value_start[field + 1]; u++)
+            has |= schema->values[u].role == value->role &&
+                   strcmp(text_at(s, schema->values[u].name), text_at(s, value->name)) == 0;
+        if (has)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     text_at(s, schema->fields[field].name));
+    }
+}
+
+static void fill_entries(strip *s)
+{
+    const tn_schema *schema = s->roles->schema;
+    for (uint32_t b = 0; b < s->roles->band_count; b++) {
+        uint32_t field = s->roles->bands[b];
+        for (uint32_t v = schema->value_start[field]; v < schema->value_start[field + 1]; v++) {
+            const tn_value_record *value = &schema->values[v];
+            char bands[128];
+            double x, y, width;
+            if (value->role == TN_FILL_ABSENT || !is_first_fill(s, b, v) || !next_entry(s, &x, &y, &width))
+                continue;
+            tn_draw_fill(s->context, (tn_fill_role)value->role, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+            name_bands(s, value, bands, sizeof bands);
+            label(s, x, y, width, text_at(s, value->name), value->doc ? text_at(s, value->doc) : bands);
+        }
+    }
+}
+
+static void level_entries(strip *s)
+{
+    const tn_schema *schema = s->roles->schema;
+    uint32_t field = s->roles->level;
+    for (uint32_t v = schema->value_start[field] + 1; v < schema->value_start[field + 1]; v++) {
+        double x, y, width;
+        if (!next_entry(s, &x, &y, &width))
+            return;
+        cairo_rectangle(s->context, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        cairo_set_line_width(s->context, TN_LINE_HAIR);
+        cairo_stroke(s->context);
+        tn_draw_level_mark(s->context, v - schema->value_start[field] + 1, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_string doc = schema->values[v].doc ? schema->values[v].doc : schema->fields[field].doc;
+        label(s, x, y, width, text_at(s, schema->values[v].name), text_at(s, doc ? doc : schema->fields[field].name));
+    }
+}
+
+static void flag_entry(strip *s, uint32_t field, bool hall)
+{
+    double x, y, width;
+    if (field == TN_NO_FIELD || !next_entry(s, &x, &y, &width))
+        return;
+    if (hall)
+        tn_draw_hall_mark(s->context, x + SWATCH_WIDTH / 2, y + SWATCH_HEIGHT / 2, 4.4);
+    else
+        tn_draw_public_mark(s->context, x + SWATCH_WIDTH / 2 + 3.5, y + SWATCH_HEIGHT / 2, 1, 0);
+    const tn_field_record *record = &s->roles->schema->fields[field];
+    label(s, x, y, width, text_at(s, record->name), text_at(s, record->doc));
+}
+
+static void draw_legend(strip *s)
+{
+    s->rows = (unsigned)((TN_STRIP_HEIGHT - 24) / ENTRY_HEIGHT);
+    heading(s, "LEGEND");
+    fill_entries(s);
+    if (s->roles->level != TN_NO_FIELD)
+        level_entries(s);
+    flag_entry(s, s->roles->public_end, false);
+    flag_entry(s, s->roles->great_hall, true);
+}
+
+/* For a table: the fields with what they mean. */
+static void list_fields(strip *s)
+{
+    const tn_schema *schema = s->roles->schema;
+    s->rows = (unsigned)((TN_STRIP_HEIGHT - 24) / 10);
+    heading(s, "FIELDS");
+    double column = (s->width - PADDING) / 2;
+    for (uint32_t f = 0; f < schema->field_count && f < 2 * s->rows; f++) {
+        double x = s->x + PADDING + (f / s->rows) * column, baseline = s->y + 26 + (f % s->rows) * 10;
+        const char *name = text_at(s, schema->fields[f].name);
+        tn_type_face(s->context, LABEL_SIZE, true);
+        double used = tn_type_width(s->context, name) + 5;
+        tn_type_fit(s->context, x, baseline, TN_ALIGN_LEFT, column - PADDING, name);
+        tn_type_face(s->context, DOC_SIZE, false);
+        if (used < column - PADDING)
+            tn_type_fit(s->context, x + used, baseline, TN_ALIGN_LEFT, column - PADDING - used,
+                        text_at(s, schema->fields[f].doc));
+    }
+}
+
+/* The step of the scale bar: the schema's smallest length, or where that is longer than the bar, a foot or metre, or a
+ * part of one. */
+static int64_t bar_step(const tn_draw_roles *roles, double longest)
+{
+    static const int64_t metric[] = {1000000000, 100000000, 10000000, 1000000},
+                         feet[] = {TN_FOOT_NM, TN_INCH_NM, TN_INCH_NM / 8};
+    const tn_schema *schema = roles->schema;
+    int64_t step = INT64_MAX;
+    for (uint32_t v = schema->value_start[roles->length]; v < schema->value_start[roles->length + 1]; v++)
+        if (schema->values[v].length > 0 && schema->values[v].length < step)
+            step = schema->values[v].length;
+    bool in_feet = roles->style == TN_STYLE_FEET;
+    size_t count = in_feet ? sizeof feet / sizeof *feet : sizeof metric / sizeof *metric;
+    for (size_t i = 0; i < count && (double)step > longest; i++)
+        step = in_feet ? feet[i] : metric[i];
+    return step;
+}
+
+/* The scale in words, and a bar of four steps at most. */
+static void draw_scale(const strip *s, uint32_t scale, double zoom)
+{
+    const tn_draw_roles *roles = s->roles;
+    char text[64];
+    heading(s, "SCALE");
+    tn_scale_write(scale, roles->style != TN_STYLE_FEET, text, sizeof text);
+    tn_type_face(s->context, 9, false);
+    tn_type_line(s->context, s->x + PADDING, s->y + 32, TN_ALIGN_LEFT, text);
+    double room = SCALE_WIDTH - 2 * PADDING - 4;
+    int64_t step = bar_step(roles, room / (TN_POINTS_PER_NM / scale / zoom));
+    double width = (double)step * TN_POINTS_PER_NM / scale / zoom;
+    int steps = (int)fmin(4, floor(room / width));
+    double x = s->x + PADDING + 1, y = s->y + 48;
+    tn_type_face(s->context, HEADING_SIZE, false);
+    double free_from = x - 10;
+    for (int i = 0; steps > 0 && i <= steps; i++) {
+        tn_draw_length(roles, step * i, text, sizeof text);
+        double half = tn_type_width(s->context, text) / 2, at = x + width * i;
+        if (at - half > free_from) {
+            tn_type_line(s->context, at, y + 11, TN_ALIGN_CENTRE, text);
+            free_from = at + half + 2;
+        }
+        if (i == steps)
+            break;
+        cairo_rectangle(s->context, at, y, width, 3.4);
+        cairo_set_line_width(s->context, TN_LINE_EDGE);
+        if (i % 2 == 0)
+            cairo_fill_preserve(s->context);
+        cairo_stroke(s->context);
+    }
+}
+
+static void draw_title(const strip *s, const tn_draw_options *options, size_t page, size_t pages)
+{
+    double x = s->x + PADDING, width = s->width - 2 * PADDING, y = s->y + 26;
+    const char *title = options->title ? options->title : text_at(s, s->roles->schema->record->name);
+    tn_type_face(s->context, TITLE_SIZE, true);
+    tn_type_fit(s->context, x, y, TN_ALIGN_LEFT, width, title);
+    y += 13;
+    if (options->doc) {
+        tn_type_face(s->context, 7, false);
+        y += 9 * tn_type_paragraph(s->context, x, y, width, 9, 2, options->doc);
+    }
+    cairo_move_to(s->context, x, y - 2);
+    cairo_line_to(s->context, x + width, y - 2);
+    cairo_set_line_width(s->context, TN_LINE_HAIR);
+    cairo_stroke(s->context);
+    y += 8;
+    tn_type_face(s->context, DOC_SIZE, false);
+    for (size_t i = 0; i < options->note_count && y < s->y + TN_STRIP_HEIGHT - 5; i++) {
+        bool last = y + 8 >= s->y + TN_STRIP_HEIGHT - 5;
+        tn_type_fit(s->context, x, y, TN_ALIGN_LEFT, last && pages > 1 ? width - 40 : width, options->notes[i]);
+        y += 8;
+    }
+    char text[64];
+    snprintf(text, sizeof text, "%zu / %zu", page, pages);
+    if (pages > 1)
+        tn_type_line(s->context, x + width, s->y + TN_STRIP_HEIGHT - 8, TN_ALIGN_RIGHT, text);
+}
+
+void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
+                   double zoom, size_t page, size_t pages, double width)
+{
+    double key = scale ? KEY_WIDTH : 0, bar = scale ? SCALE_WIDTH : 0,
+           title = fmin(TITLE_WIDTH, (width - key - bar) * 0.5);
+    strip s = {context, roles, .width = width - key - bar - title};
+    if (scale) {
+        draw_key(&s);
+        s.x += key;
+        divider(&s, s.x);
+        draw_legend(&s);
+    } else {
+        list_fields(&s);
+    }
+    s.x += s.width;
+    divider(&s, s.x);
+    if (scale) {
+        draw_scale(&s, scale, zoom);
+        s.x += bar;
+        divider(&s, s.x);
+    }
+    s.width = title;
+    draw_title(&s, options, page, pages);
+}

@@ -1,0 +1,182 @@
+#include "runtime/plan/schema/classes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/code.h"
+#include "runtime/plan/automata/numbering.h"
+
+typedef struct tn_class_finder {
+    const tn_schema *schema;
+    tn_classes *classes;
+    uint8_t *seen_function; /* [FUNCTION records] */
+    uint8_t *seen_spec;     /* [SPEC records] */
+    uint8_t *seen_field;    /* [FIELD records] */
+    tn_key pending;         /* functions to read */
+    uint64_t looked;        /* trays compared so far */
+} tn_class_finder;
+
+#define NO_CLASS UINT32_MAX
+
+/* Splits every class in two by whether its trays meet a specifier. */
+static bool split_by_spec(tn_class_finder *finder, uint32_t spec)
+{
+    tn_classes *classes = finder->classes;
+    const tn_schema *schema = finder->schema;
+    uint32_t *made = malloc(((size_t)classes->count * 2 + 1) * sizeof *made); /* [class][meets]: the new class */
+    if (!made)
+        return false;
+    memset(made, 0xff, (size_t)classes->count * 2 * sizeof *made);
+    classes->count = 0;
+    for (tn_tray t = 0; t < schema->tray_count; t++) {
+        uint32_t *to = &made[2 * (size_t)classes->of_tray[t] + tn_spec_meets(schema, spec, t)];
+        if (*to == NO_CLASS)
+            *to = classes->count++;
+        classes->of_tray[t] = *to;
+    }
+    free(made);
+    return true;
+}
+
+/* Splits every class by the lengths that its trays have in a field (index within the schema). */
+static bool split_by_length(tn_class_finder *finder, uint32_t field)
+{
+    tn_classes *classes = finder->classes;
+    const tn_schema *schema = finder->schema;
+    tn_numbering pairs = {0};
+    bool ok = true;
+    for (tn_tray t = 0; ok && t < schema->tray_count; t++) {
+        int64_t length = tn_tray_value_record(schema, t, field)->length;
+        uint32_t value = 0; /* the first of the field's values that is as long */
+        while (schema->values[schema->value_start[field] + value].length != length)
+            value++;
+        uint32_t pair = tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | value);
+        ok = pair != UINT32_MAX;
+        classes->of_tray[t] = pair;
+    }
+    classes->count = pairs.count;
+    tn_numbering_clear(&pairs);
+    return ok;
+}
+
+/* Counts the trays looked at, against a bound. */
+static tn_status look_at_trays(tn_class_finder *finder, tn_error *error)
+{
+    finder->looked += finder->schema->tray_count;
+    if (finder->looked <= TN_CLASS_LOOKS_MAX)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, 803, "telling %u trays apart by so many specifiers takes more than %llu comparisons",
+            finder->schema->tray_count, (unsigned long long)TN_CLASS_LOOKS_MAX);
+    tn_error_help(error, "give the schema fewer values, or split the rules over several files");
+    return TN_LIMIT;
+}
+
+static tn_status visit(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
+{
+    uint32_t first = (uint32_t)instruction->first;
+    uint8_t *seen = NULL;
+    switch (instruction->opcode) {
+    case TN_OP_CALL:
+    case TN_OP_MIRROR:
+        seen = &finder->seen_function[first];
+        break;
+    case TN_OP_TRAY:
+        seen = &finder->seen_spec[first];
+        break;
+    case TN_OP_SUM:
+        seen = &finder->seen_field[first];
+        break;
+    default:
+        break;
+    }
+    if (!seen || *seen)
+        return TN_OK;
+    *seen = 1;
+    bool ok;
+    tn_status status = TN_OK;
+    if (instruction->opcode == TN_OP_CALL || instruction->opcode == TN_OP_MIRROR) {
+        ok = tn_key_push(&finder->pending, first);
+    } else {
+        status = look_at_trays(finder, error);
+        ok = status != TN_OK ||
+             (instruction->opcode == TN_OP_TRAY ? split_by_spec(finder, first)
+                                                : split_by_length(finder, first - finder->schema->record->field_first));
+    }
+    return ok ? status : tn_fail_memory(error);
+}
+
+static tn_status find(tn_class_finder *finder, tn_error *error)
+{
+    const tn_module *module = finder->schema->module;
+    while (finder->pending.size > 0) {
+        uint32_t function = finder->pending.data[--finder->pending.size];
+        const tn_function_record *record = &module->FUNCTION_records[function];
+        for (uint32_t offset = record->code_begin; offset < record->code_end;) {
+            tn_instruction instruction = tn_code_read(module->code, offset);
+            tn_status status = visit(finder, &instruction, error);
+            if (status != TN_OK)
+                return status;
+            offset += instruction.length;
+        }
+    }
+    return TN_OK;
+}
+
+static bool finish(tn_classes *classes)
+{
+    classes->representative = calloc((size_t)classes->count + 1, sizeof *classes->representative);
+    classes->size = calloc((size_t)classes->count + 1, sizeof *classes->size);
+    if (!classes->representative || !classes->size)
+        return false;
+    for (tn_tray t = classes->schema->tray_count; t-- > 0;) {
+        classes->representative[classes->of_tray[t]] = t;
+        classes->size[classes->of_tray[t]]++;
+    }
+    return true;
+}
+
+tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **out,
+                         tn_error *error)
+{
+    const tn_module *module = schema->module;
+    tn_classes *classes = calloc(1, sizeof *classes);
+    if (!classes)
+        return tn_fail_memory(error);
+    classes->schema = schema;
+    classes->count = schema->tray_count > 0;
+    classes->of_tray = calloc((size_t)schema->tray_count + 1, sizeof *classes->of_tray);
+    tn_class_finder finder = {.schema = schema, .classes = classes};
+    finder.seen_function = calloc(module->FUNCTION_count + 1, 1);
+    finder.seen_spec = calloc(module->SPEC_count + 1, 1);
+    finder.seen_field = calloc(module->FIELD_count + 1, 1);
+    bool ok = classes->of_tray && finder.seen_function && finder.seen_spec && finder.seen_field;
+    for (size_t i = 0; ok && i < count; i++) {
+        if (finder.seen_function[functions[i]])
+            continue;
+        finder.seen_function[functions[i]] = 1;
+        ok = tn_key_push(&finder.pending, functions[i]);
+    }
+    tn_status status = ok ? find(&finder, error) : tn_fail_memory(error);
+    if (status == TN_OK && !finish(classes))
+        status = tn_fail_memory(error);
+    free(finder.seen_function);
+    free(finder.seen_spec);
+    free(finder.seen_field);
+    free(finder.pending.data);
+    if (status != TN_OK) {
+        tn_classes_free(classes);
+        return status;
+    }
+    *out = classes;
+    return TN_OK;
+}
+
+void tn_classes_free(tn_classes *classes)
+{
+    if (!classes)
+        return;
+    free(classes->of_tray);
+    free(classes->representative);
+    free(classes->size);
+    free(classes);
+}

@@ -1,0 +1,24 @@
+/* Tray classes: the trays that no specifier (and, for sums, no field) of the rules considered tells apart are one
+ * class. Classes are numbered by their first trays. Immutable once made; owns its arrays and borrows the schema. */
+#ifndef TARTAN_PLAN_SCHEMA_CLASSES_H
+#define TARTAN_PLAN_SCHEMA_CLASSES_H
+
+#include "runtime/plan/schema/schema.h"
+
+typedef struct tn_classes {
+    const tn_schema *schema;
+    uint32_t count;
+    uint32_t *of_tray;        /* [trays] */
+    uint32_t *representative; /* [count]: a class's first tray */
+    uint32_t *size;           /* [count]: trays in the class */
+} tn_classes;
+
+#define TN_CLASS_LOOKS_MAX (UINT64_C(1) << 33) /* comparisons of a tray with a specifier: half a minute */
+
+/* The classes that the functions given, and those that they call, need. Free with tn_classes_free.
+ * TN_LIMIT (E0803) where trays times specifiers pass TN_CLASS_LOOKS_MAX. */
+tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **classes,
+                         tn_error *error);
+void tn_classes_free(tn_classes *classes);
+
+#endif

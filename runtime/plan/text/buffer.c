@@ -1,0 +1,69 @@
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/text/text.h"
+
+/* There is room for the zero byte too. */
+bool tn_buffer_reserve(tn_buffer *buffer, size_t more)
+{
+    if (buffer->data && more < buffer->capacity - buffer->size)
+        return true;
+    size_t capacity = more <= SIZE_MAX / 4 - buffer->size ? (buffer->size + more) * 2 + 64 : SIZE_MAX;
+    char *data = capacity < SIZE_MAX ? realloc(buffer->data, capacity) : NULL;
+    if (!data) {
+        buffer->failed = true;
+        return false;
+    }
+    buffer->data = data;
+    buffer->capacity = capacity;
+    return true;
+}
+
+bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length)
+{
+    if (!tn_buffer_reserve(buffer, length))
+        return false;
+    memcpy(buffer->data + buffer->size, text, length);
+    buffer->size += length;
+    buffer->data[buffer->size] = '\0';
+    return true;
+}
+
+bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    bool done = length >= 0 && tn_buffer_reserve(buffer, (size_t)length);
+    if (done) {
+        vsnprintf(buffer->data + buffer->size, (size_t)length + 1, format, again);
+        buffer->size += (size_t)length;
+    }
+    buffer->failed = buffer->failed || !done;
+    va_end(again);
+    va_end(args);
+    return done;
+}
+
+bool tn_buffer_append_json(tn_buffer *buffer, const char *text)
+{
+    bool done = tn_buffer_append(buffer, "\"", 1);
+    while (done && *text) {
+        size_t plain = 0;
+        while ((unsigned char)text[plain] >= 0x20 && text[plain] != '"' && text[plain] != '\\')
+            plain++;
+        done = tn_buffer_append(buffer, text, plain);
+        text += plain;
+        if (!done || !*text)
+            break;
+        if ((unsigned char)*text < 0x20)
+            done = tn_buffer_printf(buffer, "\\u%04x", (unsigned)*text);
+        else
+            done = tn_buffer_append(buffer, "\\", 1) && tn_buffer_append(buffer, text, 1);
+        text++;
+    }
+    return done && tn_buffer_append(buffer, "\"", 1);
+}

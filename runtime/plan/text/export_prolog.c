@@ -1,0 +1,438 @@
+#include "runtime/plan/text/export_prolog.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/code.h"
+#include "runtime/plan/match/parts.h"
+#include "runtime/plan/text/prolog_prelude.h"
+
+/* A program being written. */
+typedef struct writing {
+    const tn_schema *schema;
+    const tn_module *module;
+    tn_buffer *out;
+    bool ok;
+} writing;
+
+static void put(writing *w, const char *text)
+{
+    w->ok = w->ok && tn_buffer_append(w->out, text, strlen(text));
+}
+
+/* The rest of a comment, on one line whatever an author wrote. */
+static void put_comment(writing *w, const char *text)
+{
+    for (const char *c = text; *c; c++)
+        put(w, (unsigned char)*c < 0x20 ? " " : (char[]){*c, '\0'});
+}
+
+/* A quoted atom. */
+static void put_atom(writing *w, const char *text, const char *more)
+{
+    put(w, "'");
+    for (const char *part = text; part; part = part == text && more ? more : NULL)
+        for (const char *c = part; *c; c++) {
+            if (*c == '\'' || *c == '\\')
+                w->ok = w->ok && tn_buffer_append(w->out, c, 1);
+            w->ok = w->ok && tn_buffer_append(w->out, c, 1);
+        }
+    put(w, "'");
+}
+
+/* The predicate of a function's part: 'rule whole', 'rule whole 3'. */
+static void put_name(writing *w, uint32_t function, uint32_t part)
+{
+    char suffix[64];
+    const tn_function_record *record = &w->module->FUNCTION_records[function];
+    uint32_t rule = tn_function_rule(w->module, function);
+    const char *kind = record->kind == TN_FUNCTION_WHOLE ? "whole" : "somewhere";
+    if (part == 0 && rule != UINT32_MAX)
+        snprintf(suffix, sizeof suffix, " %s", kind);
+    else if (part == 0)
+        snprintf(suffix, sizeof suffix, " %s %" PRIu32, kind, function);
+    else
+        snprintf(suffix, sizeof suffix, " %s %" PRIu32 " %" PRIu32, kind, function, part);
+    put_atom(w, tn_text(w->module, record->name), suffix);
+}
+
+/* ---- conditions */
+
+typedef struct texts {
+    char **items; /* owned */
+    size_t count;
+} texts;
+
+/* Conditions are small: expressions as texts on a stack. Takes `made`. */
+static bool push_condition(texts *stack, bool ok, tn_buffer *made)
+{
+    stack->items[stack->count++] = made->data;
+    return ok;
+}
+
+/* Two conditions, or one, inside signs. */
+static bool join_conditions(texts *stack, const char *before, const char *between, bool both)
+{
+    tn_buffer made = {0};
+    char *second = both ? stack->items[--stack->count] : NULL, *first = stack->items[--stack->count];
+    bool ok = tn_buffer_printf(&made, "%s( %s%s%s )", before, first, between, second ? second : "");
+    free(first);
+    free(second);
+    return push_condition(stack, ok, &made);
+}
+
+static bool run_condition(const tn_instruction *code, texts *stack)
+{
+    tn_buffer made = {0};
+    int64_t k = code->first, m = code->second;
+    switch (code->opcode) {
+    case TN_OP_LESS:
+        return push_condition(stack, tn_buffer_printf(&made, "N < %" PRId64, k), &made);
+    case TN_OP_EQUAL:
+        return push_condition(stack, tn_buffer_printf(&made, "N =:= %" PRId64, k), &made);
+    case TN_OP_GREATER:
+        return push_condition(stack, tn_buffer_printf(&made, "N > %" PRId64, k), &made);
+    case TN_OP_WITHIN:
+        return push_condition(stack, tn_buffer_printf(&made, "( %" PRId64 " =< N, N =< %" PRId64 " )", k, m), &made);
+    case TN_OP_REMAINDER:
+        return push_condition(stack, tn_buffer_printf(&made, "N mod %" PRId64 " =:= %" PRId64, k, m), &made);
+    case TN_OP_BOTH:
+        return join_conditions(stack, "", ", ", true);
+    case TN_OP_EITHER:
+        return join_conditions(stack, "", " ; ", true);
+    default: /* NEITHER: verifying has refused anything else */
+        return join_conditions(stack, "\\+ ", "", false);
+    }
+}
+
+static void put_condition(writing *w, uint32_t function)
+{
+    const tn_function_record *record = &w->module->FUNCTION_records[function];
+    texts stack = {calloc((size_t)record->stack_max + 1, sizeof *stack.items), 0};
+    w->ok = w->ok && stack.items;
+    for (uint32_t offset = record->code_begin; w->ok;) {
+        tn_instruction code = tn_code_read(w->module->code, offset);
+        if (code.opcode == TN_OP_ANSWER)
+            break;
+        w->ok = run_condition(&code, &stack);
+        offset += code.length;
+    }
+    if (w->ok)
+        put(w, stack.items[0]);
+    while (stack.count > 0)
+        free(stack.items[--stack.count]);
+    free(stack.items);
+}
+
+/* ---- parts */
+
+static bool allows(const writing *w, uint32_t spec, uint32_t field, uint32_t value)
+{
+    uint32_t bit = w->schema->value_start[field] + value;
+    return tn_spec_word(w->module, spec, bit / 64) >> (bit % 64) & 1;
+}
+
+static bool is_free(const writing *w, uint32_t spec, uint32_t field)
+{
+    for (uint32_t v = 0; v < w->schema->fields[field].value_count; v++)
+        if (!allows(w, spec, field, v))
+            return false;
+    return true;
+}
+
+static void put_tray(writing *w, uint32_t spec)
+{
+    put(w, "J =:= I + 1, tray_at(W, I, tray(");
+    for (uint32_t f = 0; f < w->schema->field_count; f++)
+        w->ok = w->ok && (is_free(w, spec, f) ? tn_buffer_printf(w->out, "%s_", f ? ", " : "")
+                                              : tn_buffer_printf(w->out, "%sV%" PRIu32, f ? ", " : "", f + 1));
+    put(w, "))");
+    for (uint32_t f = 0; f < w->schema->field_count; f++) {
+        if (is_free(w, spec, f))
+            continue;
+        w->ok = w->ok && tn_buffer_printf(w->out, ", one_of(V%" PRIu32 ", [", f + 1);
+        const char *between = "";
+        for (uint32_t v = 0; v < w->schema->fields[f].value_count; v++) {
+            if (!allows(w, spec, f, v))
+                continue;
+            put(w, between);
+            put_atom(w, tn_text(w->module, w->schema->values[w->schema->value_start[f] + v].spelling), NULL);
+            between = ", ";
+        }
+        put(w, "])");
+    }
+}
+
+/* A goal that asks for a part on the stretch at hand. */
+static void put_goal(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    if (parts->parts[part].somewhere)
+        put(w, "somewhere(");
+    put_name(w, function, part);
+    put(w, parts->parts[part].somewhere ? ", W, I, J)" : "(W, I, J)");
+}
+
+static void put_joined(writing *w, const tn_parts *parts, uint32_t function, uint32_t part, const char *between)
+{
+    const char *before = "";
+    put(w, "( ");
+    for (uint32_t child = parts->parts[part].first; child != TN_NO_PART; child = parts->parts[child].next) {
+        put(w, before);
+        put_goal(w, parts, function, child);
+        before = between;
+    }
+    put(w, " )");
+}
+
+static void put_neighbour(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    const tn_part *it = &parts->parts[part];
+    const char *before = "";
+    put(w, it->beginning ? "at_beginning(W, I, J), " : "");
+    put(w, it->end ? "at_end(W, I, J), " : "");
+    put(w, "side_by_side([");
+    for (uint32_t child = it->first; child != TN_NO_PART; child = parts->parts[child].next) {
+        put(w, before);
+        put(w, parts->parts[child].optional ? "may(" : "");
+        put_name(w, function, child);
+        put(w, parts->parts[child].optional ? ")" : "");
+        before = ", ";
+    }
+    put(w, "], W, I, J)");
+}
+
+/* A number of the only child's, under a condition. */
+static void put_counted(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    const tn_part *it = &parts->parts[part];
+    if (it->kind == TN_PART_SUM)
+        w->ok = w->ok && tn_buffer_printf(w->out, "sum(%" PRIu32 ", ", it->field - w->schema->record->field_first + 1);
+    else
+        put(w, it->kind == TN_PART_QUANTITY ? "count(" : "starts(");
+    put_name(w, function, it->first);
+    put(w, ", W, I, J, N), ");
+    put_condition(w, it->condition);
+}
+
+static void put_distance(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    put(w, "distance(");
+    for (uint32_t child = parts->parts[part].first; child != TN_NO_PART; child = parts->parts[child].next) {
+        put_name(w, function, child);
+        put(w, ", ");
+    }
+    put(w, "W, I, J)");
+}
+
+static void put_body(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    const tn_part *it = &parts->parts[part];
+    switch (it->kind) {
+    case TN_PART_TRAY:
+        put_tray(w, it->spec);
+        break;
+    case TN_PART_RULE:
+        put_name(w, it->function, 0);
+        put(w, "(W, I, J)");
+        break;
+    case TN_PART_AND:
+        put_joined(w, parts, function, part, ", ");
+        break;
+    case TN_PART_OR:
+        put_joined(w, parts, function, part, " ; ");
+        break;
+    case TN_PART_NOT:
+        put(w, "\\+ ");
+        put_goal(w, parts, function, it->first);
+        break;
+    case TN_PART_NEIGHBOUR:
+        put_neighbour(w, parts, function, part);
+        break;
+    case TN_PART_SYMMETRIC:
+        put(w, "( ");
+        put_name(w, function, it->first);
+        put(w, "(W, I, J) ; mirrored(");
+        put_name(w, function, it->first);
+        put(w, ", W, I, J) )");
+        break;
+    case TN_PART_MANY:
+        put(w, "every_tray(");
+        put_name(w, function, it->first);
+        put(w, ", W, I, J)");
+        break;
+    case TN_PART_DISTANCE:
+        put_distance(w, parts, function, part);
+        break;
+    default:
+        put_counted(w, parts, function, part);
+        break;
+    }
+}
+
+static void put_part(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+{
+    char text[TN_PART_TEXT_MAX];
+    tn_part_text(parts, part, text, sizeof text);
+    put(w, "% ");
+    put_comment(w, text);
+    put(w, "\n");
+    /* of the root, what the function as a whole says; of others, the part itself: put_goal says where to look for it */
+    put_name(w, function, part);
+    put(w, "(W, I, J) :- ");
+    if (part == 0 && parts->parts[0].somewhere) {
+        w->ok = w->ok && tn_buffer_printf(w->out, "somewhere(");
+        put_name(w, function, parts->count);
+        put(w, ", W, I, J).\n");
+        put_name(w, function, parts->count);
+        put(w, "(W, I, J) :- ");
+    }
+    put_body(w, parts, function, part);
+    put(w, ", !.\n");
+}
+
+static tn_status put_function(writing *w, uint32_t function, tn_error *error)
+{
+    tn_parts parts;
+    tn_status status = tn_parts_read(w->module, function, &parts, error);
+    for (uint32_t part = 0; status == TN_OK && part < parts.count; part++)
+        put_part(w, &parts, function, part);
+    put(w, "\n");
+    tn_parts_clear(&parts);
+    return status;
+}
+
+/* ---- rules and libraries */
+
+/* The predicate of the rule's own name. */
+static void put_own_name(writing *w, const tn_rule_record *rule)
+{
+    const char *name = tn_text(w->module, rule->name);
+    if (tn_prolog_built_in(name)) {
+        put(w, "% a built-in predicate has this name: match_plan/2 asks for the rule\n\n");
+        return;
+    }
+    put_atom(w, name, NULL);
+    put(w, "(Trays) :- plan_of(Trays, W), W = w(N, _), ");
+    put_name(w, rule->holds, 0);
+    put(w, "(W, 0, N), !.\n\n");
+}
+
+static tn_status put_rule(writing *w, const tn_rule_record *rule, tn_error *error)
+{
+    const char *name = tn_text(w->module, rule->name), *doc = tn_text(w->module, rule->doc);
+    put(w, "% ---- ");
+    put(w, name);
+    put(w, *doc ? ": " : "");
+    put_comment(w, doc);
+    put(w, "\n");
+    put_own_name(w, rule);
+    tn_status status = put_function(w, rule->whole, error);
+    return status == TN_OK ? put_function(w, rule->holds, error) : status;
+}
+
+/* Every rule by its name as an atom. */
+static void put_rule_names(writing *w)
+{
+    put(w, "% ---- rules by name\n:- dynamic(rule_part/2).\n");
+    for (size_t i = 0; i < w->module->RULE_count; i++) {
+        const tn_rule_record *rule = &w->module->RULE_records[i];
+        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record)
+            continue;
+        put(w, "rule_part(");
+        put_atom(w, tn_text(w->module, rule->name), NULL);
+        put(w, ", ");
+        put_name(w, rule->holds, 0);
+        put(w, ").\n");
+    }
+    put(w, "\nmatch_plan(Rule, Trays) :-\n"
+           "    plan_of(Trays, W), W = w(N, _), rule_part(Rule, Part), call(Part, W, 0, N).\n\n");
+}
+
+static void put_clause(writing *w, const tn_library_record *library, const tn_clause_record *clause)
+{
+    put(w, clause->kind == TN_CLAUSE_PRUNE ? "prune_clause(" : "require_clause(");
+    put_atom(w, tn_text(w->module, library->name), NULL);
+    put(w, ", ");
+    put_atom(w, tn_text(w->module, clause->name), NULL);
+    put(w, ", ");
+    put_name(w, clause->holds, 0);
+    put(w, ").\n");
+}
+
+static tn_status put_libraries(writing *w, tn_error *error)
+{
+    const tn_module *module = w->module;
+    tn_status status = TN_OK;
+    static const char *const facts[] = {"trays_of", "prune_clause", "require_clause"};
+    put(w, "% ---- libraries\n");
+    for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
+        w->ok = w->ok && tn_buffer_printf(w->out, ":- dynamic(%s/3).\n:- discontiguous(%s/3).\n", facts[i], facts[i]);
+    for (size_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
+        const tn_library_record *library = &module->LIBRARY_records[l];
+        if (&module->SCHEMA_records[library->schema] != w->schema->record)
+            continue;
+        put(w, "trays_of(");
+        put_atom(w, tn_text(module, library->name), NULL);
+        w->ok =
+            w->ok && tn_buffer_printf(w->out, ", %" PRIu32 ", %" PRIu32 ").\n", library->trays_min, library->trays_max);
+        for (uint32_t i = 0; i < library->clause_count; i++)
+            put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
+    }
+    put(w, "\nprune_plan(Library, Clause, Trays) :-\n"
+           "    plan_of(Trays, W), W = w(N, _), prune_clause(Library, Clause, Part), call(Part, W, 0, N).\n"
+           "keep_plan(Library, Trays) :-\n"
+           "    plan_of(Trays, W), W = w(N, _), trays_of(Library, Min, Max), Min =< N, N =< Max,\n"
+           "    \\+ ( require_clause(Library, _, Part), \\+ call(Part, W, 0, N) ),\n"
+           "    \\+ ( prune_clause(Library, _, Part), call(Part, W, 0, N) ).\n\n");
+    /* what clauses say that is no rule of its own */
+    for (uint32_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++) {
+        const tn_function_record *record = &module->FUNCTION_records[f];
+        bool ours = record->kind == TN_FUNCTION_HOLDS && &module->SCHEMA_records[record->schema] == w->schema->record;
+        if (ours && tn_function_rule(module, f) == UINT32_MAX)
+            status = put_function(w, f, error);
+    }
+    return status;
+}
+
+static void put_lengths(writing *w)
+{
+    put(w, "% lengths of values, in nanometres\n:- dynamic(length_of/3).\n");
+    for (uint32_t f = 0; f < w->schema->field_count; f++) {
+        uint32_t kind = w->schema->fields[f].kind;
+        for (uint32_t v = 0; v < w->schema->fields[f].value_count; v++) {
+            const tn_value_record *value = &w->schema->values[w->schema->value_start[f] + v];
+            if (kind != TN_FIELD_LENGTH && kind != TN_FIELD_ZONE)
+                continue;
+            w->ok = w->ok && tn_buffer_printf(w->out, "length_of(%" PRIu32 ", ", f + 1);
+            put_atom(w, tn_text(w->module, value->spelling), NULL);
+            w->ok = w->ok && tn_buffer_printf(w->out, ", %" PRId64 ").\n", (int64_t)value->length);
+        }
+    }
+    put(w, "\n");
+}
+
+tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *error)
+{
+    writing w = {schema, schema->module, out, true};
+    tn_status status = TN_OK;
+    put(&w, "% Trays of schema ");
+    put(&w, tn_text(w.module, schema->record->name));
+    put(&w, ": tray(");
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        put(&w, f ? ", " : "");
+        put(&w, tn_text(w.module, schema->fields[f].name));
+    }
+    put(&w, ").\n\n");
+    put(&w, tn_prolog_prelude);
+    put(&w, "\n");
+    put_lengths(&w);
+    for (size_t i = 0; status == TN_OK && i < w.module->RULE_count; i++)
+        if (&w.module->SCHEMA_records[w.module->RULE_records[i].schema] == schema->record)
+            status = put_rule(&w, &w.module->RULE_records[i], error);
+    put_rule_names(&w);
+    if (status == TN_OK)
+        status = put_libraries(&w, error);
+    return status == TN_OK && !w.ok ? tn_fail_memory(error) : status;
+}

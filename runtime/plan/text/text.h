@@ -1,0 +1,67 @@
+/* Plans as text: plan lines and JSON lines, in and out.
+ *
+ * A plan line holds trays separated by `|`, values in schema order separated by blanks, a flag as its name or `-`, a
+ * zone as `fill:depth` or `fill` (then its first depth). A blank line is the empty plan; a line that starts with `#` is
+ * a comment. Lengths may be written in any unit (12', 144", 3.6576m) as long as they equal one of the field's.
+ */
+#ifndef TARTAN_PLAN_TEXT_TEXT_H
+#define TARTAN_PLAN_TEXT_TEXT_H
+
+#include "runtime/plan/schema/schema.h"
+
+/* A plan that grows; zero it to begin with, free trays with free(). */
+typedef struct tn_plan {
+    tn_tray *trays;
+    size_t length;
+    size_t capacity;
+} tn_plan;
+
+/* Text that grows; zero it to begin with, free data with free(). Always ends with a zero byte that is not counted. What
+ * many calls write can be asked about once: `failed` stays set after one that was out of memory. */
+typedef struct tn_buffer {
+    char *data;
+    size_t size;
+    size_t capacity;
+    bool failed;
+} tn_buffer;
+
+bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length);
+
+/* Room for `more` bytes, to be written to data + size by the caller, who adds them to `size`. */
+bool tn_buffer_reserve(tn_buffer *buffer, size_t more);
+/* A JSON string: in quotes, with quotes, backslashes and control characters escaped. */
+bool tn_buffer_append_json(tn_buffer *buffer, const char *text);
+
+bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Parses one plan line (no newline in it) of at most max_trays trays. An error has its columns; its line is the
+ * caller's to set. E0601 where it cannot be read, E0602 for a value that its field does not have, E0603 for a forbidden
+ * tray, E0805 past max_trays. */
+tn_status tn_plan_parse_line(const tn_schema *schema, const char *line, size_t length, size_t max_trays, tn_plan *plan,
+                             tn_error *error);
+
+/* Parses one JSON object {"trays": [{"width": "12'", "public": true, "machine": {"fill": "dense", "depth": "4'"}},
+ * ...]}. A field that is left out takes its first value; a zone may be a string "dense:4'" too. Other members than
+ * "trays" are skipped. Errors as above. */
+tn_status tn_plan_parse_json(const tn_schema *schema, const char *text, size_t length, size_t max_trays, tn_plan *plan,
+                             tn_error *error);
+
+/* The same for many plans: a scanner remembers the trays that it has read, text by text (in bounded memory), and so
+ * reads most trays at a glance. It belongs to one thread and borrows the schema. */
+typedef struct tn_plan_scanner tn_plan_scanner;
+tn_status tn_plan_scanner_new(const tn_schema *schema, tn_plan_scanner **scanner, tn_error *error);
+void tn_plan_scanner_free(tn_plan_scanner *scanner);
+tn_status tn_plan_scan_line(tn_plan_scanner *scanner, const char *line, size_t length, size_t max_trays, tn_plan *plan,
+                            tn_error *error);
+tn_status tn_plan_scan_json(tn_plan_scanner *scanner, const char *text, size_t length, size_t max_trays, tn_plan *plan,
+                            tn_error *error);
+
+/* Appends the plan in the schema's own spelling, without a newline. false where out of memory. */
+bool tn_plan_write_line(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out);
+bool tn_plan_write_json(const tn_schema *schema, const tn_tray *trays, size_t length,
+                        tn_buffer *out); /* {"trays":[...]} */
+
+/* The list of trays alone: [{...}, ...]. */
+bool tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out);
+
+#endif

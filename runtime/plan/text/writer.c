@@ -1,0 +1,303 @@
+#include "runtime/plan/text/writer.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/bytes.h"
+#include "runtime/base/file_error.h"
+#include "runtime/plan/text/pack.h"
+
+#define BATCH_DEFAULT 100000u
+
+void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
+                        tn_metadata_item items[TN_METADATA_ITEMS])
+{
+    const tn_schema *schema = writer->schema;
+    snprintf(room->schema_hash, sizeof room->schema_hash, "%016llx", (unsigned long long)tn_pack_schema_hash(schema));
+    snprintf(room->tray_bytes, sizeof room->tray_bytes, "%u", tn_pack_tray_bytes(schema));
+    const tn_metadata_item all[TN_METADATA_ITEMS] = {
+        {"library", metadata->library},
+        {"library_hash", metadata->library_hash},
+        {"schema", tn_text(schema->module, schema->record->name)},
+        {"schema_hash", room->schema_hash},
+        {"tray_bytes", room->tray_bytes},
+        {"command", metadata->command},
+        {"rules_path", metadata->rules_path},
+        {"rules_hash", metadata->rules_hash},
+        {"version", metadata->version},
+    };
+    memcpy(items, all, sizeof all);
+}
+
+int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length)
+{
+    int64_t total = 0;
+    for (size_t k = 0; k < length; k++) {
+        int64_t value = tn_tray_value_record(writer->schema, trays[k], writer->length_field)->length;
+        if (__builtin_add_overflow(total, value, &total))
+            return INT64_MAX;
+    }
+    return total;
+}
+
+/* ---- the texts of trays: a plan line put together from them takes a copy a tray instead of one a value */
+
+#define TRAY_TEXTS_MAX 65536u
+
+static bool make_tray_texts(tn_plan_writer *writer)
+{
+    uint32_t count = writer->schema->tray_count;
+    if (count > TRAY_TEXTS_MAX || writer->format == TN_FORMAT_JSON || writer->format == TN_FORMAT_BIN)
+        return true;
+    writer->tray_text_end = malloc((count + 1) * sizeof *writer->tray_text_end);
+    for (tn_tray tray = 0; writer->tray_text_end && tray < count; tray++) {
+        if (!tn_buffer_append(&writer->tray_texts, " | ", 3) ||
+            !tn_plan_write_line(writer->schema, &tray, 1, &writer->tray_texts))
+            return false;
+        writer->tray_text_end[tray] = writer->tray_texts.size;
+    }
+    return writer->tray_text_end != NULL;
+}
+
+bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out)
+{
+    if (!writer->tray_texts.data)
+        return tn_plan_write_line(writer->schema, trays, length, out);
+    bool done = true;
+    for (size_t k = 0; done && k < length; k++) {
+        size_t begin = (trays[k] ? writer->tray_text_end[trays[k] - 1] : 0) + (k > 0 ? 0 : 3);
+        done = tn_buffer_append(out, writer->tray_texts.data + begin, writer->tray_text_end[trays[k]] - begin);
+    }
+    return done;
+}
+
+/* ---- what a file starts with */
+
+static bool csv_header(tn_plan_writer *writer)
+{
+    const char *header = writer->length_field == UINT32_MAX ? "rank,length,plan\n" : "rank,length,total,plan\n";
+    return tn_buffer_append(&writer->text, header, strlen(header));
+}
+
+/* The header of packed plans, and the metadata as lines `key=value`. */
+static bool bin_header(tn_plan_writer *writer, const tn_plan_metadata *metadata)
+{
+    tn_metadata_room room;
+    tn_metadata_item items[TN_METADATA_ITEMS];
+    tn_writer_metadata(writer, metadata, &room, items);
+    tn_buffer *lines = &writer->packed;
+    bool done = true;
+    lines->size = 0;
+    for (size_t i = 0; i < TN_METADATA_ITEMS; i++)
+        done = done && (!items[i].value || tn_buffer_printf(lines, "%s=%s\n", items[i].key, items[i].value));
+    uint8_t header[TN_PACK_HEADER];
+    memcpy(header, TN_PACK_MAGIC, 8);
+    tn_put_u32(header + 8, TN_PACK_VERSION);
+    tn_put_u32(header + 12, tn_pack_tray_bytes(writer->schema));
+    tn_put_u64(header + 16, tn_pack_schema_hash(writer->schema));
+    tn_put_u64(header + 24, lines->size);
+    return done && tn_buffer_append(&writer->text, (const char *)header, sizeof header) &&
+           tn_buffer_append(&writer->text, lines->data, lines->size);
+}
+
+static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
+{
+    size_t size = writer->text.size;
+    writer->text.size = 0;
+    if (size == 0 || fwrite(writer->text.data, 1, size, writer->output.stream) == size)
+        return TN_OK;
+    const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
+    return tn_cannot_write(shown, errno, error);
+}
+
+static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
+{
+    if (options->resume) {
+        tn_fail(error, TN_INVALID, 904, "%s: only SQLite libraries can be gone on with", writer->path);
+        tn_error_help(error, "write to a file that ends in .sqlite");
+        return TN_INVALID;
+    }
+    tn_status status = tn_output_open(writer->path, &writer->output, error);
+    if (status != TN_OK)
+        return status;
+    bool done = true;
+    if (writer->format == TN_FORMAT_CSV)
+        done = csv_header(writer);
+    if (writer->format == TN_FORMAT_BIN)
+        done = bin_header(writer, &options->metadata);
+    return done ? flush_text(writer, error) : tn_fail_memory(error);
+}
+
+static bool ends_in(const char *path, const char *ending)
+{
+    size_t size = strlen(path), ending_size = strlen(ending);
+    return size > ending_size && strcmp(path + size - ending_size, ending) == 0;
+}
+
+static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_writer_options *options,
+                             tn_error *error)
+{
+    writer->path = strdup(path);
+    if (!writer->path)
+        return tn_fail_memory(error);
+    if (writer->format == TN_FORMAT_AUTO) {
+        bool sqlite = ends_in(path, ".sqlite") || ends_in(path, ".sqlite3") || ends_in(path, ".db");
+        writer->format = sqlite ? TN_FORMAT_SQLITE : TN_FORMAT_LINES;
+    }
+    if (!make_tray_texts(writer))
+        return tn_fail_memory(error);
+    return writer->format == TN_FORMAT_SQLITE ? tn_writer_sqlite_open(writer, options, error)
+                                              : open_file(writer, options, error);
+}
+
+tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const tn_writer_options *options,
+                              tn_plan_writer **out, tn_error *error)
+{
+    *out = NULL;
+    tn_plan_writer *writer = calloc(1, sizeof *writer);
+    if (!writer)
+        return tn_fail_memory(error);
+    writer->schema = schema;
+    writer->format = options->format;
+    writer->length_field = tn_schema_length_field(schema);
+    if (writer->length_field != UINT32_MAX)
+        writer->total_style = tn_length_style_of(
+            tn_text(schema->module, schema->values[schema->value_start[writer->length_field]].spelling));
+    writer->batch = options->batch > 0 ? options->batch : BATCH_DEFAULT;
+    tn_status status = open_writer(writer, path, options, error);
+    if (status != TN_OK) {
+        tn_plan_writer_free(writer);
+        return status;
+    }
+    *out = writer;
+    return TN_OK;
+}
+
+/* ---- plans */
+
+static bool append_text(tn_buffer *out, const char *text)
+{
+    return tn_buffer_append(out, text, strlen(text));
+}
+
+/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180). A zero byte follows the text. */
+static bool append_field(tn_buffer *out, const char *text, size_t size)
+{
+    if (strcspn(text, ",\"\r\n") == size)
+        return tn_buffer_append(out, text, size);
+    bool done = append_text(out, "\"");
+    for (size_t i = 0; done && i < size; i++)
+        done = (text[i] != '"' || append_text(out, "\"")) && tn_buffer_append(out, &text[i], 1);
+    return done && append_text(out, "\"");
+}
+
+static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+{
+    tn_buffer *out = &writer->text, *line = &writer->packed;
+    line->size = 0;
+    if (!tn_buffer_printf(out, "%s,%zu,", rank, length))
+        return false;
+    if (writer->length_field != UINT32_MAX) {
+        char total[48];
+        tn_length_write_style(tn_writer_total(writer, trays, length), writer->total_style, total, sizeof total);
+        if (!append_field(out, total, strlen(total)) || !append_text(out, ","))
+            return false;
+    }
+    return tn_writer_line(writer, trays, length, line) &&
+           (line->size == 0 || append_field(out, line->data, line->size)) && append_text(out, "\n");
+}
+
+static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t length)
+{
+    size_t rest = length;
+    do {
+        char byte = (char)((rest & 0x7f) | (rest > 0x7f ? 0x80 : 0));
+        if (!tn_buffer_append(&writer->text, &byte, 1))
+            return false;
+        rest >>= 7;
+    } while (rest > 0);
+    return tn_pack_trays(writer->schema, trays, length, &writer->text);
+}
+
+static bool append_json(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+{
+    tn_buffer *out = &writer->text;
+    return tn_buffer_printf(out, "{\"rank\":\"%s\",\"trays\":", rank) &&
+           tn_plan_write_trays(writer->schema, trays, length, out) && append_text(out, "}\n");
+}
+
+static bool append_plan(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+{
+    switch (writer->format) {
+    case TN_FORMAT_CSV:
+        return append_csv(writer, rank, trays, length);
+    case TN_FORMAT_JSON:
+        return append_json(writer, rank, trays, length);
+    case TN_FORMAT_BIN:
+        return append_packed(writer, trays, length);
+    default:
+        return tn_writer_line(writer, trays, length, &writer->text) && append_text(&writer->text, "\n");
+    }
+}
+
+static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                              tn_error *error)
+{
+    if (writer->format == TN_FORMAT_SQLITE)
+        return tn_writer_sqlite_write(writer, rank, trays, length, error);
+    return append_plan(writer, rank, trays, length) ? flush_text(writer, error) : tn_fail_memory(error);
+}
+
+tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
+                               tn_error *error)
+{
+    char room[128];
+    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
+        return write_ranked(writer, NULL, trays, length, error); /* they say no ranks */
+    if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
+        return write_ranked(writer, mpz_get_str(room, 10, rank), trays, length, error);
+    char *digits = mpz_get_str(NULL, 10, rank);
+    tn_status status = digits ? write_ranked(writer, digits, trays, length, error) : tn_fail_memory(error);
+    free(digits);
+    return status;
+}
+
+bool tn_plan_writer_resumes(const tn_plan_writer *writer)
+{
+    return writer->format == TN_FORMAT_SQLITE;
+}
+
+uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank)
+{
+    if (writer->resumed > 0)
+        mpz_set_str(last_rank, writer->last_rank.data, 10);
+    return writer->resumed;
+}
+
+/* ---- the end */
+
+tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
+{
+    writer->closed = true;
+    if (writer->format == TN_FORMAT_SQLITE)
+        return tn_writer_sqlite_close(writer, error);
+    return tn_output_commit(&writer->output, error);
+}
+
+void tn_plan_writer_free(tn_plan_writer *writer)
+{
+    if (!writer)
+        return;
+    if (!writer->closed && writer->output.stream)
+        tn_output_discard(&writer->output);
+    tn_writer_sqlite_finalize(writer);
+    sqlite3_close(writer->database); /* rolls back the batch in hand */
+    free(writer->text.data);
+    free(writer->packed.data);
+    free(writer->last_rank.data);
+    free(writer->tray_texts.data);
+    free(writer->tray_text_end);
+    free(writer->path);
+    free(writer);
+}

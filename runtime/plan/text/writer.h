@@ -1,0 +1,76 @@
+/* Inside of tn_plan_writer. */
+#ifndef TARTAN_PLAN_TEXT_WRITER_H
+#define TARTAN_PLAN_TEXT_WRITER_H
+
+#include <sqlite3.h>
+
+#include "runtime/base/file.h"
+#include "runtime/base/length_style.h"
+#include "runtime/plan/text/stream.h"
+
+/* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
+#define TN_LIBRARY_APPLICATION_ID 0x54415254
+
+/* A member of the metadata that every library file carries. */
+typedef struct tn_metadata_item {
+    const char *key;
+    const char *value;
+} tn_metadata_item;
+
+#define TN_METADATA_ITEMS 9
+
+/* Plans that go into a SQLite library by one statement. */
+#define TN_WAITING_MAX 16
+
+/* One of them: where its texts are in `text` and its trays in `packed`. */
+typedef struct tn_waiting_plan {
+    uint64_t number;
+    size_t length; /* trays */
+    int64_t total; /* nanometres */
+    size_t rank, text, text_end;
+    size_t packed, packed_end;
+} tn_waiting_plan;
+
+struct tn_plan_writer {
+    const tn_schema *schema;
+    tn_plan_format format;
+    char *path;
+    tn_output output; /* of every format but SQLite */
+    bool closed;
+    uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
+    tn_length_style total_style;
+    tn_buffer text;        /* of the plan in hand; SQLite: of those that wait */
+    tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
+    size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
+    tn_buffer packed;
+
+    sqlite3 *database;
+    sqlite3_stmt *insert_one, *insert_waiting; /* one plan, TN_WAITING_MAX of them */
+    tn_waiting_plan waiting[TN_WAITING_MAX];
+    size_t waiting_count;
+    uint32_t batch, in_batch;
+    uint64_t number; /* of the plan written last */
+    uint64_t resumed;
+    tn_buffer last_rank; /* of the plan that a resumed library ends with */
+};
+
+/* Fills the items, in the order in which they are written; `room` holds what they are made of. A value may be NULL. */
+typedef struct tn_metadata_room {
+    char schema_hash[24], tray_bytes[8];
+} tn_metadata_room;
+void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
+                        tn_metadata_item items[TN_METADATA_ITEMS]);
+
+/* Appends the plan line; false where out of memory. The same as tn_plan_write_line, from the trays' texts. */
+bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out);
+
+/* The plan's lengths added up, in nanometres. */
+int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length);
+
+tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error);
+tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                                 tn_error *error);
+tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error);
+void tn_writer_sqlite_finalize(tn_plan_writer *writer);
+
+#endif

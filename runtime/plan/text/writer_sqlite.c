@@ -1,0 +1,336 @@
+/* Plan libraries in SQLite: docs/plan-files.md says what is in them. Plans go in in batches, each a transaction, so
+ * that a library whose writer was killed holds whole batches and can be gone on with: the plan after the last one comes
+ * next. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/file_error.h"
+#include "runtime/plan/text/pack.h"
+#include "runtime/plan/text/writer.h"
+
+#define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
+
+static tn_status failed(const tn_plan_writer *writer, tn_error *error)
+{
+    int code = writer->database ? sqlite3_errcode(writer->database) : SQLITE_NOMEM;
+    if (code == SQLITE_NOMEM)
+        return tn_fail_memory(error);
+    if (code == SQLITE_CONSTRAINT) {
+        tn_fail(error, TN_INVALID, 606, "%s: the library holds such a plan already", writer->path);
+        tn_error_help(error, "somebody else may be writing to it");
+        return TN_INVALID;
+    }
+    int reason = code == SQLITE_FULL ? ENOSPC : code == SQLITE_READONLY ? EACCES : 0;
+    if (code == SQLITE_CANTOPEN)
+        reason = sqlite3_system_errno(writer->database);
+    if (reason)
+        return tn_cannot_write(writer->path, reason, error);
+    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", writer->path, sqlite3_errmsg(writer->database));
+}
+
+static tn_status run(tn_plan_writer *writer, const char *sql, tn_error *error)
+{
+    return sqlite3_exec(writer->database, sql, NULL, NULL, NULL) == SQLITE_OK ? TN_OK : failed(writer, error);
+}
+
+/* Runs a statement made with sqlite3_mprintf, and frees it. */
+static tn_status run_made(tn_plan_writer *writer, char *sql, tn_error *error)
+{
+    if (!sql)
+        return tn_fail_memory(error);
+    tn_status status = run(writer, sql, error);
+    sqlite3_free(sql);
+    return status;
+}
+
+/* ---- a new library */
+
+static tn_status create_tables(tn_plan_writer *writer, tn_error *error)
+{
+    const tn_schema *schema = writer->schema;
+    char *total = NULL;
+    if (writer->length_field != UINT32_MAX) {
+        const char *name = tn_text(schema->module, schema->fields[writer->length_field].name);
+        total = sqlite3_mprintf("\"%w_total\" INTEGER NOT NULL, ", name);
+        if (!total)
+            return tn_fail_memory(error);
+    }
+    char *sql = sqlite3_mprintf("PRAGMA application_id = %d;"
+                                "CREATE TABLE metadata (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+                                "CREATE TABLE plans (number INTEGER PRIMARY KEY, rank TEXT NOT NULL,"
+                                " length INTEGER NOT NULL, %splan TEXT NOT NULL, packed BLOB NOT NULL);",
+                                TN_LIBRARY_APPLICATION_ID, total ? total : "");
+    sqlite3_free(total);
+    return run_made(writer, sql, error);
+}
+
+static tn_status set_metadata(tn_plan_writer *writer, const char *key, const char *value, tn_error *error)
+{
+    return run_made(writer, sqlite3_mprintf("INSERT OR REPLACE INTO metadata VALUES (%Q, %Q)", key, value), error);
+}
+
+/* Makes the tables of a new library, in place of those that are there: within one transaction, so that whoever reads it
+ * sees the old library or the new one. */
+static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    tn_metadata_room room;
+    tn_metadata_item items[TN_METADATA_ITEMS];
+    tn_writer_metadata(writer, metadata, &room, items);
+    tn_status status = run(writer, "BEGIN IMMEDIATE; DROP TABLE IF EXISTS plans; DROP TABLE IF EXISTS metadata", error);
+    if (status == TN_OK)
+        status = create_tables(writer, error);
+    for (size_t i = 0; status == TN_OK && i < TN_METADATA_ITEMS; i++) {
+        if (items[i].value)
+            status = set_metadata(writer, items[i].key, items[i].value, error);
+    }
+    if (status == TN_OK)
+        status = set_metadata(writer, "complete", "0", error);
+    return status == TN_OK ? run(writer, "COMMIT", error) : status;
+}
+
+/* ---- a library that is there */
+
+/* The text of the one value that a query gives, or NULL where it gives none; the caller frees it. */
+static tn_status query_text(tn_plan_writer *writer, const char *sql, char **text, tn_error *error)
+{
+    sqlite3_stmt *row = NULL;
+    *text = NULL;
+    int code = sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL);
+    if (code == SQLITE_OK && (code = sqlite3_step(row)) == SQLITE_ROW) {
+        const char *found = (const char *)sqlite3_column_text(row, 0);
+        *text = found ? strdup(found) : NULL;
+        code = found && !*text ? SQLITE_NOMEM : code;
+    }
+    sqlite3_finalize(row);
+    return code == SQLITE_NOMEM ? tn_fail_memory(error) : TN_OK;
+}
+
+/* Is there nothing in the file yet? Refuses what is there and is no library of ours, so that no other file is written
+ * over. */
+static tn_status look(tn_plan_writer *writer, bool *is_new, tn_error *error)
+{
+    char *pages = NULL, *id = NULL;
+    tn_status status = query_text(writer, "PRAGMA page_count", &pages, error);
+    if (status == TN_OK)
+        status = query_text(writer, "PRAGMA application_id", &id, error);
+    *is_new = pages && strcmp(pages, "0") == 0;
+    bool is_library = id && strtol(id, NULL, 10) == TN_LIBRARY_APPLICATION_ID;
+    free(pages);
+    free(id);
+    if (status != TN_OK || *is_new || is_library)
+        return status;
+    tn_fail(error, TN_IO, 902, "%s: the file is there already, and it is no plan library", writer->path);
+    tn_error_help(error, "name another file, or remove this one");
+    return TN_IO;
+}
+
+/* One member of the metadata must be as it was. */
+static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item, tn_error *error)
+{
+    char sql[80], *found;
+    sqlite3_snprintf(sizeof sql, sql, "SELECT value FROM metadata WHERE key = '%s'", item->key);
+    tn_status status = query_text(writer, sql, &found, error);
+    bool same = strcmp(found ? found : "", item->value ? item->value : "") == 0;
+    if (status == TN_OK && !same) {
+        status = tn_fail(error, TN_INVALID, 606, "%s: its %s is %.100s, and now it would be %.100s", writer->path,
+                         item->key, found ? found : "not known", item->value ? item->value : "none");
+        tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to start "
+                             "anew");
+    }
+    free(found);
+    return status;
+}
+
+/* Everything that decides which plans come. */
+static tn_status check_metadata(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    static const char *const decisive[] = {"library_hash", "schema_hash", "command"};
+    tn_metadata_room room;
+    tn_metadata_item items[TN_METADATA_ITEMS];
+    tn_writer_metadata(writer, metadata, &room, items);
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < TN_METADATA_ITEMS; i++) {
+        for (size_t k = 0; k < sizeof decisive / sizeof *decisive; k++) {
+            if (status == TN_OK && strcmp(items[i].key, decisive[k]) == 0)
+                status = check_item(writer, &items[i], error);
+        }
+    }
+    return status;
+}
+
+static tn_status find_last(tn_plan_writer *writer, tn_error *error)
+{
+    sqlite3_stmt *row = NULL;
+    const char *sql = "SELECT number, rank FROM plans ORDER BY number DESC LIMIT 1";
+    int code = sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL);
+    tn_status status = TN_OK;
+    if (code == SQLITE_OK && (code = sqlite3_step(row)) == SQLITE_ROW) {
+        const char *rank = (const char *)sqlite3_column_text(row, 1);
+        writer->number = (uint64_t)sqlite3_column_int64(row, 0);
+        if (!rank || !*rank || strspn(rank, "0123456789") != strlen(rank))
+            status = tn_fail(error, TN_INVALID, 606, "%s: its last plan has no rank", writer->path);
+        else if (!tn_buffer_append(&writer->last_rank, rank, strlen(rank)))
+            status = tn_fail_memory(error);
+        writer->resumed = writer->number;
+    } else if (code != SQLITE_DONE) {
+        status = failed(writer, error);
+    }
+    sqlite3_finalize(row);
+    return status;
+}
+
+static tn_status resume(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+{
+    tn_status status = check_metadata(writer, metadata, error);
+    return status == TN_OK ? find_last(writer, error) : status;
+}
+
+/* ---- opening */
+
+static tn_status open_database(tn_plan_writer *writer, tn_error *error)
+{
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_NOMUTEX;
+    if (sqlite3_open_v2(writer->path, &writer->database, flags, NULL) != SQLITE_OK)
+        return failed(writer, error);
+    sqlite3_busy_timeout(writer->database, BUSY_MILLISECONDS);
+    sqlite3_db_config(writer->database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
+    return run(writer, "PRAGMA cell_size_check = 1", error);
+}
+
+/* A statement that inserts so many plans. */
+static tn_status prepare_insert(tn_plan_writer *writer, size_t plans, sqlite3_stmt **insert, tn_error *error)
+{
+    const char *row = writer->length_field != UINT32_MAX ? ",(?,?,?,?,?,?)" : ",(?,?,?,?,?)";
+    sqlite3_str *sql = sqlite3_str_new(writer->database);
+    sqlite3_str_appendall(sql, "INSERT INTO plans VALUES ");
+    sqlite3_str_appendall(sql, row + 1);
+    for (size_t i = 1; i < plans; i++)
+        sqlite3_str_appendall(sql, row);
+    char *text = sqlite3_str_finish(sql);
+    if (!text)
+        return tn_fail_memory(error);
+    int code = sqlite3_prepare_v2(writer->database, text, -1, insert, NULL);
+    sqlite3_free(text);
+    return code == SQLITE_OK ? TN_OK : failed(writer, error);
+}
+
+static tn_status prepare_inserts(tn_plan_writer *writer, tn_error *error)
+{
+    tn_status status = prepare_insert(writer, 1, &writer->insert_one, error);
+    return status == TN_OK ? prepare_insert(writer, TN_WAITING_MAX, &writer->insert_waiting, error) : status;
+}
+
+tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
+{
+    if (strcmp(writer->path, "-") == 0)
+        return tn_fail(error, TN_INVALID, 904, "a SQLite library cannot be written to standard output: name a file");
+    tn_status status = open_database(writer, error);
+    bool is_new = false;
+    if (status == TN_OK)
+        status = look(writer, &is_new, error);
+    if (status == TN_OK && options->resume && !is_new)
+        status = resume(writer, &options->metadata, error);
+    else if (status == TN_OK)
+        status = create(writer, &options->metadata, error);
+    if (status == TN_OK && !is_new && !options->resume)
+        status = run(writer, "VACUUM", error); /* gives back the space of the library that was there */
+    return status == TN_OK ? prepare_inserts(writer, error) : status;
+}
+
+/* ---- writing
+ *
+ * A statement has a price of its own, whatever it inserts: plans wait for one another and go in so many a statement. */
+
+/* Adds the plan to those that wait. */
+static bool make_plan(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+{
+    tn_waiting_plan *plan = &writer->waiting[writer->waiting_count++];
+    plan->rank = writer->text.size;
+    bool done = tn_buffer_append(&writer->text, rank, strlen(rank));
+    plan->text = writer->text.size;
+    done = done && tn_writer_line(writer, trays, length, &writer->text);
+    plan->text_end = writer->text.size;
+    plan->packed = writer->packed.size;
+    done = done && tn_buffer_append(&writer->packed, "", 0); /* no bytes, and not NULL: the plan without trays */
+    done = done && tn_pack_trays(writer->schema, trays, length, &writer->packed);
+    plan->packed_end = writer->packed.size;
+    plan->length = length;
+    plan->total = writer->length_field != UINT32_MAX ? tn_writer_total(writer, trays, length) : 0;
+    plan->number = ++writer->number;
+    return done;
+}
+
+static void bind_plan(const tn_plan_writer *writer, sqlite3_stmt *insert, const tn_waiting_plan *plan, int *column)
+{
+    const char *text = writer->text.data, *packed = writer->packed.data;
+    sqlite3_bind_int64(insert, ++*column, (sqlite3_int64)plan->number);
+    sqlite3_bind_text(insert, ++*column, text + plan->rank, (int)(plan->text - plan->rank), SQLITE_STATIC);
+    sqlite3_bind_int64(insert, ++*column, (sqlite3_int64)plan->length);
+    if (writer->length_field != UINT32_MAX)
+        sqlite3_bind_int64(insert, ++*column, plan->total);
+    sqlite3_bind_text(insert, ++*column, text + plan->text, (int)(plan->text_end - plan->text), SQLITE_STATIC);
+    sqlite3_bind_blob(insert, ++*column, packed + plan->packed, (int)(plan->packed_end - plan->packed), SQLITE_STATIC);
+}
+
+/* Inserts the plans that wait. */
+static tn_status flush(tn_plan_writer *writer, tn_error *error)
+{
+    bool full = writer->waiting_count == TN_WAITING_MAX;
+    sqlite3_stmt *insert = full ? writer->insert_waiting : writer->insert_one;
+    int column = 0;
+    for (size_t i = 0; i < writer->waiting_count; i++) {
+        bind_plan(writer, insert, &writer->waiting[i], &column);
+        if (full && i + 1 < TN_WAITING_MAX)
+            continue;
+        int code = sqlite3_step(insert);
+        sqlite3_reset(insert);
+        if (code != SQLITE_DONE)
+            return failed(writer, error);
+        column = 0;
+    }
+    writer->waiting_count = writer->text.size = writer->packed.size = 0;
+    return TN_OK;
+}
+
+tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
+                                 tn_error *error)
+{
+    tn_status status = writer->in_batch == 0 ? run(writer, "BEGIN IMMEDIATE", error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    if (!make_plan(writer, rank, trays, length))
+        return tn_fail_memory(error);
+    bool batch_ends = ++writer->in_batch == writer->batch;
+    if (batch_ends || writer->waiting_count == TN_WAITING_MAX)
+        status = flush(writer, error);
+    if (status != TN_OK || !batch_ends)
+        return status;
+    writer->in_batch = 0;
+    return run(writer, "COMMIT", error);
+}
+
+tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
+{
+    tn_status status = writer->in_batch > 0 ? flush(writer, error) : run(writer, "BEGIN IMMEDIATE", error);
+    writer->in_batch = 0;
+    if (status == TN_OK)
+        status = run(writer, "CREATE UNIQUE INDEX IF NOT EXISTS plans_rank ON plans (rank)", error);
+    if (status == TN_OK)
+        status = set_metadata(writer, "complete", "1", error);
+    if (status == TN_OK)
+        status = run(writer, "COMMIT", error);
+    tn_writer_sqlite_finalize(writer);
+    if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
+        return failed(writer, error);
+    if (status == TN_OK)
+        writer->database = NULL;
+    return status;
+}
+
+void tn_writer_sqlite_finalize(tn_plan_writer *writer)
+{
+    sqlite3_finalize(writer->insert_one);
+    sqlite3_finalize(writer->insert_waiting);
+    writer->insert_one = writer->insert_waiting = NULL;
+}

@@ -1,4 +1,0 @@
-#include "runtime/vm/growth.h"
-
-const char *const tn_measured_names[TN_MEASURED_COUNT] = {
-    "size", "smoothness", "soft-boundary", "subdivisions", "symmetry", "undulation", "vertices", "edges", "faces"};

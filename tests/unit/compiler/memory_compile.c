@@ -1,0 +1,173 @@
+/* Out of memory while compiling and while making a module ready to run: each allocation fails once, and then once
+ * together with all after it. Nothing may crash, leak or pretend to have worked. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "compiler/compile.h"
+#include "runtime/module/module.h"
+#include "runtime/plan/match/rules.h"
+#include "tests/support/failing_memory.h"
+
+static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
+static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+
+static const char *const good = "use \"lahave\"\n"
+                                "rule a \"a rule\" = neighbour(tray(4'), optional(many(tray(8'))), tray(12'))\n"
+                                "rule b = not a and quantity(tray(double), n > 1 or n mod 3 = 1)\n"
+                                "rule c = distance(from tray(4'), to tray(public), by sum(width, w >= 8'))\n"
+                                "library l using lahave { trays 2..5 total width 8'..48' require b prune a, c }\n"
+                                "test a { match [4' | 12'] reject [8'] \"no\" }\n"
+                                "test l { keep [4' | 8' double | 8' double] }\n";
+
+static const char *const bad = "use \"nowhere\"\n"
+                               "schema s { width = 4' | 48\" colour = red | red }\n"
+                               "rule a = neighbour(tray(5'), end, traay(4'))\n"
+                               "rule b = quantity(tray(8', n > 1\n"
+                               "library l using t { trays 4-9 }\n"
+                               "\"open\n";
+
+/* Compiles under a failing allocation; true where a module came out. */
+static bool compile(const char *path, const char *text)
+{
+    tn_compilation compilation;
+    tn_status status = tn_compile_text(path, text, strlen(text), &options, &compilation);
+    assert_int_equal(status == TN_OK, compilation.module != NULL);
+    char *shown = NULL;
+    size_t size;
+    FILE *out = open_memstream(&shown, &size);
+    tn_diagnostics_sort(&compilation.diagnostics);
+    tn_diagnostics_show(&compilation.diagnostics, &(tn_show_options){0}, out);
+    fclose(out);
+    if (status != TN_OK)
+        assert_true(size > 0); /* somebody says why */
+    free(shown);
+    tn_compilation_clear(&compilation);
+    return status == TN_OK;
+}
+
+static void compile_with_failures(const char *path, const char *text, bool is_good)
+{
+    assert_int_equal(compile(path, text), is_good);
+    for (int all_after = 0; all_after < 2; all_after++) {
+        for (size_t number = 0;; number++) {
+            fail_allocation(number, all_after);
+            bool worked = compile(path, text);
+            if (stop_failing() <= number) {
+                assert_int_equal(worked, is_good);
+                assert_true(number > 10); /* it allocates, or the test tests nothing */
+                break;
+            }
+            assert_true(is_good || !worked);
+        }
+    }
+}
+
+static void test_good_source(void **state)
+{
+    (void)state;
+    compile_with_failures("a.plan", good, true);
+}
+
+static void test_bad_source(void **state)
+{
+    (void)state;
+    compile_with_failures("a.plan", bad, false);
+}
+
+static void test_other_notations(void **state)
+{
+    (void)state;
+    compile_with_failures("a.hemls", "A + B + A + B\nA -> A [ + B ] A Weight 2\n -> A\nAngle 90\nBranchAngle 90\n",
+                          true);
+    compile_with_failures("b.hemls", "A + A + A\nA = A\nAgnle 60\n", false);
+    compile_with_failures("a.study", "rules \"square\"\nsteps 3\nattractor at 1 2 3\nfitness size target 3\n", true);
+    compile_with_failures("b.study", "rules \"square\"\nstpes 3\n", false);
+    compile_with_failures("a.bnf", "<e> ::= <e> + <v> | <v>\n<v> ::= x | y\n", true);
+    compile_with_failures("b.bnf", "%dialct ge\n<e> ::= <f>\n", false);
+    compile_with_failures("c.study", "evolution { grammar \"words\"; match \"hello\"; population 20 }\n", true);
+    compile_with_failures("d.study", "evolution { grammar \"words\"; match \"hello\"; popultion 20 }\n", false);
+}
+
+/* ---- running */
+
+static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits)
+{
+    static const tn_tray trays[] = {0, 5, 9, 3};
+    tn_schema *schema = NULL;
+    tn_rules *rules = NULL;
+    tn_matcher *matcher = NULL;
+    uint32_t functions[8];
+    size_t count = 0;
+    for (size_t i = 0; i < module->RULE_count && count < 8; i++)
+        if (!(module->RULE_records[i].flags & TN_IMPORTED))
+            functions[count++] = module->RULE_records[i].holds;
+    tn_rules_options how = {.engine = engine};
+    tn_error error = {0};
+    tn_status status = tn_schema_new(module, 0, 0, &schema, &error);
+    if (status == TN_OK)
+        status = tn_rules_new(schema, functions, count, &how, &rules, &error);
+    if (status == TN_OK)
+        status = tn_matcher_new(rules, &matcher, &error);
+    if (status == TN_OK)
+        status = tn_match(matcher, trays, 4, bits, &error);
+    tn_matcher_free(matcher);
+    tn_rules_free(rules);
+    tn_schema_free(schema);
+    return status;
+}
+
+static void match_with_failures(tn_engine engine)
+{
+    tn_compilation compilation;
+    tn_module *module;
+    assert_int_equal(tn_compile_text("a.plan", good, strlen(good), &options, &compilation), TN_OK);
+    assert_int_equal(tn_module_load(compilation.module, compilation.module_size, NULL, &module, NULL), TN_OK);
+    uint64_t wanted = 0;
+    assert_int_equal(match(module, engine, &wanted), TN_OK);
+    for (int all_after = 0; all_after < 2; all_after++) {
+        for (size_t number = 0;; number++) {
+            uint64_t bits = 0;
+            fail_allocation(number, all_after);
+            tn_status status = match(module, engine, &bits);
+            bool reached = stop_failing() > number;
+            if (status == TN_OK) /* an engine may do with less; what it decides stays the same */
+                assert_int_equal(bits, wanted);
+            else
+                assert_int_equal(status, TN_MEMORY);
+            if (!reached) {
+                assert_int_equal(status, TN_OK);
+                break;
+            }
+        }
+    }
+    tn_module_free(module);
+    tn_compilation_clear(&compilation);
+}
+
+static void test_reference_engine(void **state)
+{
+    (void)state;
+    match_with_failures(TN_ENGINE_VM);
+}
+
+static void test_automata(void **state)
+{
+    (void)state;
+    match_with_failures(TN_ENGINE_DFA);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_good_source),     cmocka_unit_test(test_bad_source),
+        cmocka_unit_test(test_other_notations), cmocka_unit_test(test_reference_engine),
+        cmocka_unit_test(test_automata),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,738 @@
+/* The language server over streams: random edits to rule files, with every question asked anywhere, never crash it,
+ * every request has its answer, and what it knows after a thousand edits is what it knows of the same text opened
+ * afresh. */
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <jansson.h>
+
+#include "lsp/lines.h"
+#include "lsp/lsp.h"
+#include "runtime/base/file.h"
+
+/* ---- a session: messages are written to a file, then served */
+
+typedef struct session {
+    FILE *input, *output;
+    int requests;
+    json_t *answers; /* by id */
+} session;
+
+static void send_text(session *s, const char *text)
+{
+    fprintf(s->input, "Content-Length: %zu\r\n\r\n%s", strlen(text), text);
+}
+
+static void send_json(session *s, json_t *message)
+{
+    assert_non_null(message);
+    char *text = json_dumps(message, JSON_COMPACT);
+    send_text(s, text);
+    free(text);
+    json_decref(message);
+}
+
+static void tell(session *s, const char *method, json_t *params)
+{
+    send_json(s, json_pack("{s:s,s:s,s:o}", "jsonrpc", "2.0", "method", method, "params", params));
+}
+
+/* The id of the request. */
+static int ask(session *s, const char *method, json_t *params)
+{
+    int id = ++s->requests;
+    send_json(s, json_pack("{s:s,s:i,s:s,s:o}", "jsonrpc", "2.0", "id", id, "method", method, "params", params));
+    return id;
+}
+
+static void start(session *s)
+{
+    *s = (session){.input = tmpfile(), .output = tmpfile()};
+    assert_non_null(s->input);
+    assert_non_null(s->output);
+    ask(s, "initialize", json_object());
+    tell(s, "initialized", json_object());
+}
+
+static void open_document(session *s, const char *uri, const char *text)
+{
+    tell(s, "textDocument/didOpen",
+         json_pack("{s:{s:s,s:s,s:i,s:s}}", "textDocument", "uri", uri, "languageId", "plan", "version", 1, "text",
+                   text));
+}
+
+static void read_answers(session *s)
+{
+    char header[200];
+    rewind(s->output);
+    s->answers = json_object();
+    while (fgets(header, sizeof header, s->output)) {
+        size_t size = strtoul(strchr(header, ':') + 1, NULL, 10);
+        assert_non_null(fgets(header, sizeof header, s->output));
+        char *text = malloc(size + 1);
+        assert_int_equal(fread(text, 1, size, s->output), size);
+        json_t *message = json_loadb(text, size, 0, NULL);
+        assert_non_null(message);
+        const json_t *id = json_object_get(message, "id");
+        if (json_is_integer(id)) {
+            char key[24];
+            snprintf(key, sizeof key, "%d", (int)json_integer_value(id));
+            assert_null(json_object_get(s->answers, key));
+            json_object_set(s->answers, key, message);
+        }
+        json_decref(message);
+        free(text);
+    }
+}
+
+static json_t *answer(session *s, int id, const char *part)
+{
+    char key[24];
+    snprintf(key, sizeof key, "%d", id);
+    json_t *message = json_object_get(s->answers, key);
+    assert_non_null(message);
+    return json_object_get(message, part);
+}
+
+static void serve(session *s)
+{
+    tn_error error;
+    ask(s, "shutdown", json_object());
+    tell(s, "exit", json_object());
+    fflush(s->input);
+    lseek(fileno(s->input), 0, SEEK_SET);
+    assert_int_equal(tn_lsp_serve(fileno(s->input), s->output, &error), TN_OK);
+    read_answers(s);
+    assert_int_equal(json_object_size(s->answers), s->requests);
+}
+
+static void finish(session *s)
+{
+    json_decref(s->answers);
+    fclose(s->input);
+    fclose(s->output);
+}
+
+static json_t *at(const char *uri, const char *text, size_t offset)
+{
+    tn_lines lines;
+    assert_true(tn_lines_make(&lines, text, strlen(text)));
+    json_t *params =
+        json_pack("{s:{s:s},s:o}", "textDocument", "uri", uri, "position", tn_lines_position(&lines, offset));
+    tn_lines_clear(&lines);
+    return params;
+}
+
+static json_t *of(const char *uri)
+{
+    return json_pack("{s:{s:s}}", "textDocument", "uri", uri);
+}
+
+/* ---- random edits */
+
+static uint32_t next(uint32_t *seed)
+{
+    *seed ^= *seed << 13;
+    *seed ^= *seed >> 17;
+    *seed ^= *seed << 5;
+    return *seed;
+}
+
+static const char *const plan_pieces[] = {
+    "(",        ")",          "{",          "}",           "[",       "]",      "|",     ",",     "=",
+    "\n",       " ",          "\"",         "'",           "12'",     "tray(",  "rule ", "test ", "use \"",
+    "library ", "schema ",    "prune ",     "require ",    "zone ",   "role ",  "not ",  "and ",  "or ",
+    "x",        "neighbour(", "symmetric ", "quantity(",   "n > 1",   "#",      "\r\n",  "é",     "\xF0\x9F\x8F\xA0",
+    "..",       "from ",      "using ",     "allow W002 ", "match [", "drop [", " by ",  "as ",   "-",
+    NULL};
+static const char *const hemls_pieces[] = {"+",      "-",      "[", "]",    "A",      "Edge0",  "_i+1",
+                                           "->",     "\n//",   ";", " ",    "If i<2", "Weight", "3",
+                                           "Angle ", "Sync\n", "<", "\r\n", "é",      NULL};
+static const char *const study_pieces[] = {"rules ",
+                                           "\"square\"",
+                                           "1.5 ",
+                                           "-3 ",
+                                           "attractor at ",
+                                           "evolution {",
+                                           "}",
+                                           "\n",
+                                           ";",
+                                           "grammar \"words\"\n",
+                                           "boundary box from ",
+                                           "fitness ",
+                                           "#",
+                                           "\"",
+                                           "(",
+                                           ",",
+                                           "size ",
+                                           "é",
+                                           NULL};
+static const char *const bnf_pieces[] = {"<a>", "<b> ::= ",   "|",   "{ ", " }", "[ ",    " ]",  "%dialect genr8\n",
+                                         "#",   "'",          "\"",  "\n", "\t", "Edge ", "::=", "<",
+                                         ">",   "GE_RANGE:3", "\\x", "é",  NULL};
+
+static const struct {
+    const char *name; /* of the notation, and of its files */
+    const char *const *pieces;
+} notations[] = {{"plan", plan_pieces}, {"hemls", hemls_pieces}, {"study", study_pieces}, {"bnf", bnf_pieces}};
+
+static size_t count_pieces(const char *const *pieces)
+{
+    size_t count = 0;
+    while (pieces[count])
+        count++;
+    return count;
+}
+
+/* A place between characters. */
+static size_t random_offset(const char *text, uint32_t *seed)
+{
+    size_t offset = next(seed) % (strlen(text) + 1);
+    while (offset > 0 && ((unsigned char)text[offset] & 0xC0) == 0x80)
+        offset--;
+    return offset;
+}
+
+static char *edited(const char *text, size_t begin, size_t end, const char *added)
+{
+    char *result = malloc(strlen(text) - (end - begin) + strlen(added) + 1);
+    memcpy(result, text, begin);
+    strcpy(result + begin, added);
+    strcat(result, text + end);
+    return result;
+}
+
+static char *edit(session *s, const char *uri, char *text, const char *const *pieces, uint32_t *seed)
+{
+    tn_lines lines;
+    size_t begin = random_offset(text, seed), end = begin;
+    const char *added = next(seed) % 3 ? pieces[next(seed) % count_pieces(pieces)] : "";
+    if (next(seed) % 2)
+        for (end += next(seed) % 12; end > strlen(text) || ((unsigned char)text[end] & 0xC0) == 0x80;)
+            end--;
+    if (end < begin)
+        end = begin;
+    assert_true(tn_lines_make(&lines, text, strlen(text)));
+    /* between \r and \n is no place of the protocol */
+    bool split = (begin > 0 && text[begin - 1] == '\r' && text[begin] == '\n') ||
+                 (end > 0 && text[end - 1] == '\r' && text[end] == '\n');
+    json_t *range = tn_lines_range(&lines, begin, end);
+    tn_lines_clear(&lines);
+    if (split) {
+        json_decref(range);
+        return text;
+    }
+    tell(s, "textDocument/didChange",
+         json_pack("{s:{s:s,s:i},s:[{s:o,s:s}]}", "textDocument", "uri", uri, "version", 2, "contentChanges", "range",
+                   range, "text", added));
+    char *result = edited(text, begin, end, added);
+    free(text);
+    return result;
+}
+
+static void ask_anything(session *s, const char *uri, const char *text, uint32_t *seed)
+{
+    static const char *const methods[] = {"textDocument/hover", "textDocument/definition", "textDocument/completion",
+                                          "textDocument/documentHighlight", "textDocument/prepareRename"};
+    size_t offset = random_offset(text, seed);
+    switch (next(seed) % 5) {
+    case 0: {
+        json_t *params = at(uri, text, offset);
+        json_object_set_new(params, "newName", json_string(next(seed) % 2 ? "fresh" : "rule"));
+        ask(s, "textDocument/rename", params);
+        break;
+    }
+    case 1: {
+        json_t *params = at(uri, text, offset);
+        json_object_set_new(params, "context", json_pack("{s:b}", "includeDeclaration", 1));
+        ask(s, "textDocument/references", params);
+        break;
+    }
+    case 2:
+        ask(s, next(seed) % 2 ? "textDocument/formatting" : "textDocument/documentSymbol", of(uri));
+        break;
+    default:
+        ask(s, methods[next(seed) % (sizeof methods / sizeof *methods)], at(uri, text, offset));
+    }
+}
+
+static json_t *everything(const char *uri)
+{
+    return json_pack("{s:{s:s},s:{s:{s:i,s:i},s:{s:i,s:i}}}", "textDocument", "uri", uri, "range", "start", "line", 0,
+                     "character", 0, "end", "line", 1000000, "character", 0);
+}
+
+static char *read_text(const char *name)
+{
+    char path[4096];
+    uint8_t *bytes;
+    size_t size;
+    tn_error error;
+    snprintf(path, sizeof path, "%s/%s", TARTAN_SOURCE_DIR, name);
+    assert_int_equal(tn_file_read(path, 1 << 20, &bytes, &size, &error), TN_OK);
+    return (char *)bytes;
+}
+
+static void edit_randomly(const char *name, size_t notation, uint32_t seed, int edits)
+{
+    char one[100], two[100];
+    session s;
+    snprintf(one, sizeof one, "file:///nowhere/one.%s", notations[notation].name);
+    snprintf(two, sizeof two, "file:///nowhere/two.%s", notations[notation].name);
+    start(&s);
+    char *text = read_text(name);
+    open_document(&s, one, text);
+    for (int i = 0; i < edits; i++) {
+        text = edit(&s, one, text, notations[notation].pieces, &seed);
+        if (next(&seed) % 4 == 0)
+            ask_anything(&s, one, text, &seed);
+    }
+    int outline = ask(&s, "textDocument/documentSymbol", of(one));
+    int actions = ask(&s, "textDocument/codeAction", everything(one));
+    int layout = ask(&s, "textDocument/formatting", of(one));
+    tell(&s, "textDocument/didClose", of(one));
+    open_document(&s, two, text);
+    int other_outline = ask(&s, "textDocument/documentSymbol", of(two));
+    int other_actions = ask(&s, "textDocument/codeAction", everything(two));
+    int other_layout = ask(&s, "textDocument/formatting", of(two));
+    serve(&s);
+    assert_true(json_equal(answer(&s, outline, "result"), answer(&s, other_outline, "result")));
+    assert_true(json_equal(answer(&s, layout, "result"), answer(&s, other_layout, "result")));
+    assert_int_equal(json_array_size(answer(&s, actions, "result")),
+                     json_array_size(answer(&s, other_actions, "result")));
+    finish(&s);
+    free(text);
+}
+
+static void test_random_edits(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        edit_randomly("stdlib/lahave.plan", 0, seed, 300);
+        edit_randomly("tests/cli/files/sheds.plan", 0, 100 + seed, 300);
+        edit_randomly("tests/diagnostics/many-mistakes.plan", 0, 200 + seed, 200);
+        edit_randomly("stdlib/ruffle.hemls", 1, 300 + seed, 300);
+        edit_randomly("tests/fuzz/corpus/hemls/mixed", 1, 400 + seed, 200);
+        edit_randomly("examples/growing-surfaces/canopy.study", 2, 500 + seed, 300);
+        edit_randomly("examples/learning-a-rule/learn.study", 2, 600 + seed, 300);
+        edit_randomly("stdlib/genr8-symmetric.bnf", 3, 700 + seed, 300);
+        edit_randomly("tests/data/gene/tiny2.bnf", 3, 800 + seed, 300);
+    }
+}
+
+/* ---- what is said */
+
+static const char rules[] = "use \"lahave\"\nrule \xC3\xA9nd \"\xF0\x9F\x8F\xA0\" = tray(4') and narrow-pair\n"
+                            "rule other = \xC3\xA9nd or tray(duoble)\n";
+
+static void test_positions_are_utf16(void **state)
+{
+    static const char uri[] = "file:///nowhere/a.plan";
+    (void)state;
+    session s;
+    start(&s);
+    open_document(&s, uri, rules);
+    int id = ask(&s, "textDocument/definition", at(uri, rules, (size_t)(strstr(rules, "narrow-pair") - rules)));
+    int highlight =
+        ask(&s, "textDocument/documentHighlight", at(uri, rules, (size_t)(strstr(rules, "or tray") - rules - 2)));
+    int actions = ask(&s, "textDocument/codeAction", everything(uri));
+    serve(&s);
+    const char *target = json_string_value(json_object_get(answer(&s, id, "result"), "uri"));
+    assert_non_null(target);
+    assert_non_null(strstr(target, "/lahave.plan"));
+    assert_int_equal(json_array_size(answer(&s, highlight, "result")), 2);
+    json_t *first = json_array_get(answer(&s, actions, "result"), 0);
+    assert_string_equal(json_string_value(json_object_get(first, "title")), "Replace with double");
+    json_t *edits = json_object_get(json_object_get(json_object_get(first, "edit"), "changes"), uri);
+    json_t *range = json_object_get(json_array_get(edits, 0), "range");
+    json_t *wanted =
+        json_pack("{s:{s:i,s:i},s:{s:i,s:i}}", "start", "line", 2, "character", 25, "end", "line", 2, "character", 31);
+    assert_true(json_equal(range, wanted));
+    json_decref(wanted);
+    finish(&s);
+}
+
+/* A name used in two documents that are open, and not saved anywhere, is renamed in both. */
+static void test_rename_across_documents(void **state)
+{
+    char folder[] = "/tmp/tartan-lsp-XXXXXX", base_uri[100], user_uri[100], path[100];
+    static const char base[] = "use \"lahave\"\nrule low = tray(single)\n";
+    static const char user[] = "use \"base.plan\"\nrule both = low and tray(4')\n";
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/base.plan", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("rule stale = any\n", file);
+    fclose(file);
+    snprintf(base_uri, sizeof base_uri, "file://%s/base.plan", folder);
+    snprintf(user_uri, sizeof user_uri, "file://%s/user.plan", folder);
+    session s;
+    start(&s);
+    open_document(&s, base_uri, base);
+    open_document(&s, user_uri, user);
+    json_t *params = at(user_uri, user, (size_t)(strstr(user, "low") - user));
+    json_object_set_new(params, "newName", json_string("lower"));
+    int id = ask(&s, "textDocument/rename", params);
+    serve(&s);
+    json_t *changes = json_object_get(answer(&s, id, "result"), "changes");
+    assert_int_equal(json_object_size(changes), 2);
+    assert_int_equal(json_array_size(json_object_get(changes, base_uri)), 1);
+    assert_int_equal(json_array_size(json_object_get(changes, user_uri)), 1);
+    finish(&s);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void write_file(const char *folder, const char *name, const char *text, bool there)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (!there) {
+        assert_int_equal(remove(path), 0);
+        return;
+    }
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static const char base_text[] = "schema s { w = 1m | 2m }\nrule thin = tray(1m)\n";
+
+/* Files that are written, or taken away, for the test below. */
+static void set_files(const char *folder, bool there)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/sub", folder);
+    if (there)
+        assert_int_equal(mkdir(path, 0777), 0);
+    write_file(folder, "base.plan", base_text, there);
+    write_file(folder, "user.plan", "use \"base.plan\"\nrule two = neighbour(thin, thin)\n", there);
+    write_file(folder, "sub/deep.plan", "use \"../user.plan\"\nrule three = thin and two\n", there);
+    write_file(folder, "other.plan", "schema s { w = 1m | 2m }\nrule thin = tray(2m)\n", there);
+    if (!there)
+        assert_int_equal(rmdir(path), 0);
+}
+
+/* Renames in base.plan, which alone is open; the edits of each file, or why not. `root`: the editor has the folder
+ * open. */
+static void rename_in(const char *folder, bool root, const char *name, int user, int deep, const char *why)
+{
+    char uri[200], folder_uri[200], other[200];
+    session s = {.input = tmpfile(), .output = tmpfile()};
+    snprintf(folder_uri, sizeof folder_uri, "file://%s", folder);
+    snprintf(uri, sizeof uri, "%s/base.plan", folder_uri);
+    json_t *folders = root ? json_pack("{s:[{s:s,s:s}]}", "workspaceFolders", "uri", folder_uri, "name", "x")
+                           : json_pack("{s:n,s:n}", "workspaceFolders", "rootUri");
+    ask(&s, "initialize", folders);
+    tell(&s, "initialized", json_object());
+    open_document(&s, uri, base_text);
+    json_t *params = at(uri, base_text, (size_t)(strstr(base_text, "thin") - base_text));
+    json_object_set_new(params, "newName", json_string(name));
+    int id = ask(&s, "textDocument/rename", params);
+    serve(&s);
+    const json_t *changes = json_object_get(answer(&s, id, "result"), "changes");
+    assert_int_equal(json_array_size(json_object_get(changes, uri)), why ? 0 : 1);
+    snprintf(other, sizeof other, "%s/user.plan", folder_uri);
+    assert_int_equal(json_array_size(json_object_get(changes, other)), user);
+    snprintf(other, sizeof other, "%s/sub/deep.plan", folder_uri);
+    assert_int_equal(json_array_size(json_object_get(changes, other)), deep);
+    snprintf(other, sizeof other, "%s/other.plan", folder_uri);
+    assert_null(json_object_get(changes, other));
+    const char *said = json_string_value(json_object_get(answer(&s, id, "error"), "message"));
+    assert_true(why ? said && strstr(said, why) : !said);
+    finish(&s);
+}
+
+/* Files that use the one at hand are found though they are not open; one that only has the name too is left alone. */
+static void test_rename_in_files_that_are_not_open(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/tartan-lsp-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    set_files(folder, true);
+    rename_in(folder, true, "narrow", 2, 1, NULL);
+    rename_in(folder, false, "narrow", 2, 0, NULL); /* what is beside it */
+    rename_in(folder, true, "three", 0, 0, "a file that uses this one has something else of this name");
+    rename_in(folder, false, "two", 0, 0, "a file that uses this one has something else of this name");
+    set_files(folder, false);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void test_wrong_messages(void **state)
+{
+    (void)state;
+    session s;
+    start(&s);
+    send_text(&s, "{\"jsonrpc\":");
+    send_text(&s, "[]");
+    send_text(&s, "{\"id\":{},\"method\":7}");
+    fputs("Content-Length: x\r\n\r\n", s.input);
+    fputs("X: 1\r\n\r\n", s.input);
+    int unknown = ask(&s, "textDocument/unknown", json_object());
+    int not_open = ask(&s, "textDocument/hover", at("file:///not/open.plan", "", 0));
+    int no_params = ask(&s, "textDocument/rename", json_null());
+    tell(&s, "textDocument/didOpen", json_array());
+    tell(&s, "textDocument/didChange", json_pack("{s:i}", "textDocument", 3));
+    tell(&s, "$/anything", json_object());
+    open_document(&s, "untitled:1", "rule a = any");
+    tell(&s, "textDocument/didChange",
+         json_pack("{s:{s:s},s:[{s:i}]}", "textDocument", "uri", "untitled:1", "contentChanges", "text", 5));
+    json_t *params = at("untitled:1", "", 0);
+    json_object_set_new(json_object_get(params, "position"), "line", json_integer(-1));
+    int no_place = ask(&s, "textDocument/hover", params);
+    serve(&s);
+    assert_int_equal(json_integer_value(json_object_get(answer(&s, unknown, "error"), "code")), -32601);
+    assert_non_null(answer(&s, not_open, "error"));
+    assert_non_null(answer(&s, no_params, "error"));
+    assert_non_null(answer(&s, no_place, "error"));
+    finish(&s);
+}
+
+/* ---- a live session: the server is a thread, and what it says by itself can be waited for */
+
+typedef struct live {
+    session session; /* its input is the pipe to the server */
+    FILE *heard;     /* from the server */
+    int input;
+    FILE *output;
+    pthread_t thread;
+    tn_status status;
+} live;
+
+static void *serve_live(void *context)
+{
+    live *l = context;
+    tn_error error;
+    l->status = tn_lsp_serve(l->input, l->output, &error);
+    fclose(l->output);
+    return NULL;
+}
+
+static json_t *hear(live *l)
+{
+    char header[200];
+    assert_non_null(fgets(header, sizeof header, l->heard));
+    size_t size = strtoul(strchr(header, ':') + 1, NULL, 10);
+    assert_non_null(fgets(header, sizeof header, l->heard));
+    char *text = malloc(size + 1);
+    assert_int_equal(fread(text, 1, size, l->heard), size);
+    json_t *message = json_loadb(text, size, 0, NULL);
+    assert_non_null(message);
+    free(text);
+    return message;
+}
+
+/* The answer to a request; what is said in between is passed over. */
+static json_t *hear_answer(live *l, int id)
+{
+    json_t *message;
+    fflush(l->session.input);
+    while (json_integer_value(json_object_get(message = hear(l), "id")) != id)
+        json_decref(message);
+    return message;
+}
+
+static bool mentions(const json_t *message, const char *text)
+{
+    char *all = json_dumps(message, JSON_COMPACT);
+    bool found = strstr(all, text) != NULL;
+    free(all);
+    return found;
+}
+
+/* Diagnostics of this version, until some say what is wanted. */
+static void await_diagnostics(live *l, int version, const char *wanted)
+{
+    bool found = false;
+    fflush(l->session.input);
+    while (!found) {
+        json_t *message = hear(l), *params = json_object_get(message, "params");
+        found = params && json_integer_value(json_object_get(params, "version")) == version && mentions(params, wanted);
+        json_decref(message);
+    }
+}
+
+static void start_live(live *l)
+{
+    int there[2], back[2];
+    *l = (live){0};
+    assert_int_equal(pipe(there), 0);
+    assert_int_equal(pipe(back), 0);
+    l->session.input = fdopen(there[1], "w");
+    l->heard = fdopen(back[0], "r");
+    l->input = there[0];
+    l->output = fdopen(back[1], "w");
+    assert_int_equal(pthread_create(&l->thread, NULL, serve_live, l), 0);
+    json_decref(hear_answer(l, ask(&l->session, "initialize", json_object())));
+    tell(&l->session, "initialized", json_object());
+}
+
+static void finish_live(live *l)
+{
+    json_decref(hear_answer(l, ask(&l->session, "shutdown", json_object())));
+    tell(&l->session, "exit", json_object());
+    fflush(l->session.input);
+    pthread_join(l->thread, NULL);
+    assert_int_equal(l->status, TN_OK);
+    fclose(l->session.input);
+    fclose(l->heard);
+    close(l->input);
+}
+
+static const char related[] = "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
+                              "rule never = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
+                              "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n";
+
+static void test_meaning(void **state)
+{
+    static const char uri[] = "file:///nowhere/a.plan";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, related);
+    await_diagnostics(&l, 1, "W001");
+    json_t *hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "wide") - related))));
+    assert_true(mentions(hovered, "subsumes (matches all that they match): `one`"));
+    assert_true(mentions(hovered, "plans of `l`"));
+    json_decref(hovered);
+    hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "first") - related))));
+    assert_true(mentions(hovered, "required in `l`: keeps out 299,013,696 plans of its lengths, 0 of them alone"));
+    json_decref(hovered);
+    hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "l using") - related))));
+    assert_true(mentions(hovered, "`total` keeps out 0 plans of its lengths, 0 of them alone"));
+    json_decref(hovered);
+    json_t *actions = hear_answer(&l, ask(&l.session, "textDocument/codeAction", everything(uri)));
+    assert_true(mentions(actions, "Allow W001 in never"));
+    assert_true(mentions(actions, "Allow W003 in one"));
+    json_decref(actions);
+    tell(&l.session, "textDocument/didChange",
+         json_pack("{s:{s:s,s:i},s:[{s:s}]}", "textDocument", "uri", uri, "version", 2, "contentChanges", "text",
+                   "use \"lahave\"\nrule all = any or not any\nrule same = any\n"));
+    await_diagnostics(&l, 2, "W002");
+    finish_live(&l);
+}
+
+/* What is at work is given up: by an edit, by closing, by the end. */
+static void test_meaning_given_up(void **state)
+{
+    static const char uri[] = "untitled:1", other[] = "untitled:2";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, related);
+    for (int version = 2; version < 40; version++) {
+        tell(&l.session, "textDocument/didChange",
+             json_pack("{s:{s:s,s:i},s:[{s:s}]}", "textDocument", "uri", uri, "version", version, "contentChanges",
+                       "text", related));
+        if (version % 4 == 0)
+            await_diagnostics(&l, version, "[]");
+        if (version % 10 == 0)
+            await_diagnostics(&l, version, "W001");
+        if (version == 33) {
+            open_document(&l.session, other, related);
+            await_diagnostics(&l, 1, "W001");
+            tell(&l.session, "textDocument/didClose", of(other));
+        }
+    }
+    finish_live(&l);
+}
+
+/* A grammar's own warnings come so too. */
+static void test_meaning_of_grammar(void **state)
+{
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, "file:///nowhere/a.bnf", "<a> ::= <a><a> | <a><a> | x\n");
+    await_diagnostics(&l, 1, "W15");
+    finish_live(&l);
+}
+
+/* "name kind detail(children);" */
+static void show_outline(const json_t *list, char *shown, size_t size)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+    {
+        const char *detail = json_string_value(json_object_get(item, "detail"));
+        const json_t *children = json_object_get(item, "children");
+        size_t used = strlen(shown);
+        snprintf(shown + used, size - used, "%s %d%s%s%s", json_string_value(json_object_get(item, "name")),
+                 (int)json_integer_value(json_object_get(item, "kind")), detail ? " " : "", detail ? detail : "",
+                 children ? "(" : "");
+        if (children)
+            show_outline(children, shown, size);
+        strcat(shown, children ? ");" : ";");
+    }
+}
+
+static void test_outlines(void **state)
+{
+    static const char *const cases[][3] = {
+        {"file:///nowhere/a.hemls", "A + B + A\nA -> A\n -> B\nAngle 90", "A + B + A 14;A 12 -> A;Angle 7 90;"},
+        {"file:///nowhere/a.study", "rules \"square\" fitness size target 3\nevolution { grammar \"words\"; seed 3",
+         "rules 7 \"square\";fitness size 7 target 3;evolution 2(grammar 7 \"words\";seed 7 3;);"},
+        {"file:///nowhere/a.bnf", "%wraps 2 # c\n<a> ::= x | <b>\n\n<b> ::= y", "%wraps 2 7;<a> 12;<b> 12;"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char shown[500] = "";
+        session s;
+        start(&s);
+        open_document(&s, cases[i][0], cases[i][1]);
+        int id = ask(&s, "textDocument/documentSymbol", of(cases[i][0]));
+        serve(&s);
+        show_outline(answer(&s, id, "result"), shown, sizeof shown);
+        assert_string_equal(shown, cases[i][2]);
+        finish(&s);
+    }
+}
+
+/* What a text without a file is, the editor says. */
+static void test_language_of_untitled(void **state)
+{
+    (void)state;
+    session s;
+    start(&s);
+    tell(&s, "textDocument/didOpen",
+         json_pack("{s:{s:s,s:s,s:i,s:s}}", "textDocument", "uri", "untitled:1", "languageId", "hemls", "version", 1,
+                   "text", "A+B+A"));
+    int id = ask(&s, "textDocument/formatting", of("untitled:1"));
+    serve(&s);
+    json_t *edit = json_array_get(answer(&s, id, "result"), 0);
+    assert_string_equal(json_string_value(json_object_get(edit, "newText")), "A + B + A\n");
+    finish(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_edits),
+        cmocka_unit_test(test_positions_are_utf16),
+        cmocka_unit_test(test_rename_across_documents),
+        cmocka_unit_test(test_rename_in_files_that_are_not_open),
+        cmocka_unit_test(test_wrong_messages),
+        cmocka_unit_test(test_meaning),
+        cmocka_unit_test(test_meaning_given_up),
+        cmocka_unit_test(test_meaning_of_grammar),
+        cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_language_of_untitled),
+    };
+    setenv("TARTAN_PATH", TARTAN_SOURCE_DIR "/stdlib", 1);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

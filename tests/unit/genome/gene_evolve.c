@@ -1,0 +1,311 @@
+/* Evolution: the same run whatever the number of threads, runs replayed from their scores, expressions, and that it
+ * gets better. */
+#include <math.h>
+
+#include "runtime/base/numeric.h"
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/breeding/problem.h"
+#include "runtime/number/expression.h"
+#include "tests/support/test_grammar.h"
+
+#define STDLIB TARTAN_SOURCE_DIR "/stdlib/"
+
+static double value_of(const char *text)
+{
+    static const char *const names[] = {"x", "y"};
+    const double x[TN_EXPRESSION_ROW] = {3}, y[TN_EXPRESSION_ROW] = {0}, *const columns[] = {x, y};
+    tn_expression e = {0};
+    tn_error error;
+    double value;
+    if (tn_expression_parse(text, strlen(text), names, 2, &e, &error) != TN_OK)
+        fail_msg("%s: %s", text, error.message);
+    assert_int_equal(tn_expression_evaluate(&e, columns, 1, &value, NULL), TN_OK);
+    tn_expression_clear(&e);
+    return value;
+}
+
+static void refused(const char *text, uint32_t column)
+{
+    static const char *const names[] = {"x"};
+    tn_expression e = {0};
+    tn_error error;
+    assert_int_equal(tn_expression_parse(text, strlen(text), names, 1, &e, &error), TN_INVALID);
+    assert_int_equal(error.column, column);
+    tn_expression_clear(&e);
+}
+
+static void test_expressions(void **state)
+{
+    (void)state;
+    assert_true(value_of("1 + 2 * 3") == 7);
+    assert_true(value_of("(1 + 2) * 3 - 4 - 5") == 0);
+    assert_true(value_of("x / 2 / 3") == 0.5);
+    assert_true(value_of("x / y") == 1);
+    assert_true(value_of("-x * -2.50") == 7.5);
+    assert_true(value_of("sqrt(-4) + abs(-1) + square(x)") == 12);
+    assert_true(value_of("min(x, 2) + max(x, y)") == 5);
+    assert_true(value_of("sin(y) + cos(y) + exp(y) + tanh(y)") == 2);
+    assert_true(value_of("log(y) + log(-x)") == tn_log(3));
+    assert_true(value_of("exp(sin(x)) / tanh(x)") == tn_exp(tn_sin(3)) / tn_tanh(3));
+    assert_true(value_of("x - cos(-x)") == 3 - tn_cos(3));
+    assert_true(value_of("0.1") == 0.1);
+    assert_true(value_of("123456.789") == 123456.789);
+    refused("", 1);
+    refused("1 +", 4);
+    refused("x y", 3);
+    refused("(x", 3);
+    refused("z", 1);
+    refused("tan(x)", 5);
+    refused("min(x)", 6);
+    refused("1.5.2", 4);
+    char deep[3001];
+    memset(deep, '(', 3000);
+    deep[3000] = '\0';
+    tn_expression e = {0};
+    assert_int_equal(tn_expression_parse(deep, 3000, NULL, 0, &e, NULL), TN_LIMIT);
+    tn_expression_clear(&e);
+}
+
+/* ---- runs */
+
+typedef struct setup {
+    tn_grammar *grammar;
+    tn_problem *problem;
+    tn_evaluator evaluator;
+    tn_evolution_settings settings;
+} setup;
+
+/* A second objective, to have fronts: the sentence's length. */
+static tn_status match_and_length(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                                  char message[200], tn_error *error)
+{
+    tn_evaluator inner = tn_problem_evaluator(context);
+    score->objectives[1] = (double)size;
+    return inner.evaluate(context, thread, sentence, size, score, message, error);
+}
+
+static setup prepare(int variant)
+{
+    setup s = {.grammar = test_grammar_file(STDLIB "words.bnf"), .settings = tn_evolution_settings_default()};
+    assert_int_equal(tn_problem_match("hello world", &s.problem, NULL), TN_OK);
+    s.evaluator = tn_problem_evaluator(s.problem);
+    s.settings.population = 61;
+    s.settings.seed = 11;
+    s.settings.initialisation = (tn_initialisation)(variant % TN_INITIALISE_COUNT);
+    s.settings.vary.crossover = (tn_crossover)(variant % TN_CROSS_COUNT);
+    s.settings.vary.mutation = (tn_mutation)(variant % TN_MUTATE_COUNT);
+    s.settings.select.selection = (tn_selection)(variant % TN_SELECT_COUNT);
+    s.settings.replacement = variant % 5 == 4 ? TN_REPLACE_STEADY : TN_REPLACE_GENERATION;
+    if (s.settings.select.selection == TN_SELECT_NSGA2) {
+        s.evaluator.objectives = 2;
+        s.evaluator.evaluate = match_and_length;
+        s.settings.replacement = TN_REPLACE_GENERATION;
+    }
+    return s;
+}
+
+static void clear(setup *s)
+{
+    tn_problem_free(s->problem);
+    tn_grammar_free(s->grammar);
+}
+
+static void same_members(const tn_evolution *a, const tn_evolution *b)
+{
+    size_t na, nb;
+    const tn_individual *const *ma = tn_evolution_members(a, &na), *const *mb = tn_evolution_members(b, &nb);
+    assert_int_equal(na, nb);
+    for (size_t i = 0; i < na; i++) {
+        assert_int_equal(ma[i]->id, mb[i]->id);
+        assert_int_equal(ma[i]->parents[0], mb[i]->parents[0]);
+        assert_int_equal(ma[i]->kind, mb[i]->kind);
+        assert_int_equal(ma[i]->genome.count, mb[i]->genome.count);
+        assert_memory_equal(ma[i]->genome.codons, mb[i]->genome.codons, ma[i]->genome.count * sizeof(uint64_t));
+        assert_string_equal(ma[i]->sentence, mb[i]->sentence);
+        assert_memory_equal(ma[i]->score.objectives, mb[i]->score.objectives, sizeof ma[i]->score.objectives);
+    }
+    tn_generation_stats sa = tn_evolution_stats(a), sb = tn_evolution_stats(b);
+    assert_int_equal(sa.evaluations, sb.evaluations);
+    assert_int_equal(sa.distinct, sb.distinct);
+    assert_true(sa.mean == sb.mean);
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 20; variant++) {
+        setup s = prepare(variant);
+        tn_evolution *one, *four;
+        s.settings.threads = 1;
+        assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &one, NULL), TN_OK);
+        s.settings.threads = 4;
+        assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &four, NULL), TN_OK);
+        for (int g = 0; g < 12; g++) {
+            assert_int_equal(tn_evolution_step(one, NULL), TN_OK);
+            assert_int_equal(tn_evolution_step(four, NULL), TN_OK);
+        }
+        same_members(one, four);
+        tn_evolution_free(one);
+        tn_evolution_free(four);
+        clear(&s);
+    }
+}
+
+/* ---- replay: the same run with scores recalled and an evaluator that must not be asked */
+
+typedef struct memory {
+    tn_score *scores;
+    size_t count;
+} memory;
+
+static bool recall(void *context, uint64_t id, tn_score *score)
+{
+    const memory *m = context;
+    if (id >= m->count)
+        return false;
+    *score = m->scores[id];
+    return true;
+}
+
+static tn_status never(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                       char message[200], tn_error *error)
+{
+    (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
+    return tn_fail(error, TN_INTERNAL, 0, "asked");
+}
+
+static void test_replay(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 20; variant += 3) {
+        setup s = prepare(variant);
+        tn_evolution *first, *again;
+        memory m = {calloc(61 * 10, sizeof(tn_score)), 0};
+        assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &first, NULL), TN_OK);
+        for (int g = 0; g < 10; g++) {
+            assert_int_equal(tn_evolution_step(first, NULL), TN_OK);
+            size_t born;
+            const tn_individual *const *b = tn_evolution_born(first, &born);
+            for (size_t i = 0; i < born; i++)
+                m.scores[b[i]->id] = b[i]->score;
+            m.count = (size_t)(g + 1) * 61;
+        }
+        tn_evaluator none = s.evaluator;
+        none.evaluate = never;
+        assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &none, &again, NULL), TN_OK);
+        tn_evolution_recall(again, recall, &m);
+        for (int g = 0; g < 10; g++)
+            assert_int_equal(tn_evolution_step(again, NULL), TN_OK);
+        same_members(first, again);
+        assert_int_equal(tn_evolution_step(again, NULL), TN_INTERNAL); /* beyond what is known it does ask */
+        tn_evolution_free(first);
+        tn_evolution_free(again);
+        free(m.scores);
+        clear(&s);
+    }
+}
+
+static void test_better(void **state)
+{
+    (void)state;
+    setup s = prepare(0);
+    tn_evolution *e;
+    s.settings.population = 300;
+    s.settings.initialisation = TN_INITIALISE_RAMPED;
+    s.settings.vary.mutation = TN_MUTATE_CODONS;
+    s.settings.select.tournament = 4;
+    assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &e, NULL), TN_OK);
+    assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
+    double before = tn_evolution_stats(e).best[0], best = before;
+    for (int g = 0; g < 60; g++) {
+        assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
+        double now = tn_evolution_stats(e).best[0];
+        assert_true(now <= best); /* the elite stays */
+        best = now;
+    }
+    assert_true(best < before / 2);
+    tn_evolution_free(e);
+    clear(&s);
+}
+
+static void test_choice(void **state)
+{
+    (void)state;
+    setup s = prepare(0);
+    tn_evolution *e;
+    size_t count;
+    assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &e, NULL), TN_OK);
+    assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
+    const tn_individual *const *members = tn_evolution_members(e, &count);
+    uint64_t a = members[4]->id, b = members[7]->id;
+    uint32_t places[] = {4, 7, 7}, beyond[] = {61};
+    assert_int_equal(tn_evolution_choose(e, beyond, 1, NULL), TN_INVALID);
+    assert_int_equal(tn_evolution_choose(e, places, 3, NULL), TN_OK);
+    assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
+    const tn_individual *const *born = tn_evolution_born(e, &count);
+    size_t of_b = 0;
+    for (size_t i = 0; i < count; i++) {
+        assert_true(born[i]->parents[0] == a || born[i]->parents[0] == b);
+        of_b += born[i]->parents[0] == b;
+    }
+    assert_true(of_b > count / 2);
+    tn_evolution_free(e);
+    clear(&s);
+}
+
+static void test_nsga2(void **state)
+{
+    (void)state;
+    const double values[][2] = {{1, 5}, {2, 3}, {4, 1}, {3, 4}, {4, 4}, {HUGE_VAL, HUGE_VAL}, {2, 3}};
+    static const uint32_t fronts[] = {0, 0, 0, 1, 2, 3, 0};
+    tn_merit merits[7];
+    uint32_t scratch[21];
+    for (uint32_t i = 0; i < 7; i++)
+        merits[i] = (tn_merit){.objectives = values[i], .index = i};
+    tn_nsga2(merits, 7, 2, scratch);
+    for (size_t i = 0; i < 7; i++)
+        assert_int_equal(merits[i].front, fronts[i]);
+    assert_true(isinf(merits[0].room) && isinf(merits[2].room));
+    tn_merit_sort(merits, 7);
+    assert_int_equal(merits[6].index, 5);
+}
+
+static void test_csv(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        uint32_t line, column;
+    } wrong[] = {
+        {"", 0, 0},       {"x,y\n", 0, 0},  {"x,y\n1\n", 2, 2},    {"x,y\n1,2,3\n", 2, 5}, {"x,y\n1,two\n", 2, 3},
+        {"x,,y\n", 1, 3}, {"y\n1\n", 0, 0}, {"x,y\n1,inf\n", 2, 3}};
+    tn_problem *problem;
+    tn_error error;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(tn_problem_fit_csv(wrong[i].text, strlen(wrong[i].text), 1, &problem, &error), TN_INVALID);
+        assert_int_equal(error.line, wrong[i].line);
+        assert_int_equal(error.column, wrong[i].column);
+    }
+    const char *good = "a, b, sum\r\n1, 2, 3\r\n-1.5, 2.5e0, 1\r\n";
+    assert_int_equal(tn_problem_fit_csv(good, strlen(good), 1, &problem, &error), TN_OK);
+    tn_evaluator evaluator = tn_problem_evaluator(problem);
+    tn_score score = {0};
+    char message[200];
+    assert_int_equal(evaluator.evaluate(evaluator.context, 0, "a + b", 5, &score, message, &error), TN_OK);
+    assert_true(score.objectives[0] == 0);
+    assert_int_equal(evaluator.evaluate(evaluator.context, 0, "a", 1, &score, message, &error), TN_OK);
+    assert_true(score.objectives[0] > 2.2 && score.objectives[0] < 2.3);
+    assert_int_equal(evaluator.evaluate(evaluator.context, 0, "a +", 3, &score, message, &error), TN_OK);
+    assert_int_equal(score.state, TN_SCORE_FAILED);
+    tn_problem_free(problem);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_expressions), cmocka_unit_test(test_threads), cmocka_unit_test(test_replay),
+        cmocka_unit_test(test_better),      cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),
+        cmocka_unit_test(test_csv),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,349 @@
+/* The verifier: each rule that it enforces is broken once, in an otherwise good module. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "tests/support/sample_module.h"
+
+/* What a builder makes is refused for this reason; NULL: it loads. */
+static void expect(tn_builder *builder, tn_status wanted, const char *reason)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_module *module;
+    tn_error error = {0};
+    assert_int_equal(tn_builder_finish(builder, &bytes, &size, &error), TN_OK);
+    tn_status status = tn_module_load(bytes, size, NULL, &module, &error);
+    if (reason && !strstr(error.message, reason))
+        fail_msg("wanted \"%s\", got \"%s\"", reason, error.message);
+    if (!reason && status != TN_OK)
+        fail_msg("wanted it to load, got \"%s\"", error.message);
+    assert_int_equal(status, wanted);
+    tn_module_free(module);
+    tn_builder_free(builder);
+    free(bytes);
+}
+
+/* Changes record `index` of a section of the sample, by an assignment, and expects that reason. */
+#define REFUSED(NAME, TYPE, index, assignment, reason)                                                                 \
+    do {                                                                                                               \
+        tn_builder *changed = sample_builder();                                                                        \
+        TYPE record = sample_##NAME(index);                                                                            \
+        record.assignment;                                                                                             \
+        tn_builder_set_##NAME(changed, index, &record);                                                                \
+        expect(changed, TN_INVALID, reason);                                                                           \
+    } while (0)
+
+/* A copy of a record of the sample, as loading gives it. */
+#define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
+    __attribute__((unused)) static TYPE sample_##NAME(size_t index)                                                    \
+    {                                                                                                                  \
+        tn_builder *builder = sample_builder();                                                                        \
+        uint8_t *bytes;                                                                                                \
+        size_t size;                                                                                                   \
+        tn_module *module;                                                                                             \
+        assert_int_equal(tn_builder_finish(builder, &bytes, &size, NULL), TN_OK);                                      \
+        assert_int_equal(tn_module_load(bytes, size, NULL, &module, NULL), TN_OK);                                     \
+        assert_true(index < module->NAME##_count);                                                                     \
+        TYPE record = module->NAME##_records[index];                                                                   \
+        tn_module_free(module);                                                                                        \
+        tn_builder_free(builder);                                                                                      \
+        free(bytes);                                                                                                   \
+        return record;                                                                                                 \
+    }
+#include "runtime/module/records.def"
+#undef SECTION
+
+static void test_sample_is_good(void **state)
+{
+    (void)state;
+    expect(sample_builder(), TN_OK, NULL);
+    tn_builder *nothing = tn_builder_new();
+    expect(nothing, TN_OK, NULL); /* an empty module is one too */
+}
+
+static void test_strings(void **state)
+{
+    (void)state;
+    REFUSED(SCHEMA, tn_schema_record, 0, name = 1000000, "record 0 of SCHEMA has a string that is none");
+    REFUSED(RULE, tn_rule_record, 0, doc = 2, "record 0 of RULE has a string that is none");
+    tn_builder *builder = sample_builder();
+    tn_builder_string(builder, "\xC0\xAF");
+    expect(builder, TN_INVALID, "not UTF-8");
+    char longest[TN_NAME_MAX + 2];
+    memset(longest, 'n', sizeof longest);
+    for (int over = 0; over < 2; over++) {
+        builder = sample_builder();
+        tn_field_record field = sample_FIELD(0);
+        field.name = tn_builder_string_n(builder, longest, TN_NAME_MAX + (size_t)over);
+        tn_builder_set_FIELD(builder, 0, &field);
+        expect(builder, over ? TN_INVALID : TN_OK, over ? "field 0 has no name of 1 to 255 bytes" : NULL);
+    }
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    REFUSED(SCHEMA, tn_schema_record, 0, name = 0, "schema 0 has no name");
+    REFUSED(FIELD, tn_field_record, 2, name = 0, "field 2 has no name");
+    REFUSED(FIELD, tn_field_record, 2, name = sample_FIELD(0).name, "two fields of schema 0 have the same name");
+    REFUSED(VALUE, tn_value_record, 3, name = 0, "value 3 has no name");
+    REFUSED(VALUE, tn_value_record, 3, spelling = 0, "value 3 has no spelling");
+    REFUSED(VALUE, tn_value_record, 3, spelling = sample_VALUE(2).spelling, "two values of field 1 are spelled alike");
+    REFUSED(RULE, tn_rule_record, 0, name = 0, "rule 0 has no name");
+    REFUSED(LIBRARY, tn_library_record, 0, name = 0, "library 0 has no name");
+    REFUSED(CLAUSE, tn_clause_record, 1, name = 0, "clause 1 has no name");
+    tn_builder *builder = sample_builder();
+    tn_rule_record rule = sample_RULE(0);
+    tn_builder_add_RULE(builder, &rule);
+    expect(builder, TN_INVALID, "two rules have the same name");
+    builder = sample_builder();
+    tn_library_record library = sample_LIBRARY(0);
+    library.clause_first = 2;
+    library.clause_count = 0;
+    tn_builder_add_LIBRARY(builder, &library);
+    expect(builder, TN_INVALID, "two libraries have the same name");
+}
+
+static void test_schemas(void **state)
+{
+    (void)state;
+    REFUSED(SCHEMA, tn_schema_record, 0, field_count = 0, "schema 0 has 0 fields; 1 to 64 are possible");
+    REFUSED(SCHEMA, tn_schema_record, 0, field_count = 65, "schema 0 has 65 fields");
+    REFUSED(SCHEMA, tn_schema_record, 0, field_count = 3, "fields or values that belong to no schema");
+    REFUSED(SCHEMA, tn_schema_record, 0, field_count = 5, "the fields of schema 0 do not follow");
+    REFUSED(SCHEMA, tn_schema_record, 0, field_first = 1, "the fields of schema 0 do not follow");
+    REFUSED(SCHEMA, tn_schema_record, 0, forbid_first = 3, "schema 0 forbids trays that are not there");
+    REFUSED(SCHEMA, tn_schema_record, 0, forbid_count = UINT32_MAX, "schema 0 forbids trays that are not there");
+    REFUSED(FIELD, tn_field_record, 0, kind = TN_FIELD_KIND_COUNT, "field 0 has an unknown kind");
+    REFUSED(FIELD, tn_field_record, 0, role = TN_FIELD_ROLE_COUNT, "field 0 has an unknown kind or role");
+    REFUSED(FIELD, tn_field_record, 0, value_count = 0, "field 0 has 0 values; 1 to 255 are possible");
+    REFUSED(FIELD, tn_field_record, 0, value_count = 256, "field 0 has 256 values");
+    REFUSED(FIELD, tn_field_record, 0, value_count = 9, "the values of field 0 do not follow");
+    REFUSED(FIELD, tn_field_record, 1, value_first = 1, "the values of field 1 do not follow");
+    REFUSED(FIELD, tn_field_record, 2, value_count = 1, "field 2 is a flag with 1 values instead of 2");
+    REFUSED(VALUE, tn_value_record, 1, length = -1, "value 1 has a length out of range");
+    REFUSED(VALUE, tn_value_record, 1, length = TN_LENGTH_MAX + 1, "value 1 has a length out of range");
+    REFUSED(VALUE, tn_value_record, 7, role = TN_FILL_ROLE_COUNT, "value 7 has an unknown role");
+    tn_builder *builder = sample_builder();
+    tn_builder_add_VALUE(builder, &(tn_value_record){.name = 1, .spelling = 1});
+    expect(builder, TN_INVALID, "fields or values that belong to no schema");
+}
+
+static void test_second_schema(void **state)
+{
+    (void)state;
+    tn_builder *builder = sample_builder();
+    tn_builder_add_SCHEMA(builder, &(tn_schema_record){.name = tn_builder_string(builder, "other"),
+                                                       .field_first = 4,
+                                                       .field_count = 1,
+                                                       .forbid_count = 1});
+    sample_field(builder, "width", TN_FIELD_CHOICE, TN_ROLE_NONE);
+    sample_value(builder, "a", "a", "", 0, 0);
+    sample_value(builder, "b", "b", "", 0, 0);
+    expect(builder, TN_INVALID, "schema 1 forbids a tray of another schema");
+    builder = sample_builder();
+    tn_schema_record schema = sample_SCHEMA(0);
+    schema.field_first = 4;
+    schema.field_count = 1;
+    schema.forbid_count = 0;
+    tn_builder_add_SCHEMA(builder, &schema);
+    sample_field(builder, "width", TN_FIELD_CHOICE, TN_ROLE_NONE);
+    sample_value(builder, "a", "a", "", 0, 0);
+    sample_value(builder, "b", "b", "", 0, 0);
+    expect(builder, TN_INVALID, "two schemas have the same name");
+}
+
+static void test_specifiers(void **state)
+{
+    (void)state;
+    REFUSED(SPEC, tn_spec_record, 1, schema = 1, "specifier 1 is of schema 1, which is not there");
+    REFUSED(SPEC, tn_spec_record, 1, mask_first = 2, "specifier 1 has bits that are not there");
+    REFUSED(SPEC, tn_spec_record, 1, mask_first = UINT32_MAX, "specifier 1 has bits that are not there");
+    REFUSED(MASK, tn_mask_record, 1, bits = 0x1FD, "specifier 1 has a bit beyond the schema's last value");
+    REFUSED(MASK, tn_mask_record, 1, bits = -1, "specifier 1 has a bit beyond the schema's last value");
+}
+
+static void test_places(void **state)
+{
+    (void)state;
+    uint32_t size = (uint32_t)strlen(SAMPLE_SOURCE);
+    REFUSED(SCHEMA, tn_schema_record, 0, file = 1, "record 0 of SCHEMA names a place outside its source");
+    REFUSED(SPEC, tn_spec_record, 1, end = size + 1, "record 1 of SPEC names a place outside its source");
+    REFUSED(RULE, tn_rule_record, 0, begin = size, "record 0 of RULE names a place outside its source");
+    REFUSED(LIBRARY, tn_library_record, 0, end = size + 1, "record 0 of LIBRARY names a place outside its source");
+    REFUSED(CLAUSE, tn_clause_record, 1, begin = 1, "record 1 of CLAUSE names a place outside its source");
+    REFUSED(MAP, tn_map_record, 2, end = UINT32_MAX, "record 2 of MAP names a place outside its source");
+}
+
+static void test_rules_and_libraries(void **state)
+{
+    (void)state;
+    const char *reason = "rule 0 names a function of another kind or schema";
+    REFUSED(RULE, tn_rule_record, 0, whole = 2, reason);
+    REFUSED(RULE, tn_rule_record, 0, holds = 1, reason);
+    REFUSED(RULE, tn_rule_record, 0, holds = 4, reason);
+    REFUSED(RULE, tn_rule_record, 0, holds = 0, reason);
+    REFUSED(RULE, tn_rule_record, 0, schema = 1, reason);
+    REFUSED(RULE, tn_rule_record, 0, flags = 2, "rule 0 has unknown flags");
+    REFUSED(LIBRARY, tn_library_record, 0, flags = 2, "library 0 has unknown flags");
+    REFUSED(LIBRARY, tn_library_record, 0, schema = 1, "library 0 is of schema 1, which is not there");
+    REFUSED(LIBRARY, tn_library_record, 0, trays_min = 7, "library 0 has fewer trays at most than at least");
+    REFUSED(LIBRARY, tn_library_record, 0, clause_count = 1, "it has clauses that belong to no library");
+    REFUSED(LIBRARY, tn_library_record, 0, clause_count = 3, "the clauses of library 0 do not follow");
+    REFUSED(LIBRARY, tn_library_record, 0, clause_first = 1, "the clauses of library 0 do not follow");
+    REFUSED(CLAUSE, tn_clause_record, 0, kind = TN_CLAUSE_KIND_COUNT, "clause 0 is of an unknown kind");
+    REFUSED(CLAUSE, tn_clause_record, 0, holds = 1, "clause 0 names a function of another kind or schema");
+    tn_builder *builder = sample_builder();
+    tn_builder_add_PRODUCER(builder, &(tn_producer_record){0});
+    expect(builder, TN_INVALID, "more than one producer");
+}
+
+static void test_functions(void **state)
+{
+    (void)state;
+    REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "rule 0 names a function");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_KIND_COUNT, "function 0, code offset 0: 4 is no kind");
+    REFUSED(FUNCTION, tn_function_record, 1, stack_max = 1, "the stack passes the 1 that the function declares");
+    REFUSED(FUNCTION, tn_function_record, 1, code_begin = 0, "not the stretch after the one before");
+    REFUSED(FUNCTION, tn_function_record, 3, code_end = UINT32_MAX, "not the stretch after the one before");
+    REFUSED(FUNCTION, tn_function_record, 1, code_end = 0, "not the stretch after the one before");
+    REFUSED(FUNCTION, tn_function_record, 0, code_end = 0, "function 0, code offset 0: the function does not end with");
+    REFUSED(FUNCTION, tn_function_record, 0, code_end = 5, "LESS runs past the function's end");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE,
+            "LESS does not belong into this kind of function");
+    tn_builder *builder = sample_builder();
+    tn_builder_emit(builder, TN_OP_NOT, 0, 0);
+    expect(builder, TN_INVALID, "code that belongs to no function");
+}
+
+/* One more function, of these instructions, each an opcode and its two operands; ended by -1. */
+static tn_builder *with_code(tn_function_kind kind, uint32_t stack_max, const int64_t *code)
+{
+    tn_builder *builder = sample_builder();
+    uint32_t begin = tn_builder_offset(builder);
+    for (; code[0] >= 0; code += 3)
+        tn_builder_emit(builder, (tn_opcode)code[0], code[1], code[2]);
+    tn_builder_add_FUNCTION(builder, &(tn_function_record){.kind = kind,
+                                                           .code_begin = begin,
+                                                           .code_end = tn_builder_offset(builder),
+                                                           .stack_max = stack_max});
+    return builder;
+}
+
+#define CODE(...) ((const int64_t[]){__VA_ARGS__, -1})
+#define RETURN TN_OP_RETURN, 0, 0
+#define ANSWER TN_OP_ANSWER, 0, 0
+
+static void test_operands(void **state)
+{
+    (void)state;
+    tn_function_kind rule = TN_FUNCTION_HOLDS, condition = TN_FUNCTION_CONDITION;
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no specifier 2");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "function 5, which is not a lower one");
+    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is no part of a rule");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
+           "function 1 is no condition");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_OCCURRENCES, 9, 0, RETURN)), TN_INVALID,
+           "function 9 is no condition");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_SUM, 3, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_SUM, 1, 0, RETURN)), TN_INVALID, "field 1 has no lengths");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_SUM, 4, 0, RETURN)), TN_INVALID,
+           "field 4 is not of the function's schema");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_SUM, 0, 1, RETURN)), TN_INVALID,
+           "function 1 is no condition");
+    expect(with_code(condition, 9, CODE(TN_OP_REMAINDER, 1, 0, ANSWER)), TN_OK, NULL);
+    expect(with_code(condition, 9, CODE(TN_OP_REMAINDER, 0, 0, ANSWER)), TN_INVALID, "a divisor above 0");
+    expect(with_code(condition, 9, CODE(TN_OP_REMAINDER, 3, -1, ANSWER)), TN_INVALID, "a rest not below 0");
+    expect(with_code(condition, 9, CODE(TN_OP_WITHIN, INT64_MAX, INT64_MIN, ANSWER)), TN_OK, NULL);
+}
+
+static void test_stack(void **state)
+{
+    (void)state;
+    tn_function_kind rule = TN_FUNCTION_HOLDS, condition = TN_FUNCTION_CONDITION;
+    expect(with_code(rule, 9, CODE(RETURN)), TN_INVALID, "RETURN takes 1 from a stack of 0");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, TN_OP_AND, 0, 0, RETURN)), TN_INVALID,
+           "AND takes 2 from a stack of 1");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, TN_OP_TRAY, 1, 0, RETURN)), TN_INVALID, "RETURN leaves 1");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0)), TN_INVALID, "does not end with RETURN, ANSWER or VALUE");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, RETURN, TN_OP_TRAY, 1, 0, RETURN)), TN_INVALID,
+           "code follows the function's end");
+    expect(with_code(rule, 1, CODE(TN_OP_TRAY, 1, 0, TN_OP_TRAY, 1, 0, TN_OP_OR, 0, 0, RETURN)), TN_INVALID,
+           "the stack passes the 1 that the function declares");
+    expect(with_code(rule, 4096, CODE(TN_OP_TRAY, 1, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 4097, CODE(TN_OP_TRAY, 1, 0, RETURN)), TN_LIMIT,
+           "declares a stack of 4097; the limit is 4096");
+    expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, ANSWER)), TN_INVALID, "ANSWER does not belong");
+    expect(with_code(condition, 9, CODE(TN_OP_LESS, 1, 0, RETURN)), TN_INVALID, "RETURN does not belong");
+    expect(with_code(condition, 9, CODE(TN_OP_LESS, 1, 0, TN_OP_BOTH, 0, 0, ANSWER)), TN_INVALID,
+           "BOTH takes 2 from a stack of 1");
+}
+
+static void test_map(void **state)
+{
+    (void)state;
+    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(1).offset + 1, "the source map's record 1 names no instruction");
+    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(0).offset, "the source map does not ascend at its record 1");
+    REFUSED(MAP, tn_map_record, 0, offset = sample_MAP(1).offset, "the source map does not ascend at its record 1");
+    REFUSED(MAP, tn_map_record, 2, offset = UINT32_MAX, "the source map names places past the code");
+}
+
+/* The reason names the code offset, so that a finding can be shown in the source. */
+static void test_error_has_the_code_offset(void **state)
+{
+    (void)state;
+    tn_builder *builder = with_code(TN_FUNCTION_HOLDS, 9, CODE(TN_OP_TRAY, 1, 0, TN_OP_AND, 0, 0, RETURN));
+    uint32_t offset = tn_builder_offset(builder) - 2;
+    uint8_t *bytes;
+    size_t size;
+    tn_module *module;
+    tn_error error;
+    assert_int_equal(tn_builder_finish(builder, &bytes, &size, &error), TN_OK);
+    assert_int_equal(tn_module_load(bytes, size, NULL, &module, &error), TN_INVALID);
+    assert_int_equal(error.code, 703);
+    assert_int_equal(error.code_offset, offset);
+    tn_builder_free(builder);
+    free(bytes);
+}
+
+/* Texts that many records share are not measured without end. */
+static void test_sources_are_bounded_together(void **state)
+{
+    (void)state;
+    tn_builder *builder = tn_builder_new();
+    size_t length = 1000000;
+    char *text = malloc(length);
+    memset(text, 'x', length);
+    tn_string shared = tn_builder_string_n(builder, text, length);
+    for (int i = 0; i < 1000; i++)
+        tn_builder_add_SOURCE(builder, &(tn_source_record){.text = shared});
+    free(text);
+    expect(builder, TN_LIMIT, "the module's sources together pass the limit of 268435456 bytes");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sample_is_good),
+        cmocka_unit_test(test_strings),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_schemas),
+        cmocka_unit_test(test_second_schema),
+        cmocka_unit_test(test_specifiers),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_rules_and_libraries),
+        cmocka_unit_test(test_functions),
+        cmocka_unit_test(test_operands),
+        cmocka_unit_test(test_stack),
+        cmocka_unit_test(test_map),
+        cmocka_unit_test(test_error_has_the_code_offset),
+        cmocka_unit_test(test_sources_are_bounded_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

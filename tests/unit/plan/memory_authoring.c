@@ -1,0 +1,207 @@
+/* Out of memory in what an author asks for: explanations, coverage, reports, exports and pictures of rules. Each of our
+ * allocations fails once, and then all from there on. What fails must say so and leave nothing behind; what does not
+ * fail must be what it is with memory enough. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "driver/report/report.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/picture/draw_rule.h"
+#include "runtime/plan/text/export_prolog.h"
+#include "runtime/plan/text/export_regex.h"
+#include "tests/support/failing_memory.h"
+#include "tests/support/test_schema.h"
+
+static const char text[] =
+    "schema row { width role length = 1m | 2m height role level = low | high door = flag\n"
+    "  zone wall role band = brick(300mm) role solid | none role absent }\n"
+    "rule pair \"two doors\" = neighbour(tray(door), optional(tray(2m)), tray(door))\n"
+    "rule ends = symmetric neighbour(beginning, tray(wall none)) and quantity(tray(door), n >= 1)\n"
+    "rule far = distance(from tray(high), to tray(door), by sum(width of any, w > 1m))\n"
+    "library rows { trays 2..3 total width <= 5m require quantity(tray(high), n >= 1) prune pair, ends, far\n"
+    "  prune not tray(door) and pair as odd \"it cannot be\" }\n"
+    "test pair { match [door | door] reject [1m] }\n"
+    "test rows { keep [1m | high door] drop [door | door] by pair }\n";
+
+static const tn_tray dropped[] = {3, 2, 3, 0, 5, 5};
+
+/* The file, opened with memory enough. */
+typedef struct opened_rows {
+    tn_opened opened;
+    tn_ready_library ready;
+    tn_plan_analyses analyses;
+    tn_covered covered;
+} opened_rows;
+
+typedef tn_status (*operation)(opened_rows *rows, tn_buffer *out, tn_error *error);
+
+static tn_status explain(opened_rows *rows, tn_buffer *out, tn_error *error)
+{
+    tn_explained explained;
+    tn_near_finder *finder = NULL;
+    tn_picture picture = {.number = 1};
+    tn_status status = tn_explained_make(&explained, &rows->opened, rows->ready.schema, rows->ready.record, NULL, 0,
+                                         dropped, 6, 100, error);
+    if (status == TN_OK)
+        status = tn_near_finder_new(rows->ready.schema, rows->ready.index, NULL, &finder, error);
+    if (status == TN_OK)
+        status = tn_explained_near(&explained, finder, 3, error);
+    explained.automaton = rows->ready.library;
+    if (status == TN_OK && !(tn_explained_text(&explained, false, out) && tn_explained_text(&explained, true, out) &&
+                             tn_explained_json(&explained, out)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_explained_draw(&explained, true, &picture, error);
+    if (status == TN_OK && !tn_buffer_append(out, picture.element, picture.size))
+        status = tn_fail_memory(error);
+    free(picture.element);
+    tn_near_finder_free(finder);
+    tn_explained_clear(&explained);
+    return status;
+}
+
+static tn_status cover(opened_rows *rows, tn_buffer *out, tn_error *error)
+{
+    const tn_coverage_options options = {.imported = true};
+    tn_covered covered;
+    tn_status status = tn_coverage_measure(&rows->opened, &options, &covered);
+    if (status == TN_MEMORY)
+        tn_fail_memory(error);
+    if (status == TN_OK && !(tn_covered_text(&covered, out) && tn_covered_json(&covered, out)))
+        status = tn_fail_memory(error);
+    tn_covered_clear(&covered);
+    return status;
+}
+
+static tn_status report(opened_rows *rows, tn_buffer *out, tn_error *error)
+{
+    const tn_report_options options = {.samples = 1, .seed = 3};
+    return tn_report_page(&rows->opened, &rows->ready, &rows->analyses, &rows->covered, &options, out, error);
+}
+
+static tn_status draw(opened_rows *rows, tn_buffer *out, tn_error *error)
+{
+    tn_picture picture = {.number = 1};
+    tn_drawn_rule rules[3];
+    for (uint32_t i = 0; i < 3; i++)
+        rules[i] = tn_drawn_rule_of(rows->opened.module, i);
+    tn_status status = tn_rules_draw(rows->ready.schema, rules, 3, &picture, error);
+    if (status == TN_OK && !tn_buffer_append(out, picture.element, picture.size))
+        status = tn_fail_memory(error);
+    free(picture.element);
+    return status;
+}
+
+static tn_status export(opened_rows *rows, tn_buffer *out, tn_error *error)
+{
+    const tn_module *module = rows->opened.module;
+    tn_classes *classes = NULL;
+    tn_lowering *lowering = NULL;
+    tn_dfa *dfa = NULL;
+    tn_status status = tn_export_prolog(rows->ready.schema, out, error);
+    if (status == TN_OK)
+        status = tn_classes_new(rows->ready.schema, &module->RULE_records[1].holds, 1, &classes, error);
+    if (status == TN_OK)
+        status = tn_lowering_new(classes, 0, &lowering, error);
+    if (status == TN_OK)
+        status = tn_lower(lowering, module->RULE_records[1].holds, &dfa, error);
+    if (status == TN_OK)
+        status = tn_export_regex(dfa, out, error);
+    if (status == TN_OK)
+        status = tn_regex_legend(dfa, classes, out, error);
+    if (status == TN_OK && !tn_regex_plan(dfa, classes, dropped, 6, out))
+        status = tn_fail_memory(error);
+    tn_dfa_free(dfa);
+    tn_lowering_free(lowering);
+    tn_classes_free(classes);
+    return status;
+}
+
+/* step: of the allocations after the first, every one in this many more. */
+static void expect_robust(operation operate, opened_rows *rows, size_t step)
+{
+    tn_buffer expected = {0};
+    size_t failures = 0;
+    tn_error error = {0};
+    test_ok(operate(rows, &expected, &error), &error);
+    for (int all_after = 0; all_after < 2; all_after++) {
+        for (size_t number = 0, reached = 1; reached > 0; number += 1 + number / step) {
+            tn_buffer out = {0};
+            error = (tn_error){0};
+            fail_allocation(number, all_after);
+            tn_status status = operate(rows, &out, &error);
+            reached = stop_failing() > number;
+            if (status == TN_OK && (out.size != expected.size || memcmp(out.data, expected.data, out.size) != 0))
+                fail_msg("without allocation %zu the result is another", number);
+            if (status != TN_OK && (status != TN_MEMORY || error.code != 801))
+                fail_msg("without allocation %zu: %s", number, error.message);
+            failures += status != TN_OK;
+            free(out.data);
+        }
+    }
+    free(expected.data);
+    assert_true(failures > 20);
+}
+
+static void explaining(void **state)
+{
+    expect_robust(explain, *state, 16);
+}
+
+static void covering(void **state)
+{
+    expect_robust(cover, *state, 10);
+}
+
+static void reporting(void **state)
+{
+    expect_robust(report, *state, 6);
+}
+
+static void drawing(void **state)
+{
+    expect_robust(draw, *state, 30);
+}
+
+static void exporting(void **state)
+{
+    expect_robust(export, *state, 30);
+}
+
+static int open_rows(void **state)
+{
+    static const tn_library_options options = {0};
+    static const tn_coverage_options coverage = {.imported = true};
+    opened_rows *rows = calloc(1, sizeof *rows);
+    assert_non_null(rows);
+    *state = rows;
+    if (tn_open_bytes("rows.plan", (const uint8_t *)text, strlen(text), false, &rows->opened) != TN_OK ||
+        tn_library_ready(&rows->opened, NULL, &options, &rows->ready) != TN_OK ||
+        tn_plan_analyse(&rows->opened, 0, &rows->analyses) != TN_OK ||
+        tn_coverage_measure(&rows->opened, &coverage, &rows->covered) != TN_OK)
+        fail_msg("%s", rows->opened.compilation.diagnostics.items[0].message);
+    return 0;
+}
+
+static int close_rows(void **state)
+{
+    opened_rows *rows = *state;
+    tn_covered_clear(&rows->covered);
+    tn_plan_analyses_free(&rows->analyses);
+    tn_library_close(&rows->ready);
+    tn_close(&rows->opened);
+    free(rows);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(explaining), cmocka_unit_test(covering),
+                                       cmocka_unit_test(reporting), cmocka_unit_test(drawing),
+                                       cmocka_unit_test(exporting)};
+    return cmocka_run_group_tests(tests, open_rows, close_rows);
+}
