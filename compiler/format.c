@@ -204,7 +204,7 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     bool same;
     tn_status status = read_text(arena, diagnostics, notation, path, text, size, &before, error);
     if (status == TN_OK && !is_whole(&diagnostics->sources->files[before.file], &before.tokens))
-        return tn_fail(error, TN_INTERNAL, 0, "laid out, %s would lose something: it stays as it is", path);
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "laid out, %s would lose something: it stays as it is", path);
     if (status == TN_OK)
         status = lay_out(arena, diagnostics, notation, &before, &laid_out, formatted_size, error);
     if (status == TN_OK)
@@ -212,7 +212,8 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     if (status != TN_OK)
         return status;
     if (!same)
-        return tn_fail(error, TN_INTERNAL, 0, "laid out, %s would not mean the same: it stays as it is", path);
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "laid out, %s would not mean the same: it stays as it is",
+                       path);
     *formatted = malloc(*formatted_size + 1);
     if (!*formatted)
         return tn_fail_memory(error);

@@ -469,7 +469,7 @@ tn_status tn_lsp_serve(int input, FILE *output, tn_error *error)
         status = ferror(output) ? tn_fail(error, TN_IO, E_CANNOT_WRITE, "the client does not read what it is sent")
                                 : tn_fail_memory(error);
     else if (status == TN_OK && !s.shut_down)
-        status = tn_fail(error, TN_INVALID, 0, "the client went away without `shutdown`");
+        status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the client went away without `shutdown`");
     end_background(&s);
     tn_workspace_clear(&s.workspace);
     tn_wire_clear(&s.wire);

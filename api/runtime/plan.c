@@ -19,9 +19,10 @@ tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t le
 {
     for (size_t i = 0; i < length; i++)
         if (trays[i] >= schema->tray_count)
-            return tn_fail(
-                error, TN_INVALID, 0, "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
-                (unsigned)trays[i], tn_text(schema->module, schema->record->name), (unsigned)schema->tray_count - 1);
+            return tn_fail(error, TN_INVALID, TN_CODE_NONE,
+                           "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
+                           (unsigned)trays[i], tn_text(schema->module, schema->record->name),
+                           (unsigned)schema->tray_count - 1);
     return TN_OK;
 }
 

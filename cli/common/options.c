@@ -6,8 +6,6 @@
 #include "cli/common/option_rows.h"
 #include "compiler/common/diagnostic.h"
 
-enum { USAGE = E_USAGE };
-
 const tn_option tn_common_options[] = {
     CHOICE("diagnostics", 0, "FORM", diagnostics, "text|json",
            "how errors and warnings are written on standard error: text (default) or json"),
@@ -81,7 +79,7 @@ static tn_status see_help(parse *p, tn_status status)
 
 static tn_status unknown_option(parse *p, const char *name, size_t length)
 {
-    tn_status status = tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` has no option --%.*s", p->command->name,
+    tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option --%.*s", p->command->name,
                                (int)(length < 80 ? length : 80), name);
     const char *names[64];
     size_t count = 0;
@@ -100,7 +98,7 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
 static tn_status unknown_letter(parse *p, const char *letters)
 {
     tn_status status =
-        tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` has no option -%.60s", p->command->name, letters);
+        tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option -%.60s", p->command->name, letters);
     if (letters[0] >= '0' && letters[0] <= '9')
         tn_error_help(p->error, "numbers here are 0 or more; what is no option goes after --");
     return see_help(p, status);
@@ -137,7 +135,7 @@ static bool within(const tn_option *option, uint64_t value)
 
 static tn_status bad_number(parse *p, const tn_option *option, const char *text, const char *what)
 {
-    return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes %s from %llu to %llu, not `%.60s`", option->name, what,
+    return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes %s from %llu to %llu, not `%.60s`", option->name, what,
                    (unsigned long long)option->low, (unsigned long long)most(option), text);
 }
 
@@ -161,7 +159,7 @@ static tn_status set_range(parse *p, const tn_option *option, const char *text)
         !tn_number_read(dots ? dots + 2 : low, &range->high) || !within(option, range->high))
         return bad_number(p, option, text, "a range a..b");
     if (range->low > range->high) {
-        tn_status status = tn_fail(p->error, TN_INVALID, USAGE, "the range --%s %.60s is empty", option->name, text);
+        tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "the range --%s %.60s is empty", option->name, text);
         tn_error_help(p->error, "write the smaller number first: %llu..%llu", (unsigned long long)range->high,
                       (unsigned long long)range->low);
         return status;
@@ -173,7 +171,7 @@ static tn_status set_range(parse *p, const tn_option *option, const char *text)
 static tn_status set_rank(parse *p, const tn_option *option, const char *text)
 {
     if (!*text || strspn(text, "0123456789") != strlen(text))
-        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes a rank, a whole number from 0, not `%.60s`",
+        return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes a rank, a whole number from 0, not `%.60s`",
                        option->name, text);
     *(const char **)place_of(p, option) = text;
     return TN_OK;
@@ -202,7 +200,7 @@ static tn_status set_choice(parse *p, const tn_option *option, const char *text)
         size_t used = 0;
         for (const char *c = option->choices; *c && used + 8 < sizeof list; c++)
             used += (size_t)snprintf(list + used, sizeof list - used, *c == '|' ? ", " : "%c", *c);
-        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes one of %s, not `%.60s`", option->name, list, text);
+        return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes one of %s, not `%.60s`", option->name, list, text);
     }
     *(int *)place_of(p, option) = index;
     return TN_OK;
@@ -221,7 +219,7 @@ static tn_status set_real(parse *p, const tn_option *option, const char *text)
     char *end;
     real->value = strtod(text, &end);
     if (end == text || *end || !(real->value > -1e9 && real->value < 1e9))
-        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes a number, not `%.60s`", option->name, text);
+        return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes a number, not `%.60s`", option->name, text);
     real->given = true;
     return TN_OK;
 }
@@ -232,8 +230,8 @@ static tn_status set_text(parse *p, const tn_option *option, const char *text)
     static const char *const names[] = {"FILE", "FOLDER", "DIR", "NAME", "HOW"};
     for (size_t i = 0; i < OPTION_COUNT(names) && !*text; i++)
         if (strcmp(option->argument, names[i]) == 0)
-            return tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s, which is empty here", option->name,
-                           option->argument);
+            return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s needs its argument %s, which is empty here",
+                           option->name, option->argument);
     *(const char **)place_of(p, option) = text;
     return TN_OK;
 }
@@ -272,7 +270,7 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
     case TN_OPTION_REAL:
         return set_real(p, option, text);
     }
-    return tn_fail(p->error, TN_INTERNAL, 0, "option --%s has a kind that is not known", option->name);
+    return tn_fail(p->error, TN_INTERNAL, TN_CODE_NONE, "option --%s has a kind that is not known", option->name);
 }
 
 /* Is this word one of the command's options: "-o", "--output" or "--output=FILE"? */
@@ -287,7 +285,7 @@ static bool is_option(const tn_command *command, const char *word)
 static tn_status lacks_argument(parse *p, const tn_option *option, const char *next)
 {
     tn_status status =
-        tn_fail(p->error, TN_INVALID, USAGE, "--%s needs its argument %s%s%.60s%s", option->name, option->argument,
+        tn_fail(p->error, TN_INVALID, E_USAGE, "--%s needs its argument %s%s%.60s%s", option->name, option->argument,
                 next ? ", but the option " : "", next ? next : "", next ? " follows" : "");
     tn_error_help(p->error, "--%s %s: %s", option->name, option->argument, option->help);
     return status;
@@ -297,7 +295,7 @@ static tn_status lacks_argument(parse *p, const tn_option *option, const char *n
 static tn_status set_from_words(parse *p, const tn_option *option, const char *inline_text)
 {
     if (!option->argument && inline_text)
-        return tn_fail(p->error, TN_INVALID, USAGE, "--%s takes no argument", option->name);
+        return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes no argument", option->name);
     bool may_lack = option->kind == TN_OPTION_MAYBE;
     if (may_lack && !inline_text) { /* the next word only where it is one of the choices */
         if (p->next < p->count && choice_index(option->choices, p->words[p->next]) >= 0)
@@ -356,13 +354,13 @@ static tn_status check_operands(parse *p)
     size_t count = p->settings->operands.count;
     if (count < p->command->operands_min) {
         tn_status status =
-            tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` needs %s", p->command->name, p->command->operands);
+            tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` needs %s", p->command->name, p->command->operands);
         help_usage(p);
         return status;
     }
     if (count > p->command->operands_max) {
         tn_status status =
-            tn_fail(p->error, TN_INVALID, USAGE, "`tartan %s` takes %s; `%.60s` is one too many", p->command->name,
+            tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` takes %s; `%.60s` is one too many", p->command->name,
                     p->command->operands, p->settings->operands.items[p->command->operands_max]);
         return see_help(p, status);
     }

@@ -16,7 +16,7 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
         if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
             status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
         else
-            status = tn_fail(&error, TN_INTERNAL, 0, "a sampled rank is not in the library");
+            status = tn_fail(&error, TN_INTERNAL, TN_CODE_NONE, "a sampled rank is not in the library");
     }
     if (status != TN_OK)
         tn_job_fail(job, &error);

@@ -69,7 +69,7 @@ static uint32_t read_digits(const char *text, size_t left, size_t most, int base
 
 static void put_code(piece_writer *w, uint32_t code)
 {
-    if (code == 0)
+    if (code == TN_CODE_NONE)
         bad_escape(w, "a terminal cannot hold the character 0");
     else if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000))
         bad_escape(w, "there is no character of that number");

@@ -14,19 +14,10 @@
 #include <stdio.h>
 
 #include "compiler/common/source.h"
+#include "runtime/base/codes.h"
 #include "runtime/base/nearest.h"
 
 typedef enum tn_severity { TN_NOTE, TN_WARNING, TN_ERROR } tn_severity;
-
-/* E_... and W_... : one for each row of codes.def; the value is the number (E0301 -> 301, W012 -> 10012). */
-typedef enum tn_code {
-    TN_CODE_NONE = 0, /* a note that stands alone, as "rule r falls back to the VM" */
-#define ERROR(NUMBER, NAME, SUMMARY) E_##NAME = NUMBER,
-#define WARNING(NUMBER, NAME, SUMMARY) W_##NAME = 10000 + NUMBER,
-#include "runtime/base/codes.def"
-#undef ERROR
-#undef WARNING
-} tn_code;
 
 typedef struct tn_diagnostic_note {
     bool has_span;
@@ -36,7 +27,7 @@ typedef struct tn_diagnostic_note {
 
 typedef struct tn_diagnostic {
     tn_severity severity;
-    uint32_t code; /* a tn_code */
+    tn_code code;
     bool has_span;
     tn_span span;
     char *message;

@@ -22,11 +22,11 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
                          tn_error *error)
 {
     if (size > TN_SOURCE_BYTES_MAX)
-        return tn_fail(error, TN_LIMIT, 804, "%s is %zu bytes long; the limit for a source file is %u", path, size,
-                       TN_SOURCE_BYTES_MAX);
+        return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE, "%s is %zu bytes long; the limit for a source file is %u",
+                       path, size, TN_SOURCE_BYTES_MAX);
     if (size > TN_SOURCES_BYTES_MAX - sources->bytes)
-        return tn_fail(error, TN_LIMIT, 804, "with %s the source files together pass the limit of %u bytes", path,
-                       TN_SOURCES_BYTES_MAX);
+        return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE,
+                       "with %s the source files together pass the limit of %u bytes", path, TN_SOURCES_BYTES_MAX);
     tn_status status = grow(sources, error);
     if (status != TN_OK)
         return status;

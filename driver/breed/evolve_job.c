@@ -177,7 +177,7 @@ static tn_status never_evaluate(void *context, unsigned thread, const char *sent
                                 char message[200], tn_error *error)
 {
     (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
-    return tn_fail(error, TN_INTERNAL, 0, "a score is missing in the run's database");
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a score is missing in the run's database");
 }
 
 static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,

@@ -67,7 +67,7 @@ static tn_status same_study(tn_run *run, tn_error *error)
             was += line;
             is += line;
         }
-        status = tn_fail(error, TN_INVALID, 1252,
+        status = tn_fail(error, TN_INVALID, E_RUN_DIFFERS,
                          "the run in %.100s was started with another study: it has `%.*s`, and this one `%.*s`",
                          run->dir, (int)strcspn(was, "\n"), was, (int)strcspn(is, "\n"), is);
         start_anew(error);
@@ -81,7 +81,8 @@ static tn_status same_grammar(tn_run *run, const char *now, tn_error *error)
     char *stored;
     tn_status status = tn_run_store_get_meta(run->store, "grammar", &stored, error);
     if (status == TN_OK && (!stored || strcmp(stored, now) != 0)) {
-        status = tn_fail(error, TN_INVALID, 1252, "the run in %.200s was started with another grammar", run->dir);
+        status =
+            tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the run in %.200s was started with another grammar", run->dir);
         start_anew(error);
     }
     free(stored);
@@ -142,7 +143,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
     if (run->generations == 0 || !evaluator->adjust) {
-        tn_fail(error, TN_INVALID, 1232,
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
         tn_error_help(error, run->generations ? "targets and weights belong to growing and learning"
                                               : "change the study itself");
@@ -259,7 +260,7 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
     if (status != TN_OK)
         return status;
     if (!begun && unlink(path) != 0)
-        return tn_fail(error, TN_IO, 902, "cannot begin %.200s again: %s", path, strerror(errno));
+        return tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot begin %.200s again: %s", path, strerror(errno));
     if (!begun)
         return begin_new(run, path, options, texts, error);
     status = tn_run_store_open(path, options->durable, false, &run->store, error);
@@ -342,9 +343,10 @@ static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
     if (status == TN_OK)
         status = tn_run_store_get_meta(run->store, "grammar", &text, error);
     if (status == TN_OK && (!path || !text))
-        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no grammar");
+        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no grammar");
     if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)
-        status = tn_fail(error, TN_INVALID, 1252, "the run's grammar does not compile with this version of tartan");
+        status =
+            tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the run's grammar does not compile with this version of tartan");
     free(path);
     free(text);
     return status;
@@ -358,11 +360,11 @@ static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study 
     tn_compilation *c = &opened->compilation;
     tn_status status = tn_run_store_get_meta(run->store, "study", &text, error);
     if (status == TN_OK && !text)
-        status = tn_fail(error, TN_INVALID, 1251, "the run's database holds no study");
+        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no study");
     if (status == TN_OK)
         status = tn_sources_add(&c->sources, "run.study", text, strlen(text), &file, error);
     if (status == TN_OK && !tn_evolution_settings_read(&c->sources, file, &c->diagnostics, c->arena, study))
-        status = tn_fail(error, TN_INVALID, 1252, "the run's study cannot be read by this version of tartan");
+        status = tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the run's study cannot be read by this version of tartan");
     free(text);
     return status;
 }
@@ -372,7 +374,7 @@ static tn_status stored_number(tn_run *run, const char *key, uint64_t *number, t
     char *text = NULL;
     tn_status status = tn_run_store_get_meta(run->store, key, &text, error);
     if (status == TN_OK && !(text && *text))
-        status = tn_fail(error, TN_INVALID, 1251, "the run's database does not say its %s", key);
+        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database does not say its %s", key);
     if (status == TN_OK)
         *number = strtoull(text, NULL, 10);
     free(text);
@@ -415,7 +417,7 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
         if (newest[i]->id == id)
             *individual = newest[i];
     if (status == TN_OK && !*individual) {
-        status = tn_fail(error, TN_INVALID, 1241, "the run has no individual %" PRIu64, id);
+        status = tn_fail(error, TN_INVALID, E_NO_INDIVIDUAL, "the run has no individual %" PRIu64, id);
         tn_error_help(error, "its folder has the best (best/scores.csv), its run.sqlite all");
     }
     return status;

@@ -35,7 +35,7 @@ void tn_grower_free(tn_grower *g)
 static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
 {
     if (tn_open(path, false, &g->opened) != TN_OK) {
-        return tn_fail(error, TN_INVALID, 1245, "the growth study %.100s cannot be used: %.300s", path,
+        return tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.100s cannot be used: %.300s", path,
                        tn_first_error(&g->opened));
     }
     tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
@@ -43,12 +43,13 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
         if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
             g->goals[g->goal_count++] = goal;
     if (status == TN_OK && g->separately && g->goal_count > TN_OBJECTIVES_MAX) {
-        status = tn_fail(error, TN_LIMIT, 1245, "the growth study %.200s wants %zu things; `selection nsga2` weighs %u",
-                         path, g->goal_count, TN_OBJECTIVES_MAX);
+        status = tn_fail(error, TN_LIMIT, E_GROWTH_STUDY,
+                         "the growth study %.200s wants %zu things; `selection nsga2` weighs %u", path, g->goal_count,
+                         TN_OBJECTIVES_MAX);
         tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
     }
     if (status == TN_OK && g->goal_count == 0) {
-        status = tn_fail(error, TN_INVALID, 1245, "the growth study %.200s wants nothing of a surface", path);
+        status = tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.200s wants nothing of a surface", path);
         tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
     }
     g->study.options.threads = 1;
@@ -194,7 +195,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
                     : is_term ? wants->weight[goal]
                               : named->weight;
     if (!found || !change[length] || !read_wish(change + length, &target, &weight)) {
-        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
         tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
                       name_of(g, g->goals[0]));
         return TN_INVALID;

@@ -45,7 +45,7 @@ void tn_learner_free(tn_learner *l)
 static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_error *error)
 {
     if (l->count == EXAMPLES_MAX)
-        return tn_fail(error, TN_LIMIT, 1244, "there are more than %u examples, the limit", EXAMPLES_MAX);
+        return tn_fail(error, TN_LIMIT, E_EXAMPLES, "there are more than %u examples, the limit", EXAMPLES_MAX);
     if (l->count == l->capacity) {
         size_t capacity = l->capacity ? l->capacity * 2 : 256;
         example *grown = realloc(l->examples, capacity * sizeof *grown);
@@ -96,7 +96,7 @@ static tn_status find_schema(tn_learner *l, const char *name, const char *user, 
     }
     tn_status status = tn_open_bytes(l->user, (const uint8_t *)text, strlen(text), false, &l->opened);
     if (status != TN_OK) {
-        status = tn_fail(error, TN_INVALID, 1244, "the schema `%.200s` of the examples cannot be used", name);
+        status = tn_fail(error, TN_INVALID, E_EXAMPLES, "the schema `%.200s` of the examples cannot be used", name);
         tn_error_help(error, "name a .plan file that declares it, or one of the standard library, as \"lahave\"");
     } else {
         const tn_module *module = l->opened.module;
@@ -128,7 +128,7 @@ tn_status tn_learner_read(tn_learner *learner, const char *path, bool drop, tn_e
     tn_status status = read_examples(learner, learner->schema, path, drop, error);
     if (status != TN_OK || learner->count > before)
         return status;
-    tn_fail(error, TN_INVALID, 1244, "%.200s holds no plans to learn from", path);
+    tn_fail(error, TN_INVALID, E_EXAMPLES, "%.200s holds no plans to learn from", path);
     tn_error_help(error, "one plan a line, as `tartan sample` writes them");
     return TN_INVALID;
 }
@@ -152,14 +152,14 @@ static tn_status count_wrong(const tn_learner *l, const tn_rules *rules, uint64_
 static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *wrong, tn_error *error)
 {
     if (module->RULE_count == 0)
-        return tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the sentence holds no rule");
     const tn_rule_record *rule = &module->RULE_records[module->RULE_count - 1];
     tn_rules_options options = {.engine = TN_ENGINE_DFA, .max_states = STATES_MAX};
     tn_schema *schema = NULL;
     tn_rules *rules = NULL;
     tn_status status = tn_schema_new(module, rule->schema, 0, &schema, error);
     if (status == TN_OK && schema->tray_count != l->schema->tray_count)
-        status = tn_fail(error, TN_INVALID, 0, "the rule is of another schema than the examples");
+        status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the rule is of another schema than the examples");
     if (status == TN_OK)
         status = tn_rules_new(schema, &rule->holds, 1, &options, &rules, error);
     if (status == TN_OK)
@@ -198,7 +198,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
     char *end = NULL;
     double weight = strncmp(change, name, sizeof name - 1) == 0 ? strtod(change + sizeof name - 1, &end) : -1;
     if (!end || end == change + sizeof name - 1 || *end || !(weight >= 0 && weight <= 1000)) {
-        tn_fail(error, TN_INVALID, 1232, "`%.100s` changes nothing that this run has", change);
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
         tn_error_help(error, "a run that learns a rule has `length-weight X`, from 0 to 1000");
         return TN_INVALID;
     }
@@ -221,7 +221,7 @@ tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *erro
     tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, strlen(sentence), false, &opened);
     const tn_module *module = opened.module;
     if (status != TN_OK || module->RULE_count == 0) {
-        status = tn_fail(error, TN_INVALID, 0, "the sentence holds no rule");
+        status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the sentence holds no rule");
     } else {
         uint32_t rule = (uint32_t)module->RULE_count - 1;
         tn_drawn_rule drawn = tn_drawn_rule_of(module, rule);

@@ -122,7 +122,8 @@ const char *tn_first_error(const tn_opened *opened)
 
 tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error)
 {
-    return status == TN_MEMORY ? tn_fail_memory(error) : tn_fail(error, status, 0, "%.400s", tn_first_error(opened));
+    return status == TN_MEMORY ? tn_fail_memory(error)
+                               : tn_fail(error, status, TN_CODE_NONE, "%.400s", tn_first_error(opened));
 }
 
 void tn_close(tn_opened *opened)

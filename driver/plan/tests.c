@@ -91,14 +91,15 @@ static tn_status match(block *b, const tn_test_case *test, tn_error *error)
     for (size_t i = 0; i < test->length; i++) {
         b->trays[i] = tn_schema_tray(b->schema, test->values + i * b->schema->field_count);
         if (b->trays[i] == TN_NO_TRAY)
-            return tn_fail(error, TN_INTERNAL, 0, "a test of `%.80s` holds a forbidden tray", b->tests->subject);
+            return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a test of `%.80s` holds a forbidden tray",
+                           b->tests->subject);
     }
     tn_status status = tn_match(b->interpreter.matcher, b->trays, test->length, b->interpreter.bits, error);
     if (status == TN_OK)
         status = tn_match(b->automata.matcher, b->trays, test->length, b->automata.bits, error);
     for (size_t i = 0; status == TN_OK && i < b->rule_count; i++)
         if ((b->interpreter.bits[i / 64] ^ b->automata.bits[i / 64]) >> (i % 64) & 1)
-            status = tn_fail(error, TN_INTERNAL, 0,
+            status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE,
                              "the two engines disagree about `%.80s`; please report this with the rule file",
                              rule_name(b, i));
     return status;

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-tn_status tn_fail(tn_error *error, tn_status status, uint32_t code, const char *format, ...)
+tn_status tn_fail(tn_error *error, tn_status status, tn_code code, const char *format, ...)
 {
     if (!error)
         return status;
@@ -16,7 +16,7 @@ tn_status tn_fail(tn_error *error, tn_status status, uint32_t code, const char *
 
 tn_status tn_fail_memory(tn_error *error)
 {
-    return tn_fail(error, TN_MEMORY, 801, "out of memory");
+    return tn_fail(error, TN_MEMORY, E_OUT_OF_MEMORY, "out of memory");
 }
 
 void tn_error_help(tn_error *error, const char *format, ...)

@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "runtime/base/codes.h"
+
 typedef enum tn_status {
     TN_OK = 0,
     TN_INVALID,  /* the rules or the input are wrong */
@@ -26,7 +28,7 @@ typedef enum tn_status {
 
 typedef struct tn_error {
     tn_status status;
-    uint32_t code;        /* number of the diagnostic: 601 for E0601, 0 where it has none */
+    tn_code code;         /* of the diagnostic; TN_CODE_NONE where it has none */
     uint32_t code_offset; /* byte of the code section that it is about, or TN_NO_OFFSET */
     uint64_t line;        /* place in an input text, from 1; 0 where there is none */
     uint32_t column;      /* first byte of the place in its line, from 1 */
@@ -36,7 +38,7 @@ typedef struct tn_error {
 } tn_error;
 
 /* Fills `error` (where not NULL) and returns `status`. `code` as in tn_error. */
-tn_status tn_fail(tn_error *error, tn_status status, uint32_t code, const char *format, ...)
+tn_status tn_fail(tn_error *error, tn_status status, tn_code code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* TN_MEMORY with its standard sentence. */

@@ -14,7 +14,7 @@
 
 static tn_status too_large(const char *path, size_t limit, tn_error *error)
 {
-    return tn_fail(error, TN_LIMIT, 804, "%s is larger than the limit of %zu bytes", path, limit);
+    return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE, "%s is larger than the limit of %zu bytes", path, limit);
 }
 
 /* Reads to the end of the file, doubling the memory as it goes: sizes that the system reports are not to be trusted for

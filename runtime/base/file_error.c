@@ -46,13 +46,13 @@ static tn_status refuse(const char *cannot, const char *path, uint32_t code, int
 
 tn_status tn_cannot_read(const char *path, int reason, tn_error *error)
 {
-    return refuse("read", path, 901, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
+    return refuse("read", path, E_CANNOT_READ, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
 }
 
 static tn_status unwritten(const char *cannot, const char *path, int reason, tn_error *error)
 {
-    return refuse(cannot, path, 902, reason ? reason : EIO, write_reasons, sizeof write_reasons / sizeof *write_reasons,
-                  error);
+    return refuse(cannot, path, E_CANNOT_WRITE, reason ? reason : EIO, write_reasons,
+                  sizeof write_reasons / sizeof *write_reasons, error);
 }
 
 tn_status tn_cannot_write(const char *path, int reason, tn_error *error)
@@ -60,7 +60,7 @@ tn_status tn_cannot_write(const char *path, int reason, tn_error *error)
     if (reason == ENOMEM)
         return tn_fail_memory(error);
     if (reason == EPIPE)
-        return tn_fail(error, TN_IO, 903, "the reader of %.300s went away", path);
+        return tn_fail(error, TN_IO, E_CLOSED_PIPE, "the reader of %.300s went away", path);
     return unwritten("write", path, reason, error);
 }
 

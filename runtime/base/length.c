@@ -225,15 +225,16 @@ static void report(const tn_scan *scan, tn_fault fault, tn_error *error)
     case FAULT_NONE:
         return;
     case FAULT_TOO_LARGE:
-        tn_fail(error, TN_INVALID, 5, "the length %.*s is too large; the largest is about 1,100 km", shown, scan->text);
+        tn_fail(error, TN_INVALID, E_NUMBER_TOO_LARGE, "the length %.*s is too large; the largest is about 1,100 km",
+                shown, scan->text);
         break;
     case FAULT_NOT_WHOLE:
-        tn_fail(error, TN_INVALID, 6, "the length %.*s cannot be held exactly", shown, scan->text);
+        tn_fail(error, TN_INVALID, E_LENGTH_NOT_EXACT, "the length %.*s cannot be held exactly", shown, scan->text);
         tn_error_help(error,
                       "lengths are whole nanometres: inches divide down to 1/64\", metres to nine decimal places");
         break;
     case FAULT_DIVISOR:
-        tn_fail(error, TN_INVALID, 6, "the length %.*s divides by zero", shown, scan->text);
+        tn_fail(error, TN_INVALID, E_LENGTH_NOT_EXACT, "the length %.*s divides by zero", shown, scan->text);
         break;
     }
     tn_error_place(error, 0, 1, scan->at + 1);

@@ -44,7 +44,8 @@ tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_err
             return TN_OK;
         }
     }
-    tn_status status = tn_fail(error, TN_INVALID, 904, "%.200s does not say what kind of picture it is to be", path);
+    tn_status status =
+        tn_fail(error, TN_INVALID, E_USAGE, "%.200s does not say what kind of picture it is to be", path);
     tn_error_help(error, "end its name in .svg, .png or .pdf");
     return status;
 }
@@ -78,7 +79,7 @@ static tn_status new_image(tn_canvas *canvas, const tn_canvas_options *options, 
     double dpi = options->dpi ? options->dpi : DPI_DEFAULT, width = ceil(options->width * dpi / 72),
            height = ceil(options->height * dpi / 72);
     if (width > SIDE_MAX || height > SIDE_MAX || width * height > (double)TN_CANVAS_PIXELS_MAX) {
-        tn_status status = tn_fail(error, TN_LIMIT, 820,
+        tn_status status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE,
                                    "the picture would have %.0f x %.0f pixels; the limit is %d a side and %llu in all",
                                    width, height, SIDE_MAX, (unsigned long long)TN_CANVAS_PIXELS_MAX);
         tn_error_help(error, "draw fewer plans, lower --dpi (now %.0f), or make a .pdf, which has pages", dpi);
@@ -111,8 +112,8 @@ static tn_status cairo_failed(tn_canvas *canvas, cairo_status_t status, tn_error
     if (status == CAIRO_STATUS_NO_MEMORY || canvas->out_of_memory)
         return tn_fail_memory(error);
     if (status == CAIRO_STATUS_WRITE_ERROR)
-        return tn_fail(error, TN_IO, 902, "%.200s cannot be written", canvas->path);
-    return tn_fail(error, TN_INTERNAL, 0, "the picture cannot be drawn: %s", cairo_status_to_string(status));
+        return tn_fail(error, TN_IO, E_CANNOT_WRITE, "%.200s cannot be written", canvas->path);
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the picture cannot be drawn: %s", cairo_status_to_string(status));
 }
 
 static tn_status start(tn_canvas *canvas, const tn_canvas_options *options, tn_error *error)
@@ -193,7 +194,7 @@ cairo_t *tn_canvas_context(const tn_canvas *canvas)
 tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_error *error)
 {
     if (canvas->format != TN_CANVAS_PDF)
-        return tn_fail(error, TN_INTERNAL, 0, "only a PDF has more than one page");
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "only a PDF has more than one page");
     cairo_show_page(canvas->context);
     cairo_pdf_surface_set_size(canvas->surface, width, height);
     begin_page(canvas);

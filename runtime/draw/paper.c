@@ -32,7 +32,7 @@ tn_status tn_paper_find(const char *name, const tn_paper **paper, tn_error *erro
             return TN_OK;
         }
     }
-    tn_status status = tn_fail(error, TN_INVALID, 904, "there is no paper called `%.60s`", name);
+    tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "there is no paper called `%.60s`", name);
     tn_error_help(error, "choose a0 to a4, arch-a to arch-e, letter or tabloid");
     return status;
 }

@@ -14,7 +14,7 @@ tn_status tn_verify_settings(const tn_module *module, tn_error *error)
                                   .second = record->second,
                                   .text = tn_text(module, record->text)};
         if (record->setting >= TN_SETTING_COUNT || !ascends || !tn_setting_fits((tn_setting)record->setting, &value))
-            return tn_fail(error, TN_INVALID, 703,
+            return tn_fail(error, TN_INVALID, E_REFUSED_MODULE,
                            "the module is refused: setting %zu is unknown, out of order or out of range", i);
     }
     if (module->SETTING_count == 0)
@@ -23,9 +23,9 @@ tn_status tn_verify_settings(const tn_module *module, tn_error *error)
     tn_setting_fault faults[TN_SETTING_FAULTS_MAX];
     tn_evolution_study_of(module, &study);
     if (tn_evolution_study_faults(&study, faults) > 0)
-        return tn_fail(error, TN_INVALID, 703, "the module is refused: %s", faults[0].message);
+        return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: %s", faults[0].message);
     if (module->GRAMMAR_count != 1)
-        return tn_fail(error, TN_INVALID, 703, "the module is refused: an evolution needs one grammar, not %zu",
-                       module->GRAMMAR_count);
+        return tn_fail(error, TN_INVALID, E_REFUSED_MODULE,
+                       "the module is refused: an evolution needs one grammar, not %zu", module->GRAMMAR_count);
     return TN_OK;
 }

@@ -177,12 +177,14 @@ static tn_status take_triangles(tn_boundary_mesh *mesh, const double *positions,
 {
     for (size_t i = 0; i < 3 * vertex_count; i++)
         if (!isfinite(positions[i]))
-            return tn_fail(error, TN_INVALID, 0, "the boundary mesh has a coordinate that is not a finite number");
+            return tn_fail(error, TN_INVALID, TN_CODE_NONE,
+                           "the boundary mesh has a coordinate that is not a finite number");
     for (size_t i = 0; i < count; i++) {
         tn_vector c[3];
         for (int k = 0; k < 3; k++) {
             if (triangles[3 * i + (size_t)k] >= vertex_count)
-                return tn_fail(error, TN_INVALID, 0, "the boundary mesh has a face with a vertex that does not exist");
+                return tn_fail(error, TN_INVALID, TN_CODE_NONE,
+                               "the boundary mesh has a face with a vertex that does not exist");
             c[k] = tn_vector_at(positions + 3 * (size_t)triangles[3 * i + (size_t)k]);
         }
         tn_vector n = tn_cross(tn_sub(c[1], c[0]), tn_sub(c[2], c[0]));
@@ -194,7 +196,7 @@ static tn_status take_triangles(tn_boundary_mesh *mesh, const double *positions,
         mesh->count++;
     }
     if (mesh->count == 0)
-        return tn_fail(error, TN_INVALID, 0, "the boundary mesh has no face with an area");
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the boundary mesh has no face with an area");
     return TN_OK;
 }
 
@@ -203,8 +205,8 @@ tn_status tn_boundary_mesh_new(const double *positions, size_t vertex_count, con
 {
     *result = NULL;
     if (triangle_count > UINT32_MAX / 8)
-        return tn_fail(error, TN_LIMIT, 844, "the boundary mesh has %zu triangles; the limit is %u", triangle_count,
-                       UINT32_MAX / 8);
+        return tn_fail(error, TN_LIMIT, E_BOUNDARY_TOO_LARGE, "the boundary mesh has %zu triangles; the limit is %u",
+                       triangle_count, UINT32_MAX / 8);
     tn_boundary_mesh *mesh = calloc(1, sizeof *mesh);
     if (!mesh)
         return tn_fail_memory(error);

@@ -187,7 +187,7 @@ tn_status tn_order_make(const tn_scene *scene, const tn_pairs *befores, tn_order
     size_t count = scene->face_count;
     *o = (tn_order){.count = scene->face_count};
     if (befores->count >= NONE) {
-        tn_fail(error, TN_LIMIT, 820, "the faces of this picture overlap too often to be drawn");
+        tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the faces of this picture overlap too often to be drawn");
         tn_error_help(error, "draw an earlier step, or write a mesh instead");
         return TN_LIMIT;
     }

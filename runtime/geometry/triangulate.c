@@ -224,8 +224,8 @@ tn_status tn_mesh_triangulate(tn_mesh *mesh, tn_error *error)
     if (triangles == mesh->face_count)
         return TN_OK;
     if (triangles > UINT32_MAX / 3)
-        return tn_fail(error, TN_LIMIT, 844, "the mesh would have %zu triangles; the limit is %u", triangles,
-                       UINT32_MAX / 3);
+        return tn_fail(error, TN_LIMIT, E_BOUNDARY_TOO_LARGE, "the mesh would have %zu triangles; the limit is %u",
+                       triangles, UINT32_MAX / 3);
     uint32_t *first = malloc((triangles + 1) * sizeof *first), *corners = malloc((3 * triangles + 1) * sizeof *corners);
     uint32_t *group = mesh->face_group ? malloc((triangles + 1) * sizeof *group) : NULL;
     tn_status status = first && corners && (group || !mesh->face_group) ? cut_all(mesh, largest, corners, error)

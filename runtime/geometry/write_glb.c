@@ -137,7 +137,8 @@ static tn_status write_chunks(FILE *out, text *json, const uint8_t *binary, size
         json->bytes[json->used++] = ' ';
     size_t total = 12 + 8 + json->used + 8 + size;
     if (total > UINT32_MAX)
-        return tn_fail(error, TN_LIMIT, 804, "the surface is too large for a GLB file, which holds 4 GiB at most");
+        return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE,
+                       "the surface is too large for a GLB file, which holds 4 GiB at most");
     uint8_t header[20], chunk[8];
     tn_put_u32(header, 0x46546c67); /* "glTF" */
     tn_put_u32(header + 4, 2);
@@ -188,7 +189,7 @@ tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     double *normals = NULL;
     for (size_t f = 0; f < mesh->face_count; f++)
         if (mesh->face_first[f + 1] - mesh->face_first[f] != 3)
-            return tn_fail(error, TN_INTERNAL, 0, "a GLB file takes triangles only");
+            return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a GLB file takes triangles only");
     tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
     if (status == TN_OK)
         status = write_triangles(mesh, style, normals, out, error);

@@ -150,8 +150,8 @@ tn_status tn_count_derivations(const tn_grammar *grammar, uint32_t depth, bool *
     if (status == TN_OK && c.failed)
         status = tn_fail_memory(error);
     else if (status == TN_OK && c.too_large)
-        status = tn_fail(error, TN_LIMIT, 1227, "the number of derivations passes %u binary digits, the limit",
-                         TN_DERIVATION_BITS);
+        status = tn_fail(error, TN_LIMIT, E_TOO_MANY_DERIVATIONS,
+                         "the number of derivations passes %u binary digits, the limit", TN_DERIVATION_BITS);
     if (status == TN_OK)
         mpz_set(total, c.now[c.width - 1]);
     numbers_free(c.now, numbers);

@@ -166,12 +166,12 @@ tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **gra
 {
     *grammar = NULL;
     if (index >= module->GRAMMAR_count)
-        return tn_fail(error, TN_INVALID, 0, "the module holds no grammar that genomes are mapped through");
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the module holds no grammar that genomes are mapped through");
     decoder d = {.module = module, .record = &module->GRAMMAR_records[index]};
     size_t productions, words;
     measure(module, d.record, &productions, &words);
     if (words > TN_WORD_MAX || d.record->rule_count > TN_WORD_MAX)
-        return tn_fail(error, TN_LIMIT, 1214, "the grammar has more than %u symbols", TN_WORD_MAX);
+        return tn_fail(error, TN_LIMIT, E_GRAMMAR_TOO_LARGE, "the grammar has more than %u symbols", TN_WORD_MAX);
     d.grammar = calloc(1, sizeof *d.grammar);
     if (!d.grammar)
         return tn_fail_memory(error);

@@ -22,7 +22,8 @@ __attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_grammar_c
     va_start(args, format);
     vsnprintf(what, sizeof what, format, args);
     va_end(args);
-    tn_fail(checker->error, TN_INVALID, 703, "the module is refused: code offset %u: %s", checker->offset, what);
+    tn_fail(checker->error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: code offset %u: %s", checker->offset,
+            what);
     if (checker->error)
         checker->error->code_offset = checker->offset;
     return TN_INVALID;

@@ -28,14 +28,15 @@ static tn_status check_options(const tn_growth_options *options, tn_error *error
 {
     if (!all_finite(options->scale, 3) || !all_finite(options->start, 3) || !isfinite(options->start_length) ||
         !isfinite(options->branch_angle) || !isfinite(options->branch_length))
-        return tn_fail(error, TN_INVALID, 0, "a growth option is not a finite number");
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "a growth option is not a finite number");
     for (int k = 0; k < 3; k++)
         if (options->scale[k] <= 0)
-            return tn_fail(error, TN_INVALID, 0, "the scale is %g; it must be above 0", options->scale[k]);
+            return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the scale is %g; it must be above 0", options->scale[k]);
     if (options->start_length <= 0)
-        return tn_fail(error, TN_INVALID, 0, "the start length is %g; it must be above 0", options->start_length);
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the start length is %g; it must be above 0",
+                       options->start_length);
     if (options->branch_angle > 360)
-        return tn_fail(error, TN_INVALID, 0, "the branch angle is %g degrees; it lies between 0 and 360",
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the branch angle is %g degrees; it lies between 0 and 360",
                        options->branch_angle);
     return TN_OK;
 }

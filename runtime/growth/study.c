@@ -78,7 +78,7 @@ static tn_status find_mesh(const tn_module *module, const char *opened, const ch
     } else if (status == TN_OK && access(once, F_OK) == 0) {
         status = read_mesh(once, result, error);
     } else if (status == TN_OK) {
-        status = tn_fail(error, TN_IO, 901, "there is no mesh %.200s", near);
+        status = tn_fail(error, TN_IO, E_CANNOT_READ, "there is no mesh %.200s", near);
         if (strcmp(near, once) == 0)
             tn_error_help(error, "a boundary's path starts at the folder of the study that names it");
         else

@@ -98,7 +98,7 @@ bool all_triangles(const tn_mesh *mesh)
 
 tn_status no_surface(tn_error *error)
 {
-    return tn_fail(error, TN_INVALID, 0, "the mesh is not a surface: some edge has more than two faces");
+    return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh is not a surface: some edge has more than two faces");
 }
 
 /* Runs what may throw; C code gets a status instead. */
@@ -110,7 +110,7 @@ template <class action> tn_status guarded(tn_error *error, action what)
     } catch (const std::bad_alloc &) {
         return tn_fail_memory(error);
     } catch (const std::exception &problem) {
-        return tn_fail(error, TN_INVALID, 0, "the mesh library gives up: %s", problem.what());
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh library gives up: %s", problem.what());
     }
 }
 
@@ -133,7 +133,7 @@ template <class mesh_type, class subdivider> tn_status subdivide(tn_mesh *mesh, 
         return no_surface(error);
     subdivider tool;
     if (!tool.attach(m))
-        return tn_fail(error, TN_INVALID, 0, "the mesh cannot be subdivided");
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh cannot be subdivided");
     tool(rounds);
     tool.detach();
     return replace(m, mesh, error);
@@ -148,7 +148,7 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
         poly_mesh m;
         OpenMesh::IO::Options options;
         if (!OpenMesh::IO::read_mesh(m, path, options)) {
-            tn_fail(error, TN_IO, 901, "cannot read a mesh from %s", path);
+            tn_fail(error, TN_IO, E_CANNOT_READ, "cannot read a mesh from %s", path);
             tn_error_help(error, "OBJ, PLY, STL, OFF and OM files can be read; see that it is there and is one of these");
             return TN_IO;
         }
@@ -156,7 +156,7 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
         if (status == TN_OK)
             status = tn_mesh_weld(mesh, error);
         if (status == TN_OK && mesh->face_count == 0) {
-            tn_fail(error, TN_INVALID, 0, "there are no faces in %s", path);
+            tn_fail(error, TN_INVALID, TN_CODE_NONE, "there are no faces in %s", path);
             status = TN_INVALID;
         }
         if (status != TN_OK)
@@ -184,7 +184,7 @@ extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format f
         if (format == TN_OPENMESH_STL)
             m.triangulate();
         if (!OpenMesh::IO::write_mesh(m, out, extensions[format], options, 17))
-            return tn_fail(error, TN_INVALID, 0, "the mesh library cannot write this mesh");
+            return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh library cannot write this mesh");
         const std::string text = out.str();
         *bytes = static_cast<unsigned char *>(std::malloc(text.size() + 1));
         if (!*bytes)
@@ -249,7 +249,7 @@ extern "C" tn_status tn_openmesh_decimate(tn_mesh *mesh, size_t faces, tn_error 
         tool.add(quadric);
         tool.module(quadric).unset_max_err();
         if (!tool.initialize())
-            return tn_fail(error, TN_INVALID, 0, "the mesh cannot be decimated");
+            return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh cannot be decimated");
         tool.decimate_to_faces(0, faces);
         m.garbage_collection();
         return replace(m, mesh, error);

@@ -272,7 +272,8 @@ tn_status tn_builder_finish(tn_builder *builder, uint8_t **bytes, size_t *size, 
     if (builder->out_of_memory)
         return tn_fail_memory(error);
     if (builder->too_large)
-        return tn_fail(error, TN_LIMIT, 810, "the module is too large: a section passed 4 GiB or 2^32 records");
+        return tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE,
+                       "the module is too large: a section passed 4 GiB or 2^32 records");
     size_t total = TN_CONTENTS;
     for (size_t i = 0; i < TN_SECTION_COUNT; i++)
         total += builder->sections[i].count * stored_sizes[i];
@@ -288,7 +289,7 @@ tn_status tn_builder_finish(tn_builder *builder, uint8_t **bytes, size_t *size, 
 #undef SECTION
     if ((size_t)(to - file) != total) {
         free(file);
-        return tn_fail(error, TN_INTERNAL, 0, "the module's sections do not add up to its size");
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the module's sections do not add up to its size");
     }
     tn_module_rehash(file, total);
     *bytes = file;

@@ -20,7 +20,7 @@ tn_module_limits tn_module_limits_default(void)
 
 static tn_status damaged(tn_error *error, const char *what)
 {
-    tn_fail(error, TN_INVALID, 702, "the module is damaged: %s", what);
+    tn_fail(error, TN_INVALID, E_DAMAGED_MODULE, "the module is damaged: %s", what);
     tn_error_help(error, "compile it again from its rule files");
     return TN_INVALID;
 }
@@ -36,16 +36,17 @@ static tn_status too_much(tn_error *error)
 static tn_status check_header(const uint8_t *bytes, size_t size, const tn_module_limits *limits, tn_error *error)
 {
     if (size > limits->bytes) {
-        tn_fail(error, TN_LIMIT, 810, "the module is %zu bytes long; the limit is %zu", size, limits->bytes);
+        tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE, "the module is %zu bytes long; the limit is %zu", size,
+                limits->bytes);
         return too_much(error);
     }
     if (!tn_module_has_magic(bytes, size))
-        return tn_fail(error, TN_INVALID, 701, "the file is not a compiled module");
+        return tn_fail(error, TN_INVALID, E_NOT_A_MODULE, "the file is not a compiled module");
     if (size < TN_CONTENTS)
         return damaged(error, "it ends within its header");
     uint32_t format = tn_get_u32(bytes + TN_HEADER_FORMAT);
     if (format != TN_MODULE_FORMAT) {
-        tn_fail(error, TN_INVALID, 702, "the module has format %u; this program reads format %u", format,
+        tn_fail(error, TN_INVALID, E_DAMAGED_MODULE, "the module has format %u; this program reads format %u", format,
                 TN_MODULE_FORMAT);
         tn_error_help(error, "compile it again from its rule files with this version");
         return TN_INVALID;
@@ -86,14 +87,15 @@ static size_t aligned(size_t size)
 static tn_status check_counts(const tn_stored *sections, const tn_module_limits *limits, size_t *block, tn_error *error)
 {
     if (sections[TN_SECTION_STRINGS].size > UINT32_MAX || sections[TN_SECTION_CODE].size > UINT32_MAX)
-        return tn_fail(error, TN_LIMIT, 810, "the module's strings or code pass 4 GiB");
+        return tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE, "the module's strings or code pass 4 GiB");
     *block = aligned(sizeof(tn_module)) + aligned(sections[TN_SECTION_STRINGS].size) +
              aligned(sections[TN_SECTION_CODE].size);
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     if (sections[NUMBER].size % TN_STORED_##NAME != 0)                                                                 \
         return damaged(error, "its section " #NAME " ends within a record");                                           \
     if (sections[NUMBER].size / TN_STORED_##NAME > limits->records) {                                                  \
-        tn_fail(error, TN_LIMIT, 810, "the module has %zu records in its section " #NAME "; the limit is %zu",         \
+        tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE,                                                                   \
+                "the module has %zu records in its section " #NAME "; the limit is %zu",                               \
                 sections[NUMBER].size / TN_STORED_##NAME, limits->records);                                            \
         return too_much(error);                                                                                        \
     }                                                                                                                  \

@@ -24,7 +24,7 @@ __attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_checker *
     va_start(args, format);
     vsnprintf(what, sizeof what, format, args);
     va_end(args);
-    tn_fail(checker->error, TN_INVALID, 703, "the module is refused: function %u, code offset %u: %s",
+    tn_fail(checker->error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: function %u, code offset %u: %s",
             checker->function, checker->offset, what);
     if (checker->error)
         checker->error->code_offset = checker->offset;
@@ -198,7 +198,7 @@ static tn_status check_function(tn_checker *checker, const tn_module_limits *lim
     if (function->kind == TN_FUNCTION_MEASURE && function->stack_max > TN_MEASURE_STACK_MAX)
         return refuse(checker, "an expression's stack passes %u", TN_MEASURE_STACK_MAX);
     if (function->stack_max > limits->stack) {
-        tn_fail(checker->error, TN_LIMIT, 810, "function %u declares a stack of %u; the limit is %zu",
+        tn_fail(checker->error, TN_LIMIT, E_MODULE_TOO_LARGE, "function %u declares a stack of %u; the limit is %zu",
                 checker->function, function->stack_max, limits->stack);
         tn_error_help(checker->error, "this limit is fixed: give parts of the rule's expression names of their own");
         return TN_LIMIT;

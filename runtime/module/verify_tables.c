@@ -22,7 +22,7 @@ __attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_checker *
     va_start(args, format);
     vsnprintf(what, sizeof what, format, args);
     va_end(args);
-    return tn_fail(checker->error, TN_INVALID, 703, "the module is refused: %s", what);
+    return tn_fail(checker->error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: %s", what);
 }
 
 /* Is [first, first + count) the stretch that follows `*end` in a section of `total` records? Moves *end on. */
@@ -122,8 +122,8 @@ static tn_status check_sources(tn_checker *checker, const tn_module_limits *limi
     for (size_t i = 0; i < module->SOURCE_count; i++) {
         size_t size = strnlen(tn_text(module, module->SOURCE_records[i].text), left + 1);
         if (size > left)
-            return tn_fail(checker->error, TN_LIMIT, 810, "the module's sources together pass the limit of %zu bytes",
-                           limits->bytes);
+            return tn_fail(checker->error, TN_LIMIT, E_MODULE_TOO_LARGE,
+                           "the module's sources together pass the limit of %zu bytes", limits->bytes);
         left -= size;
         checker->sizes[i] = (uint32_t)size;
     }

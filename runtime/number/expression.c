@@ -34,7 +34,7 @@ static void refuse(reader *r, const char *what)
 {
     if (r->status != TN_OK)
         return;
-    r->status = tn_fail(r->error, TN_INVALID, 1242, "%s", what);
+    r->status = tn_fail(r->error, TN_INVALID, E_EXPRESSION, "%s", what);
     tn_error_place(r->error, 0, r->at + 1, r->at + 2);
 }
 
@@ -161,8 +161,8 @@ static void read_factor(reader *r)
     if (r->status != TN_OK)
         return;
     if (++r->nest > TN_EXPRESSION_NEST) {
-        r->status =
-            tn_fail(r->error, TN_LIMIT, 1242, "the expression nests more than %u deep, the limit", TN_EXPRESSION_NEST);
+        r->status = tn_fail(r->error, TN_LIMIT, E_EXPRESSION, "the expression nests more than %u deep, the limit",
+                            TN_EXPRESSION_NEST);
         return;
     }
     if (take(r, '(')) {

@@ -54,10 +54,10 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
 {
     *evolution = NULL;
     if (settings->population < 2 || settings->population > TN_POPULATION_MAX)
-        return tn_fail(error, TN_INVALID, 1240, "a population has 2 to %u individuals, not %u", TN_POPULATION_MAX,
-                       settings->population);
+        return tn_fail(error, TN_INVALID, E_POPULATION, "a population has 2 to %u individuals, not %u",
+                       TN_POPULATION_MAX, settings->population);
     if (evaluator->objectives < 1 || evaluator->objectives > TN_OBJECTIVES_MAX)
-        return tn_fail(error, TN_INVALID, 1240, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX,
+        return tn_fail(error, TN_INVALID, E_POPULATION, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX,
                        evaluator->objectives);
     tn_evolution *e = calloc(1, sizeof *e);
     if (!e)
@@ -115,8 +115,9 @@ tn_status tn_evolution_choose(tn_evolution *e, const uint32_t *places, size_t co
 {
     for (size_t i = 0; i < count; i++)
         if (places[i] >= e->member_count)
-            return tn_fail(error, TN_INVALID, 1241, "there is no individual %u; they are numbered from 1 to %zu",
-                           places[i] + 1, e->member_count);
+            return tn_fail(error, TN_INVALID, E_NO_INDIVIDUAL,
+                           "there is no individual %u; they are numbered from 1 to %zu", places[i] + 1,
+                           e->member_count);
     uint32_t *chosen = malloc((count ? count : 1) * sizeof *chosen);
     if (!chosen)
         return tn_fail_memory(error);

@@ -24,7 +24,7 @@ static void table_clear(table *t)
 
 static tn_status bad_field(tn_error *error, size_t line, size_t begin, size_t end, const char *what)
 {
-    tn_fail(error, TN_INVALID, 1243, "%s", what);
+    tn_fail(error, TN_INVALID, E_DATA, "%s", what);
     tn_error_place(error, line, begin + 1, end + 1);
     return TN_INVALID;
 }
@@ -108,7 +108,7 @@ tn_status tn_problem_fit_csv(const char *text, size_t size, unsigned threads, tn
     }
     if (status == TN_OK && (t->width < 2 || t->points == 0))
         status =
-            tn_fail(error, TN_INVALID, 1243, "data to fit have two columns or more, and a line of numbers or more");
+            tn_fail(error, TN_INVALID, E_DATA, "data to fit have two columns or more, and a line of numbers or more");
     if (status == TN_OK)
         status = tn_problem_fit((const char *const *)t->names, (const double *const *)t->columns, t->width - 1,
                                 t->points, threads, problem, error);

@@ -412,10 +412,10 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
         return tn_fail_memory(error);
     if (c->too_many) {
         if (c->item_count == c->max_items)
-            tn_fail(error, TN_LIMIT, 1223, "deriving the sentence takes more than %zu parser states, the limit",
-                    c->max_items);
+            tn_fail(error, TN_LIMIT, E_INVERT_LIMIT,
+                    "deriving the sentence takes more than %zu parser states, the limit", c->max_items);
         else
-            tn_fail(error, TN_LIMIT, 1223,
+            tn_fail(error, TN_LIMIT, E_INVERT_LIMIT,
                     "the grammar derives the sentence in very many ways: it takes more than %llu steps, the limit",
                     (unsigned long long)c->max_items * TN_CHART_STEPS);
         tn_error_help(error, "raise it with --max-items, or take a shorter sentence");

@@ -49,9 +49,9 @@ static tn_status bad_codon(const char *line, size_t length, size_t begin, bool t
         end++;
     int shown = end - begin > 40 ? 40 : (int)(end - begin);
     if (too_large)
-        tn_fail(error, TN_INVALID, 1221, "the codon %.*s does not fit 64 bits", shown, line + begin);
+        tn_fail(error, TN_INVALID, E_GENOME_CODON, "the codon %.*s does not fit 64 bits", shown, line + begin);
     else
-        tn_fail(error, TN_INVALID, 1220, "`%.*s` is not a codon", shown, line + begin);
+        tn_fail(error, TN_INVALID, E_GENOME_SYNTAX, "`%.*s` is not a codon", shown, line + begin);
     tn_error_help(error, "codons are whole numbers from 0 to 18446744073709551615, parted by blanks");
     tn_error_place(error, 0, begin + 1, end + 1);
     return TN_INVALID;
@@ -66,7 +66,8 @@ tn_status tn_genome_read(const char *line, size_t length, tn_genome *genome, tn_
         if (at == length)
             return TN_OK;
         if (genome->count == TN_GENOME_CODONS_MAX) {
-            tn_fail(error, TN_LIMIT, 1225, "the genome has more than %u codons, the limit", TN_GENOME_CODONS_MAX);
+            tn_fail(error, TN_LIMIT, E_GENOME_TOO_LONG, "the genome has more than %u codons, the limit",
+                    TN_GENOME_CODONS_MAX);
             return TN_LIMIT;
         }
         size_t begin = at;

@@ -61,8 +61,8 @@ static tn_status check_edges(const tn_chart *c, tn_error *error)
         if (edge == TN_CHART_NONE)
             continue;
         if (edge > known) {
-            tn_fail(error, TN_INVALID, 1222, "no genome gives this sentence: Edge%u stands before there was an Edge%u",
-                    edge, known);
+            tn_fail(error, TN_INVALID, E_NOT_DERIVABLE,
+                    "no genome gives this sentence: Edge%u stands before there was an Edge%u", edge, known);
             tn_error_help(
                 error,
                 "edge types come in order; number the sentence's edges by their first use, from Edge0 and Edge1 on");
@@ -110,9 +110,9 @@ static tn_status not_derivable(const tn_chart *c, tn_error *error)
         name_word(c->grammar, c->expected[i], expected + strlen(expected), sizeof expected - strlen(expected));
     }
     if (past)
-        tn_fail(error, TN_INVALID, 1222, "the sentence cannot be derived: it ends too soon");
+        tn_fail(error, TN_INVALID, E_NOT_DERIVABLE, "the sentence cannot be derived: it ends too soon");
     else
-        tn_fail(error, TN_INVALID, 1222, "the sentence cannot be derived: `%.*s` does not fit here",
+        tn_fail(error, TN_INVALID, E_NOT_DERIVABLE, "the sentence cannot be derived: `%.*s` does not fit here",
                 length > 40 ? 40 : (int)length, c->sentence + begin);
     if (c->expected_count)
         tn_error_help(error, "it goes as far as this; %s could follow", expected);
@@ -278,7 +278,7 @@ static tn_status check_depth(const tn_chart *c, uint32_t value, const tn_invert_
     uint32_t needed = ge ? value : value ? value + 1 : 0;
     if (!options->max_depth || needed <= options->max_depth)
         return TN_OK;
-    tn_fail(error, TN_INVALID, 1222,
+    tn_fail(error, TN_INVALID, E_NOT_DERIVABLE,
             "no genome gives this sentence within a depth of %u: its shallowest derivation needs %u",
             options->max_depth, needed);
     tn_error_help(error, "raise it with --max-depth %u", needed);
@@ -290,7 +290,8 @@ tn_status tn_invert(const tn_grammar *grammar, const char *sentence, size_t size
 {
     genome->count = 0;
     if (size > UINT32_MAX / 2)
-        return tn_fail(error, TN_LIMIT, 1223, "the sentence is longer than %u bytes, the limit", UINT32_MAX / 2);
+        return tn_fail(error, TN_LIMIT, E_INVERT_LIMIT, "the sentence is longer than %u bytes, the limit",
+                       UINT32_MAX / 2);
     tn_chart chart = {.grammar = grammar, .sentence = sentence, .size = size};
     chart.max_items = options->max_items ? options->max_items : TN_INVERT_ITEMS;
     tn_status status = TN_OK;

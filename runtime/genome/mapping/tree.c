@@ -16,7 +16,7 @@ tn_status tn_tree_make(const tn_event *events, size_t count, tn_tree *tree, tn_e
 {
     *tree = (tn_tree){0};
     if (count >= TN_TREE_NONE)
-        return tn_fail(error, TN_LIMIT, 1226, "the derivation has more steps than a tree can hold");
+        return tn_fail(error, TN_LIMIT, E_DERIVATION_TOO_LONG, "the derivation has more steps than a tree can hold");
     tree->nodes = calloc(count + 1, sizeof *tree->nodes);
     uint32_t *last_child = calloc(count + 1, sizeof *last_child); /* by node; the last place is the roots' */
     if (!tree->nodes || !last_child) {

@@ -215,7 +215,7 @@ tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const 
                        tn_error *error)
 {
     if (tree->count > TN_TREE_DRAWN) {
-        tn_fail(error, TN_LIMIT, 1228, "the derivation has %zu nodes; at most %u are drawn", tree->count,
+        tn_fail(error, TN_LIMIT, E_TREE_TOO_LARGE, "the derivation has %zu nodes; at most %u are drawn", tree->count,
                 TN_TREE_DRAWN);
         tn_error_help(error, "--tree text and --tree json have no such limit");
         return TN_LIMIT;

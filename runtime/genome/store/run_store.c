@@ -38,12 +38,12 @@ void tn_run_store_free(tn_run_store *store)
 static tn_status cannot_open(const char *path, int flags, const tn_run_store *store, tn_error *error)
 {
     if (!(flags & SQLITE_OPEN_CREATE) && access(path, F_OK) != 0) {
-        tn_fail(error, TN_IO, 901, "there is no run: no file %.200s", path);
+        tn_fail(error, TN_IO, E_CANNOT_READ, "there is no run: no file %.200s", path);
         tn_error_help(error, "name the folder that `tartan evolve` made, as hello.run");
         return TN_IO;
     }
-    return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? 902 : 901, "cannot open %.200s: %s", path,
-                   sqlite3_errmsg(store->db));
+    return tn_fail(error, TN_IO, flags & SQLITE_OPEN_CREATE ? E_CANNOT_WRITE : E_CANNOT_READ, "cannot open %.200s: %s",
+                   path, sqlite3_errmsg(store->db));
 }
 
 static tn_status open_at(const char *path, int flags, bool durable, tn_run_store **store, tn_error *error)
@@ -84,7 +84,7 @@ tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **sto
 {
     *store = NULL;
     if (access(path, F_OK) == 0) {
-        tn_fail(error, TN_INVALID, 1250, "there is a run in %.200s already", path);
+        tn_fail(error, TN_INVALID, E_RUN_EXISTS, "there is a run in %.200s already", path);
         tn_error_help(error, "--resume goes on with it; -o DIR puts this run elsewhere");
         return TN_INVALID;
     }
@@ -111,7 +111,7 @@ tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_r
     if (status == TN_OK)
         status = query_number(*store, "PRAGMA application_id", &id, error);
     if (status == TN_OK && id != APPLICATION_ID)
-        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
+        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "%.200s is not the database of a run", path);
     if (status == TN_OK && !read_only)
         status = prepare_writing(*store, error);
     return done(store, status);
@@ -127,7 +127,7 @@ tn_status tn_run_store_begun(const char *path, bool *begun, tn_error *error)
     if (status == TN_OK && tables > 0)
         status = query_number(store, "PRAGMA application_id", &id, error);
     if (status == TN_OK && tables > 0 && id != APPLICATION_ID)
-        status = tn_fail(error, TN_INVALID, 1251, "%.200s is not the database of a run", path);
+        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "%.200s is not the database of a run", path);
     if (status == TN_OK && tables > 0)
         status = query_number(store, "SELECT count(*) FROM meta", &rows, error);
     if (status == TN_INVALID)

@@ -79,7 +79,7 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
     if (status != TN_OK)
         return status;
     if (most >= (int64_t)1 << 32)
-        return tn_fail(error, TN_LIMIT, 1251, "the run has more than 2^32 births, the limit of resuming");
+        return tn_fail(error, TN_LIMIT, E_RUN_DATABASE, "the run has more than 2^32 births, the limit of resuming");
     scores->count = (size_t)(most + 1);
     scores->scores = calloc(scores->count + 1, sizeof *scores->scores);
     scores->known = calloc(scores->count + 1, 1);
@@ -143,7 +143,7 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
     sqlite3_finalize(statement);
     if (same)
         return TN_OK;
-    tn_fail(error, TN_INVALID, 1252,
+    tn_fail(error, TN_INVALID, E_RUN_DIFFERS,
             "generation %u does not come out as it is stored: the run was made with another grammar, study or "
             "version",
             generation);

@@ -18,8 +18,9 @@ static inline tn_status wrong(tn_run_store *store, tn_error *error)
     if (code == SQLITE_NOMEM)
         return tn_fail_memory(error);
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-        return tn_fail(error, TN_INVALID, 1251, "the run's database is damaged: %s", sqlite3_errmsg(store->db));
-    return tn_fail(error, TN_IO, 902, "the run's database: %s", sqlite3_errmsg(store->db));
+        return tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database is damaged: %s",
+                       sqlite3_errmsg(store->db));
+    return tn_fail(error, TN_IO, E_CANNOT_WRITE, "the run's database: %s", sqlite3_errmsg(store->db));
 }
 
 static inline tn_status run(tn_run_store *store, const char *sql, tn_error *error)

@@ -154,7 +154,7 @@ static bool list_branches(const tn_pass *pass, const tn_pattern *pattern, patter
     *count = 0;
     for (uint32_t i = 0; i < pattern->size; i++) {
         uint32_t code = code_at(pattern, i);
-        if (code == 0)
+        if (code == TN_CODE_NONE)
             continue;
         const tn_shape *shape = &pass->growth->shapes[(code - 1) / 2];
         bool against = (code - 1) & 1;

@@ -101,7 +101,7 @@ tn_status tn_growth_system_read(const tn_module *module, tn_growth_system **syst
 {
     *system = NULL;
     if (module->GROWTH_count == 0) {
-        tn_fail(error, TN_INVALID, 0, "there is no rewrite system in this file");
+        tn_fail(error, TN_INVALID, TN_CODE_NONE, "there is no rewrite system in this file");
         tn_error_help(error, "a surface grows from a .hemls file, or from a .study file that names one");
         return TN_INVALID;
     }

@@ -14,7 +14,7 @@ __attribute__((format(printf, 2, 3))) static tn_status refuse(tn_error *error, c
     va_start(args, format);
     vsnprintf(what, sizeof what, format, args);
     va_end(args);
-    return tn_fail(error, TN_INVALID, 703, "the module is refused: %s", what);
+    return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: %s", what);
 }
 
 /* Is [first, first + count) the stretch that follows `*end` in a section of `total` records? Moves *end on. */

@@ -128,7 +128,8 @@ tn_status tn_growth_displace(tn_growth *growth, tn_error *error)
     free(fixed);
     growth->moved = d.moved;
     if (d.infinite || !isfinite(growth->length)) {
-        tn_fail(error, TN_LIMIT, 842, "in step %u a coordinate leaves the range of numbers", growth->steps + 1);
+        tn_fail(error, TN_LIMIT, E_GROWTH_COORDINATES, "in step %u a coordinate leaves the range of numbers",
+                growth->steps + 1);
         tn_error_help(error, "take fewer steps, or a scale nearer to 1");
         return TN_LIMIT;
     }

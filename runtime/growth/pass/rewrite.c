@@ -220,7 +220,7 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
                          ? growth->options.edge_limit
                          : TN_EDGES_MAX;
     if (edges > limit || total->branches > TN_EDGES_MAX) {
-        tn_fail(error, TN_LIMIT, 840, "step %u would make more than %llu edges", growth->steps + 1,
+        tn_fail(error, TN_LIMIT, E_GROWTH_EDGES, "step %u would make more than %llu edges", growth->steps + 1,
                 (unsigned long long)limit);
         tn_error_help(error, "take fewer steps, or raise the limit with --edge-limit (at most %u)", TN_EDGES_MAX);
         return TN_LIMIT;
@@ -231,7 +231,7 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
                      (sizeof(tn_aim) + sizeof(uint32_t)) * total->branches +
                      (sizeof(tn_record) + 40) * (uint64_t)old->edge_count;
     if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
-        tn_fail(error, TN_LIMIT, 841, "step %u would need about %llu MB of memory; the limit is %llu MB",
+        tn_fail(error, TN_LIMIT, E_GROWTH_MEMORY, "step %u would need about %llu MB of memory; the limit is %llu MB",
                 growth->steps + 1, (unsigned long long)(bytes >> 20),
                 (unsigned long long)(growth->options.memory_limit >> 20));
         tn_error_help(error, "take fewer steps, or raise the limit with --memory-limit");
@@ -425,7 +425,7 @@ tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error)
     if (status != TN_OK)
         return status;
     if (pass->out_of_range) {
-        tn_fail(error, TN_LIMIT, 843,
+        tn_fail(error, TN_LIMIT, E_GROWTH_AGE,
                 "in step %u an edge's age leaves the range of -%d to %d, or a coordinate that of numbers",
                 pass->growth->steps + 1, TN_AGE_MAX, TN_AGE_MAX);
         return TN_LIMIT;
@@ -441,7 +441,7 @@ tn_status tn_growth_check_edges(const tn_growth *growth, uint64_t edges, tn_erro
                          : TN_EDGES_MAX;
     if (edges <= limit)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, 840, "step %u makes %llu edges; the limit is %llu", growth->steps + 1,
+    tn_fail(error, TN_LIMIT, E_GROWTH_EDGES, "step %u makes %llu edges; the limit is %llu", growth->steps + 1,
             (unsigned long long)edges, (unsigned long long)limit);
     tn_error_help(error, "take fewer steps, or raise the limit with --edge-limit (at most %u)", TN_EDGES_MAX);
     return TN_LIMIT;

@@ -182,8 +182,8 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
     const tn_map *map = tn_growth_map(growth);
     *result = NULL;
     if (map->face_count - 1 > TN_DRAWN_FACES_MAX) {
-        tn_fail(error, TN_LIMIT, 820, "a picture of %u faces would be too large; the limit is %u", map->face_count - 1,
-                TN_DRAWN_FACES_MAX);
+        tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "a picture of %u faces would be too large; the limit is %u",
+                map->face_count - 1, TN_DRAWN_FACES_MAX);
         tn_error_help(error, "draw an earlier step, or write a mesh instead");
         return TN_LIMIT;
     }

@@ -116,7 +116,7 @@ tn_status tn_plan_analysis_confirm(const tn_plan_analysis *analysis, tn_shown_pl
     if (status != TN_OK || holds == expected)
         return status;
     const tn_module *module = analysis->schema->module;
-    return tn_fail(error, TN_INTERNAL, 0,
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE,
                    "the two engines disagree about `%.80s`; please report this with the rule file",
                    tn_text(module, module->FUNCTION_records[function].name));
 }

@@ -139,7 +139,7 @@ static tn_status exists(const work *w, tn_search_part *parts, size_t first, size
         if (status != TN_OK || !*found || !ask_one_more(parts, w->count, asked, word))
             return status;
         if (*asked > w->max_asked)
-            return tn_fail(error, TN_LIMIT, 802, "too many clauses to look at one by one");
+            return tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "too many clauses to look at one by one");
     }
 }
 

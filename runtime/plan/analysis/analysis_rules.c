@@ -122,7 +122,7 @@ static tn_status compare_all(tn_plan_analysis *analysis, const probes *p, tn_err
         }
     }
     if (worst == TN_STOPPED)
-        return tn_fail(error, TN_STOPPED, 0, "stopped while the rules were compared");
+        return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped while the rules were compared");
     return worst == TN_OK ? TN_OK : tn_fail_memory(error);
 }
 

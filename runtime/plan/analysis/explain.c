@@ -111,7 +111,7 @@ static tn_status keep_relation(tn_explaining *e, const uint64_t *from, bool mirr
 {
     size_t trays = e->result->length, bytes = (trays + 1) * e->words * sizeof(uint64_t);
     if (bytes > RELATION_BYTES_MAX - e->bytes)
-        return tn_fail(e->error, TN_LIMIT, 807,
+        return tn_fail(e->error, TN_LIMIT, E_MATCHING_MEMORY,
                        "explaining a plan of %zu trays needs more memory than the limit of %llu bytes", trays,
                        (unsigned long long)RELATION_BYTES_MAX);
     *kept = malloc(bytes);

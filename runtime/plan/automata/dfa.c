@@ -16,17 +16,17 @@ tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, 
 {
     bounds->work += work;
     if (bounds->stop && *bounds->stop)
-        return tn_fail(error, TN_STOPPED, 0, "stopped while the automaton of this %s was being made", what);
+        return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped while the automaton of this %s was being made", what);
     tn_status status = TN_OK;
     if (states > bounds->max_states)
-        status = tn_fail(error, TN_LIMIT, 802, "the automaton of this %s passes the limit of %u states", what,
-                         bounds->max_states);
+        status = tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "the automaton of this %s passes the limit of %u states",
+                         what, bounds->max_states);
     else if (states * columns > bounds->max_transitions)
-        status = tn_fail(error, TN_LIMIT, 802,
+        status = tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
                          "the automaton of this %s passes the limit of %llu transitions at %llu states", what,
                          (unsigned long long)bounds->max_transitions, (unsigned long long)states);
     else if (bounds->work > bounds->max_work)
-        status = tn_fail(error, TN_LIMIT, 802,
+        status = tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
                          "the automaton of this %s takes more than %llu steps to build; it had %llu states by then",
                          what, (unsigned long long)bounds->max_work, (unsigned long long)states);
     if (status != TN_OK)

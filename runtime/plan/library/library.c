@@ -264,8 +264,8 @@ static tn_status set_lengths(tn_library *library, const tn_library_options *opti
     }
     if (library->max <= most)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, 805, "the library's plans have up to %u trays, which passes the limit of %u", library->max,
-            most);
+    tn_fail(error, TN_LIMIT, E_PLAN_TOO_LONG, "the library's plans have up to %u trays, which passes the limit of %u",
+            library->max, most);
     tn_error_help(error, "give fewer with --trays, or raise the limit with --max-length");
     return TN_LIMIT;
 }

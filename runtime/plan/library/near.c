@@ -179,7 +179,7 @@ static tn_status add_edge(tn_near_search *s, uint32_t from, uint32_t to, uint32_
 
 static tn_status too_many(const tn_near_search *s)
 {
-    return tn_fail(s->error, TN_LIMIT, 808,
+    return tn_fail(s->error, TN_LIMIT, E_MATCHING_WORK,
                    "the search for the nearest kept plan visits more than the limit of %u places", TN_NEAR_NODES_MAX);
 }
 

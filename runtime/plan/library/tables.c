@@ -9,7 +9,8 @@ static tn_status pass_table(const tn_library *library, uint64_t bytes, uint32_t 
 {
     if (bytes <= library->max_table)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, 806, "the table of counts passes the limit of %llu bytes at plans of %u trays (%u states)",
+    tn_fail(error, TN_LIMIT, E_TABLE_TOO_LARGE,
+            "the table of counts passes the limit of %llu bytes at plans of %u trays (%u states)",
             (unsigned long long)library->max_table, length, library->kept->states);
     tn_error_help(error, "give fewer trays with --trays, or leave out rules that multiply the states");
     return TN_LIMIT;

@@ -13,7 +13,7 @@ static const char *field_name(const tn_schema *schema, uint32_t field)
 
 static tn_status differ(tn_error *error, const char *what)
 {
-    tn_fail(error, TN_INVALID, 508, "the two libraries are not of the same trays: %s", what);
+    tn_fail(error, TN_INVALID, E_OTHER_TRAYS, "the two libraries are not of the same trays: %s", what);
     tn_error_help(error, "compare libraries of one schema");
     return TN_INVALID;
 }

@@ -161,7 +161,7 @@ tn_status tn_condition_period(const tn_module *module, uint32_t function, int64_
     tail bound;
     limit = limit < TN_CONDITION_STEPS_MAX ? limit : TN_CONDITION_STEPS_MAX;
     if (!find_tail(module, record, unit, limit, &bound)) {
-        tn_fail(error, TN_LIMIT, 802, "a condition counts further than the limit of %llu steps",
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "a condition counts further than the limit of %llu steps",
                 (unsigned long long)limit);
         tn_error_help(error, limit < TN_CONDITION_STEPS_MAX ? "raise it with --max-states" : "use smaller numbers");
         if (error)

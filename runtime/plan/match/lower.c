@@ -221,7 +221,7 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
     case TN_OP_DISTANCE:
         return tn_marked_distance(marked, in[0], in[1], in[2], reversed, out, error);
     default:
-        return tn_fail(error, TN_INTERNAL, 0, "an instruction that makes no relation");
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "an instruction that makes no relation");
     }
 }
 
@@ -342,7 +342,8 @@ static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error 
 
 static tn_status too_much_work(const tn_lowering *lowering, uint32_t function, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, 802, "the automata of these rules take more than %llu steps to build together",
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+            "the automata of these rules take more than %llu steps to build together",
             (unsigned long long)lowering->bounds.max_work * RULES_WORK);
     tn_error_help(error, "split the rules over several files");
     if (error)
@@ -392,7 +393,7 @@ static tn_status lower_until(tn_lowering *lowering, tn_term *term, uint32_t form
     while (at < term->count && term->nodes[at].offset != offset)
         at++;
     if (at == term->count || term->nodes[at].plain)
-        return tn_fail(error, TN_INTERNAL, 0, "an instruction that makes no relation");
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "an instruction that makes no relation");
     uint8_t pops = tn_code_effect((uint8_t)term->nodes[at].code.opcode).pops;
     term->count = at;
     tn_dfa *last = NULL;

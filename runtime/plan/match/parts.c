@@ -18,7 +18,7 @@ typedef struct reading {
 
 static tn_status foreign(const reading *r, uint32_t offset)
 {
-    tn_status status = tn_fail(r->error, TN_INVALID, 703, "this is not what the compiler makes of a rule");
+    tn_status status = tn_fail(r->error, TN_INVALID, E_REFUSED_MODULE, "this is not what the compiler makes of a rule");
     if (r->error)
         r->error->code_offset = offset;
     return status;

@@ -10,8 +10,9 @@
 
 static tn_status out_of_room(const tn_plan_vm *vm, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, 807, "matching a plan of %zu trays needs more memory than the limit of %llu bytes",
-            vm->length, (unsigned long long)vm->memory_limit);
+    tn_fail(error, TN_LIMIT, E_MATCHING_MEMORY,
+            "matching a plan of %zu trays needs more memory than the limit of %llu bytes", vm->length,
+            (unsigned long long)vm->memory_limit);
     tn_error_help(error, "match shorter plans, or by automata (--engine=dfa), which need neither");
     return TN_LIMIT;
 }
@@ -114,8 +115,8 @@ static tn_status spend(tn_plan_vm *vm, const tn_instruction *op, uint32_t offset
         vm->work -= words;
         return TN_OK;
     }
-    tn_fail(error, TN_LIMIT, 808, "matching a plan of %zu trays takes more than the limit of %llu steps", vm->length,
-            (unsigned long long)vm->work_limit);
+    tn_fail(error, TN_LIMIT, E_MATCHING_WORK, "matching a plan of %zu trays takes more than the limit of %llu steps",
+            vm->length, (unsigned long long)vm->work_limit);
     tn_error_help(error, "match shorter plans, or by automata (--engine=dfa), which need neither");
     if (error)
         error->code_offset = offset;
@@ -200,7 +201,7 @@ static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **re
     if (function >= vm->module->FUNCTION_count ||
         vm->module->FUNCTION_records[function].kind == TN_FUNCTION_CONDITION ||
         &vm->module->SCHEMA_records[vm->module->FUNCTION_records[function].schema] != vm->schema->record)
-        return tn_fail(error, TN_INTERNAL, 0, "function %u is not a rule of the schema", (unsigned)function);
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "function %u is not a rule of the schema", (unsigned)function);
     const vm_memo *memo = &vm->memos[2 * (size_t)function];
     vm->work = vm->work_limit;
     if (!is_found(vm, memo)) {
@@ -263,7 +264,8 @@ void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work)
 tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, tn_error *error)
 {
     if (length > vm->max_length) {
-        tn_fail(error, TN_LIMIT, 805, "a plan of %zu trays is longer than the limit of %zu", length, vm->max_length);
+        tn_fail(error, TN_LIMIT, E_PLAN_TOO_LONG, "a plan of %zu trays is longer than the limit of %zu", length,
+                vm->max_length);
         tn_error_help(error, "--max-length raises the limit");
         return TN_LIMIT;
     }

@@ -218,7 +218,7 @@ static tn_status choose_layout(drawing *d, tn_error *error)
         paper_count = 1;
     }
     if (d->options->scale && !d->roles.to_scale) {
-        tn_status status = tn_fail(error, TN_INVALID, 904,
+        tn_status status = tn_fail(error, TN_INVALID, E_USAGE,
                                    "the plans cannot be drawn to scale: the schema has no field of role length "
                                    "and zone of role band");
         tn_error_help(error,
@@ -243,7 +243,7 @@ static tn_status choose_layout(drawing *d, tn_error *error)
         lay_out_tables(d, papers, paper_count);
     if (d->columns > 0 && (d->rows > 0 || d->format != TN_CANVAS_PDF))
         return TN_OK;
-    tn_status status = tn_fail(error, TN_LIMIT, 820, "the plans do not fit on the paper as asked for");
+    tn_status status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the plans do not fit on the paper as asked for");
     tn_error_help(error,
                   "choose a larger --paper, a smaller --scale (a larger number) or fewer --columns, or leave them out");
     return status;
@@ -362,7 +362,8 @@ static tn_status check_count(size_t count, const tn_draw_options *options, tn_er
     size_t most = options->max_plans ? options->max_plans : TN_DRAW_PLANS_DEFAULT;
     if (count <= most)
         return TN_OK;
-    tn_status status = tn_fail(error, TN_LIMIT, 820, "there are %zu plans to draw; the limit is %zu", count, most);
+    tn_status status =
+        tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu plans to draw; the limit is %zu", count, most);
     tn_error_help(error, "raise it with --max-plans, or draw a --sample");
     return status;
 }

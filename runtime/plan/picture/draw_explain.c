@@ -227,7 +227,7 @@ tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, co
     picture p = {.schema = schema, .plan = plan, .title = title};
     tn_canvas *canvas = NULL;
     if (count > TN_DRAW_REASONS_MAX)
-        return tn_fail(error, TN_LIMIT, 820, "there are %zu parts to draw; the limit is %u", count,
+        return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u", count,
                        TN_DRAW_REASONS_MAX);
     tn_draw_roles_find(schema, &p.roles);
     measure(&p, reasons, count);

@@ -338,8 +338,9 @@ tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, siz
         all.height += title_room(&pictures[i]) + one.height + BETWEEN_RULES;
     }
     if (status == TN_OK && !(all.width <= TN_DRAW_RULE_SIDE_MAX && all.height <= TN_DRAW_RULE_SIDE_MAX)) {
-        status = tn_fail(error, TN_LIMIT, 820, "the picture would be %.0f by %.0f points; the limit is %.0f a side",
-                         all.width, all.height, TN_DRAW_RULE_SIDE_MAX);
+        status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE,
+                         "the picture would be %.0f by %.0f points; the limit is %.0f a side", all.width, all.height,
+                         TN_DRAW_RULE_SIDE_MAX);
         tn_error_help(error, "draw fewer rules at once, or give parts of the rule names of their own");
     }
     if (status == TN_OK)

@@ -65,8 +65,9 @@ static tn_status look_at_trays(tn_class_finder *finder, tn_error *error)
     finder->looked += finder->schema->tray_count;
     if (finder->looked <= TN_CLASS_LOOKS_MAX)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, 803, "telling %u trays apart by so many specifiers takes more than %llu comparisons",
-            finder->schema->tray_count, (unsigned long long)TN_CLASS_LOOKS_MAX);
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
+            "telling %u trays apart by so many specifiers takes more than %llu comparisons", finder->schema->tray_count,
+            (unsigned long long)TN_CLASS_LOOKS_MAX);
     tn_error_help(error, "give the schema fewer values, or split the rules over several files");
     return TN_LIMIT;
 }

@@ -46,7 +46,7 @@ static uint32_t forbidding_spec(const tn_schema *schema, const uint64_t *mask)
 
 static tn_status too_many(const tn_schema *schema, uint64_t limit, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, 803, "schema %s has more combinations of values than the limit of %llu",
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has more combinations of values than the limit of %llu",
             tn_text(schema->module, schema->record->name), (unsigned long long)limit);
     tn_error_help(error, "name fewer values, or fewer fields: every legal tray has a number and a place in a table");
     return TN_LIMIT;
@@ -60,14 +60,15 @@ static tn_status check_fields(const tn_schema *schema, tn_error *error)
         const tn_field_record *field = &schema->fields[i];
         const char *name = tn_text(schema->module, field->name);
         if (field->value_first != next || field->value_count == 0)
-            return tn_fail(error, TN_INVALID, 703, "the values of field %s are not where they belong", name);
+            return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "the values of field %s are not where they belong",
+                           name);
         if (field->value_count > TN_FIELD_VALUES_MAX)
-            return tn_fail(error, TN_LIMIT, 803, "field %s has %u values, more than the limit of %u", name,
+            return tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "field %s has %u values, more than the limit of %u", name,
                            (unsigned)field->value_count, TN_FIELD_VALUES_MAX);
         for (uint32_t v = 0; v < field->value_count; v++) {
             int64_t length = schema->module->VALUE_records[next + v].length;
             if (length < 0 || length > TN_LENGTH_MAX)
-                return tn_fail(error, TN_INVALID, 703, "field %s has a length that is out of range", name);
+                return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "field %s has a length that is out of range", name);
         }
         next += field->value_count;
     }
@@ -93,10 +94,12 @@ static tn_status count_codes(tn_schema *schema, uint64_t max_codes, tn_error *er
 
     uint64_t tray_bytes = schema->field_count + sizeof(uint64_t) * (uint64_t)schema->mask_words;
     if (tray_bytes * codes > TN_SCHEMA_BYTES_MAX)
-        return tn_fail(error, TN_LIMIT, 803, "the trays of schema %s need more memory than the limit of %llu bytes",
+        return tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
+                       "the trays of schema %s need more memory than the limit of %llu bytes",
                        tn_text(schema->module, schema->record->name), (unsigned long long)TN_SCHEMA_BYTES_MAX);
     if (codes * ((uint64_t)schema->record->forbid_count * schema->mask_words) > TN_SCHEMA_CHECKS_MAX)
-        return tn_fail(error, TN_LIMIT, 803, "schema %s has too many combinations for its %u forbidden specifiers",
+        return tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
+                       "schema %s has too many combinations for its %u forbidden specifiers",
                        tn_text(schema->module, schema->record->name), (unsigned)schema->record->forbid_count);
     return TN_OK;
 }

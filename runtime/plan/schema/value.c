@@ -160,7 +160,7 @@ tn_status tn_value_unknown(const tn_schema *schema, uint32_t field, const tn_wor
     char shown[TN_WORD_SHOWN], values[240];
     list_values(schema, field, values, sizeof values);
     tn_word_show(word, shown);
-    tn_fail(error, TN_INVALID, 602, "`%s` is not a value of %.60s, which can be %s", shown,
+    tn_fail(error, TN_INVALID, E_PLAN_VALUE, "`%s` is not a value of %.60s, which can be %s", shown,
             text_of(schema, schema->fields[field].name), values);
     help_value(schema, field, word, shown, error);
     return tn_word_refuse(word, error);
@@ -194,7 +194,8 @@ tn_status tn_value_tray(const tn_schema *schema, const uint8_t *values, const tn
     uint32_t spec = tn_schema_forbidden_by(schema, values);
     if (spec != UINT32_MAX)
         spec_text(schema->module, spec, text, sizeof text);
-    tn_fail(error, TN_INVALID, 603, "schema %.60s has no such tray: %s", text_of(schema, schema->record->name), text);
+    tn_fail(error, TN_INVALID, E_PLAN_FORBIDDEN, "schema %.60s has no such tray: %s",
+            text_of(schema, schema->record->name), text);
     tn_error_help(error, "change one of the values that the `forbid` names");
     return tn_word_refuse(place, error);
 }

@@ -219,7 +219,7 @@ tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
 {
     elimination e = {.count = dfa->states};
     if (dfa->columns > TN_REGEX_LETTERS_MAX || dfa->states > TN_REGEX_LENGTH_MAX)
-        return tn_fail(error, TN_LIMIT, 802,
+        return tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
                        "the automaton has %u classes of trays and %u states; a pattern has at most %u letters",
                        dfa->columns, dfa->states, TN_REGEX_LETTERS_MAX);
     size_t all = (size_t)e.count + 2;
@@ -240,8 +240,8 @@ tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
     if (made.failed)
         status = tn_fail_memory(error);
     if (status == TN_OK && (e.long_ || made.size > TN_REGEX_LENGTH_MAX))
-        status = tn_fail(error, TN_LIMIT, 802, "the pattern would be longer than the limit of %u characters",
-                         TN_REGEX_LENGTH_MAX);
+        status = tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+                         "the pattern would be longer than the limit of %u characters", TN_REGEX_LENGTH_MAX);
     if (status == TN_OK && made.size && !tn_buffer_append(out, made.data, made.size))
         status = tn_fail_memory(error);
     free(made.data);

@@ -37,7 +37,7 @@ static bool accept(tn_json *json, char c)
 
 static tn_status refuse_at(tn_json *json, size_t begin, size_t end, const char *message)
 {
-    tn_fail(json->error, TN_INVALID, 601, "%s", message);
+    tn_fail(json->error, TN_INVALID, E_PLAN_SYNTAX, "%s", message);
     tn_error_place(json->error, 0, begin + 1, end + 1);
     return TN_INVALID;
 }
@@ -320,7 +320,7 @@ static tn_status no_such_field(tn_json *json, const tn_word *key)
 {
     char shown[TN_WORD_SHOWN], fields[200];
     const tn_schema *schema = json->scanner->schema;
-    tn_fail(json->error, TN_INVALID, 601, "`%s` is not a field of schema %.60s", tn_word_show(key, shown),
+    tn_fail(json->error, TN_INVALID, E_PLAN_SYNTAX, "`%s` is not a field of schema %.60s", tn_word_show(key, shown),
             tn_text(schema->module, schema->record->name));
     tn_error_help(json->error, "its fields are: %s", tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(key, json->error);
@@ -439,6 +439,6 @@ tn_status tn_scanner_json(tn_plan_scanner *scanner, const char *text, size_t len
     if (status != TN_OK)
         return status;
     if (!found)
-        return refuse_at(&json, 0, 1, "the object has no \"trays\"");
+        return refuse_at(&json, 0, E_UNEXPECTED, "the object has no \"trays\"");
     return peek(&json) || json.at < json.size ? refuse(&json, "one plan a line: nothing may follow it") : TN_OK;
 }

@@ -38,8 +38,9 @@ static tn_word next_word(tn_word *rest)
 static tn_status too_few(const tn_schema *schema, const tn_word *tray, uint32_t found, tn_error *error)
 {
     char fields[200];
-    tn_fail(error, TN_INVALID, 601, "a tray has %u values, and this one ends after %u: there is none for %.60s",
-            (unsigned)schema->field_count, (unsigned)found, tn_text(schema->module, schema->fields[found].name));
+    tn_fail(error, TN_INVALID, E_PLAN_SYNTAX,
+            "a tray has %u values, and this one ends after %u: there is none for %.60s", (unsigned)schema->field_count,
+            (unsigned)found, tn_text(schema->module, schema->fields[found].name));
     tn_error_help(error, "write the values in the schema's order: %s", tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(tray, error);
 }
@@ -47,8 +48,8 @@ static tn_status too_few(const tn_schema *schema, const tn_word *tray, uint32_t 
 static tn_status too_many(const tn_schema *schema, const tn_word *word, tn_error *error)
 {
     char fields[160], shown[TN_WORD_SHOWN];
-    tn_fail(error, TN_INVALID, 601, "a tray has %u values, and `%s` is one more", (unsigned)schema->field_count,
-            tn_word_show(word, shown));
+    tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "a tray has %u values, and `%s` is one more",
+            (unsigned)schema->field_count, tn_word_show(word, shown));
     tn_error_help(error, "separate trays with | ; the values of a tray are: %s",
                   tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(word, error);
@@ -58,7 +59,8 @@ static tn_status too_many(const tn_schema *schema, const tn_word *word, tn_error
 static tn_status in_brackets(const tn_schema *schema, const tn_word *word, tn_error *error)
 {
     char fields[200];
-    tn_fail(error, TN_INVALID, 601, "a plan line has no brackets: those are of the plans in a rule file's tests");
+    tn_fail(error, TN_INVALID, E_PLAN_SYNTAX,
+            "a plan line has no brackets: those are of the plans in a rule file's tests");
     tn_error_help(error, "write every value of each tray, in the schema's order: %s",
                   tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(word, error);
@@ -101,7 +103,7 @@ static tn_status add_tray(tn_plan_scanner *scanner, const tn_word *text, size_t 
 
 static tn_status no_tray(size_t column, tn_error *error)
 {
-    tn_fail(error, TN_INVALID, 601, "there is no tray here");
+    tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "there is no tray here");
     tn_error_help(error, "a | stands between two trays; take it away, or write the tray");
     return tn_word_refuse(&(tn_word){.column = column, .extent = 1}, error);
 }

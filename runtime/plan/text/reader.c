@@ -74,7 +74,7 @@ static tn_status skip_line(tn_plan_reader *reader, tn_error *error)
 
 tn_status tn_reader_line_too_long(size_t max_line, uint64_t line, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, 605, "the line is longer than the limit of %zu bytes", max_line);
+    tn_fail(error, TN_LIMIT, E_PLAN_LINE_TOO_LONG, "the line is longer than the limit of %zu bytes", max_line);
     tn_error_help(error, "write one plan a line");
     tn_error_place(error, line, 1, 1);
     return TN_LIMIT;
@@ -164,7 +164,7 @@ static tn_status next_text(tn_plan_reader *reader, bool *found, tn_error *error)
 
 static tn_status refuse_text(const tn_plan_reader *reader, const char *message, const char *help, tn_error *error)
 {
-    tn_fail(error, TN_INVALID, 604, "%s: %s", reader->path, message);
+    tn_fail(error, TN_INVALID, E_PLAN_FILE, "%s: %s", reader->path, message);
     tn_error_help(error, "%s", help);
     return TN_INVALID;
 }
@@ -272,8 +272,8 @@ void tn_plan_reader_free(tn_plan_reader *reader)
 
 tn_status tn_reader_too_long(const tn_plan_reader *reader, uint64_t length, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, 805, "the plan has %llu trays, more than the limit of %zu", (unsigned long long)length,
-            reader->max_length);
+    tn_fail(error, TN_LIMIT, E_PLAN_TOO_LONG, "the plan has %llu trays, more than the limit of %zu",
+            (unsigned long long)length, reader->max_length);
     tn_error_help(error, "--max-length raises the limit");
     return TN_LIMIT;
 }
@@ -312,7 +312,8 @@ tn_status tn_plan_reader_next(tn_plan_reader *reader, const tn_plan **plan, tn_e
     filled->line = reader->line;
     if (filled->column == 0)
         filled->column = filled->column_end = 1;
-    bool one_plan = filled->code != 604 && (status == TN_INVALID || filled->code == 605 || filled->code == 805);
+    bool one_plan = filled->code != E_PLAN_FILE &&
+                    (status == TN_INVALID || filled->code == E_PLAN_LINE_TOO_LONG || filled->code == E_PLAN_TOO_LONG);
     reader->at_end = !one_plan;
     return status;
 }

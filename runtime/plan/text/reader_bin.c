@@ -14,7 +14,7 @@ static const uint8_t *input(const tn_plan_reader *reader)
 static tn_status damaged(const tn_plan_reader *reader, const char *what, tn_error *error)
 {
     bool opening = reader->line == 0;
-    tn_fail(error, TN_INVALID, 604, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
+    tn_fail(error, TN_INVALID, E_PLAN_FILE, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
             opening ? ": " : "", what);
     tn_error_help(error, "make the file anew from its library, or get another copy of it");
     return TN_INVALID;
@@ -45,11 +45,11 @@ tn_status tn_reader_bin_open(tn_plan_reader *reader, tn_error *error)
     uint64_t version = tn_get_u32(header + 8), tray_bytes = tn_get_u32(header + 12);
     uint64_t schema_hash = tn_get_u64(header + 16), metadata = tn_get_u64(header + 24);
     if (version != TN_PACK_VERSION)
-        return tn_fail(error, TN_INVALID, 604, "%s: packed plans of version %llu, and only version %u is known",
+        return tn_fail(error, TN_INVALID, E_PLAN_FILE, "%s: packed plans of version %llu, and only version %u is known",
                        reader->path, (unsigned long long)version, TN_PACK_VERSION);
     if (schema_hash != tn_pack_schema_hash(reader->schema) || tray_bytes != tn_pack_tray_bytes(reader->schema)) {
-        tn_fail(error, TN_INVALID, 604, "%s: these packed plans were made with another schema than %.80s", reader->path,
-                tn_text(reader->schema->module, reader->schema->record->name));
+        tn_fail(error, TN_INVALID, E_PLAN_FILE, "%s: these packed plans were made with another schema than %.80s",
+                reader->path, tn_text(reader->schema->module, reader->schema->record->name));
         tn_error_help(error, "name the rule file that they were made with");
         return TN_INVALID;
     }

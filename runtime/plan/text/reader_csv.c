@@ -130,7 +130,7 @@ static tn_status parse_plan(tn_plan_reader *reader, const csv_field *written, tn
 
 static tn_status bad_record(tn_plan_reader *reader, size_t at, const char *message, const char *help, tn_error *error)
 {
-    tn_fail(error, TN_INVALID, 601, "%s", message);
+    tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "%s", message);
     tn_error_help(error, "%s", help);
     tn_error_place(error, reader->line, at + 1, at + 2);
     return TN_INVALID;

@@ -13,8 +13,8 @@ static tn_status failed(const tn_plan_reader *reader, tn_error *error)
         return tn_fail_memory(error);
     bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
     bool opening = reader->line == 0; /* later the error has a line, and so a file */
-    return tn_fail(error, damaged ? TN_INVALID : TN_IO, damaged ? 604 : 901, "%s%s%s", opening ? reader->path : "",
-                   opening ? ": " : "", sqlite3_errmsg(reader->database));
+    return tn_fail(error, damaged ? TN_INVALID : TN_IO, damaged ? E_PLAN_FILE : E_CANNOT_READ, "%s%s%s",
+                   opening ? reader->path : "", opening ? ": " : "", sqlite3_errmsg(reader->database));
 }
 
 /* Was the library made with this schema? A library without metadata is read by its plan lines. */
@@ -36,7 +36,8 @@ static tn_status check_schema(tn_plan_reader *reader, tn_error *error)
 tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error)
 {
     if (reader->file == STDIN_FILENO)
-        return tn_fail(error, TN_INVALID, 604, "a SQLite library cannot be read from standard input: name its file");
+        return tn_fail(error, TN_INVALID, E_PLAN_FILE,
+                       "a SQLite library cannot be read from standard input: name its file");
     close(reader->file);
     reader->file = -1;
     /* Opened for writing where that is allowed, as SQLite must roll back what a killed writer left half done. */
@@ -76,7 +77,7 @@ static tn_status read_packed(tn_plan_reader *reader, tn_error *error)
         return tn_fail_memory(error);
     reader->plan.length = length;
     if (size % tray_bytes != 0 || !tn_unpack_trays(reader->schema, bytes, length, reader->plan.trays))
-        return tn_fail(error, TN_INVALID, 601, "the packed plan holds a tray that the schema does not have");
+        return tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "the packed plan holds a tray that the schema does not have");
     return TN_OK;
 }
 

@@ -48,7 +48,7 @@ void tn_scanner_learn(tn_plan_scanner *scanner, const char *text, size_t size, u
 tn_status tn_scanner_add(tn_plan *plan, tn_tray tray, size_t max_trays, const tn_word *place, tn_error *error)
 {
     if (plan->length >= max_trays) {
-        tn_fail(error, TN_LIMIT, 805, "the plan has more trays than the limit of %zu", max_trays);
+        tn_fail(error, TN_LIMIT, E_PLAN_TOO_LONG, "the plan has more trays than the limit of %zu", max_trays);
         tn_error_help(error, "--max-length raises the limit");
         tn_error_place(error, 0, place->column, place->column + place->extent);
         return TN_LIMIT;

@@ -17,7 +17,7 @@ static tn_status failed(const tn_plan_writer *writer, tn_error *error)
     if (code == SQLITE_NOMEM)
         return tn_fail_memory(error);
     if (code == SQLITE_CONSTRAINT) {
-        tn_fail(error, TN_INVALID, 606, "%s: the library holds such a plan already", writer->path);
+        tn_fail(error, TN_INVALID, E_PLAN_RESUME, "%s: the library holds such a plan already", writer->path);
         tn_error_help(error, "somebody else may be writing to it");
         return TN_INVALID;
     }
@@ -26,7 +26,7 @@ static tn_status failed(const tn_plan_writer *writer, tn_error *error)
         reason = sqlite3_system_errno(writer->database);
     if (reason)
         return tn_cannot_write(writer->path, reason, error);
-    return tn_fail(error, TN_IO, 902, "cannot write %s: %s", writer->path, sqlite3_errmsg(writer->database));
+    return tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot write %s: %s", writer->path, sqlite3_errmsg(writer->database));
 }
 
 static tn_status run(tn_plan_writer *writer, const char *sql, tn_error *error)
@@ -120,7 +120,7 @@ static tn_status look(tn_plan_writer *writer, bool *is_new, tn_error *error)
     free(id);
     if (status != TN_OK || *is_new || is_library)
         return status;
-    tn_fail(error, TN_IO, 902, "%s: the file is there already, and it is no plan library", writer->path);
+    tn_fail(error, TN_IO, E_CANNOT_WRITE, "%s: the file is there already, and it is no plan library", writer->path);
     tn_error_help(error, "name another file, or remove this one");
     return TN_IO;
 }
@@ -133,8 +133,8 @@ static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item
     tn_status status = query_text(writer, sql, &found, error);
     bool same = strcmp(found ? found : "", item->value ? item->value : "") == 0;
     if (status == TN_OK && !same) {
-        status = tn_fail(error, TN_INVALID, 606, "%s: its %s is %.100s, and now it would be %.100s", writer->path,
-                         item->key, found ? found : "not known", item->value ? item->value : "none");
+        status = tn_fail(error, TN_INVALID, E_PLAN_RESUME, "%s: its %s is %.100s, and now it would be %.100s",
+                         writer->path, item->key, found ? found : "not known", item->value ? item->value : "none");
         tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to start "
                              "anew");
     }
@@ -169,7 +169,7 @@ static tn_status find_last(tn_plan_writer *writer, tn_error *error)
         const char *rank = (const char *)sqlite3_column_text(row, 1);
         writer->number = (uint64_t)sqlite3_column_int64(row, 0);
         if (!rank || !*rank || strspn(rank, "0123456789") != strlen(rank))
-            status = tn_fail(error, TN_INVALID, 606, "%s: its last plan has no rank", writer->path);
+            status = tn_fail(error, TN_INVALID, E_PLAN_RESUME, "%s: its last plan has no rank", writer->path);
         else if (!tn_buffer_append(&writer->last_rank, rank, strlen(rank)))
             status = tn_fail_memory(error);
         writer->resumed = writer->number;
@@ -224,7 +224,8 @@ static tn_status prepare_inserts(tn_plan_writer *writer, tn_error *error)
 tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
 {
     if (strcmp(writer->path, "-") == 0)
-        return tn_fail(error, TN_INVALID, 904, "a SQLite library cannot be written to standard output: name a file");
+        return tn_fail(error, TN_INVALID, E_USAGE,
+                       "a SQLite library cannot be written to standard output: name a file");
     tn_status status = open_database(writer, error);
     bool is_new = false;
     if (status == TN_OK)

@@ -305,11 +305,11 @@ static void test_input_places(void **state)
     (void)state;
     fixture *f = begin("");
     tn_error error;
-    tn_fail(&error, TN_INVALID, 602, "no such width");
+    tn_fail(&error, TN_INVALID, E_PLAN_VALUE, "no such width");
     tn_error_help(&error, "4' and 8' are");
     tn_error_place(&error, 12, 5, 8);
     tn_report_error(&f->list, &error, "plans.txt", "8' |13' | and more that is no part of it", 9);
-    tn_fail(&error, TN_LIMIT, 802, "too many states");
+    tn_fail(&error, TN_LIMIT, E_TOO_MANY_STATES, "too many states");
     tn_report_error(&f->list, &error, NULL, NULL, 0);
     expect_text(f, "plans.txt:12:5: error[E0602]: no such width\n"
                    "  12 | 8' |13' |\n"

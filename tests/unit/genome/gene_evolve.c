@@ -171,7 +171,7 @@ static tn_status never(void *context, unsigned thread, const char *sentence, siz
                        char message[200], tn_error *error)
 {
     (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
-    return tn_fail(error, TN_INTERNAL, 0, "asked");
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "asked");
 }
 
 static void test_replay(void **state)

@@ -130,7 +130,7 @@ static bool read_back(void *context)
     tn_error error = {0};
     tn_status status = tn_file_read(context, 1 << 20, &bytes, &size, &error);
     free(bytes);
-    assert_true(status == TN_OK || (status == TN_MEMORY && error.code == 801 && !bytes));
+    assert_true(status == TN_OK || (status == TN_MEMORY && error.code == E_OUT_OF_MEMORY && !bytes));
     return status == TN_OK;
 }
 
@@ -239,7 +239,7 @@ static bool report(void *context)
         tn_help(&list, item, "a help");
     }
     tn_error error;
-    tn_fail(&error, TN_INVALID, 601, "unreadable");
+    tn_fail(&error, TN_INVALID, E_PLAN_SYNTAX, "unreadable");
     tn_error_place(&error, 1, 1, 2);
     tn_error_help(&error, "a help");
     tn_report_error(&list, &error, "plans.txt", "x", 1);

@@ -137,7 +137,7 @@ static void expect_robust(operation operate, opened_rows *rows, size_t step)
             reached = stop_failing() > number;
             if (status == TN_OK && (out.size != expected.size || memcmp(out.data, expected.data, out.size) != 0))
                 fail_msg("without allocation %zu the result is another", number);
-            if (status != TN_OK && (status != TN_MEMORY || error.code != 801))
+            if (status != TN_OK && (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY))
                 fail_msg("without allocation %zu: %s", number, error.message);
             failures += status != TN_OK;
             free(out.data);

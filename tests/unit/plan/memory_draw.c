@@ -75,7 +75,7 @@ static void fails_cleanly(void **state)
                 }
                 if (status == TN_OK)
                     continue;
-                if (status != TN_MEMORY || error.code != 801)
+                if (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY)
                     fail_msg("operation %zu, allocation %zu: %s", i, number, error.message);
                 failures++;
             }

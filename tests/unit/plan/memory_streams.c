@@ -39,7 +39,7 @@ static void expect_robust(operation *operate, const context *c)
             }
             if (status == TN_OK)
                 continue;
-            if (status != TN_MEMORY || error.code != 801)
+            if (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY)
                 fail_msg("allocation %zu, format %d: %s", number, (int)c->format, error.message);
             failures++;
         }

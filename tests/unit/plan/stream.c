@@ -170,7 +170,7 @@ static void expect_stream(const fixture *f, const char *text, size_t size, const
     for (size_t i = 0; i < count; i++) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
         assert_int_equal(tn_plan_reader_line(reader), wanted[i].line);
-        if (wanted[i].code == 0) {
+        if (wanted[i].code == TN_CODE_NONE) {
             test_ok(status, &error);
             assert_non_null(plan);
             assert_int_equal(plan->length, wanted[i].value);

@@ -209,7 +209,7 @@ static void test_errors(void **state)
         const wrong *w = &wrongs[i];
         tn_error error = {0};
         tn_status status = read_text(&f, w->text, 3, &error);
-        bool right = status == (w->code == 805 ? TN_LIMIT : TN_INVALID) && error.code == w->code &&
+        bool right = status == (w->code == E_PLAN_TOO_LONG ? TN_LIMIT : TN_INVALID) && error.code == w->code &&
                      error.column == w->column && error.column_end == w->column_end &&
                      strstr(error.message, w->message) && strstr(error.help, w->help);
         if (!right)
