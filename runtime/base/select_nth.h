@@ -1,4 +1,4 @@
-/* Selection (Hoare's): what building a tree over places halves its stretches by (internal to the growth engine). */
+/* Selection by Hoare's method: orders a range so that its n-th element stands where sorting would put it. */
 #ifndef TARTAN_BASE_SELECT_NTH_H
 #define TARTAN_BASE_SELECT_NTH_H
 

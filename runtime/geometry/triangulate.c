@@ -1,14 +1,19 @@
 /* Faces cut into triangles by cutting off ears (Meisters 1975): a corner that turns inwards and whose triangle holds no
- * other corner is cut off, until three are left. Only corners that turn outwards can lie in an ear, and a grid tells
- * which of them are near: a face of many thousand corners takes little longer than its share. */
+ * other corner is cut off, until three are left.
+ *
+ * Only corners that turn outwards can lie in an ear; a tree (corner_tree.h) tells whether one does. Cutting an ear off
+ * changes what can be said of its two neighbours alone, so that each corner is looked at when it may have become an ear
+ * and not otherwise. Outlines that touch or cross themselves can run out of ears: then all corners are looked at again,
+ * which is worth it once an eighth of them went since the last time, or else a corner is cut off as it is. So a face of
+ * n corners takes about n log n steps, whatever its outline. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "runtime/base/bit_tree.h"
+#include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
 
-#define NONE UINT32_MAX
-#define FEW 24u /* outward corners: up to here all are looked at */
+#define FEW 24u /* corners of a face: up to here all that turn outwards are looked at */
 
 /* The outline of the face at hand, in the plane of its normal. Arrays are as long as the largest face. */
 typedef struct ring {
@@ -16,11 +21,9 @@ typedef struct ring {
     double (*points)[2];
     uint32_t *before, *after; /* the corners that are left */
     bool *outward;            /* turns outwards, so that it may lie in an ear; never set for one that is cut */
-    uint32_t outwards;
-    uint32_t *cells, *next; /* outward corners by cell, as linked lists */
-    double low[2], cell[2];
-    uint32_t size[2];
-    uint32_t room, cell_room;
+    tn_corner_tree tree;  /* of the outward corners, where they are many */
+    tn_bit_tree maybe;    /* the corners that may be ears */
+    uint32_t looked_left; /* corners that were left when all were last looked at */
 } ring;
 
 static void clear_ring(ring *r)
@@ -29,22 +32,19 @@ static void clear_ring(ring *r)
     free(r->before);
     free(r->after);
     free(r->outward);
-    free(r->cells);
-    free(r->next);
+    tn_corner_tree_clear(&r->tree);
+    tn_bit_tree_clear(&r->maybe);
 }
 
 static tn_status reserve(ring *r, uint32_t room, tn_error *error)
 {
-    r->room = room;
-    r->cell_room = room + 2 * (uint32_t)sqrt(room) + 2;
     r->points = malloc(room * sizeof *r->points);
     r->before = malloc(room * sizeof *r->before);
     r->after = malloc(room * sizeof *r->after);
     r->outward = malloc(room * sizeof *r->outward);
-    r->cells = malloc(r->cell_room * sizeof *r->cells);
-    r->next = malloc(room * sizeof *r->next);
-    bool all = r->points && r->before && r->after && r->outward && r->cells && r->next;
-    return all ? TN_OK : tn_fail_memory(error);
+    if (!r->points || !r->before || !r->after || !r->outward || !tn_bit_tree_new(&r->maybe, room))
+        return tn_fail_memory(error);
+    return tn_corner_tree_new(&r->tree, room, error);
 }
 
 /* ---- the plane of a face */
@@ -75,11 +75,9 @@ static void lay_out(ring *r, const tn_mesh *mesh, const uint32_t *corners, uint3
     }
 }
 
-/* Twice the area of a triangle, counter-clockwise. */
 static double area(const ring *r, uint32_t a, uint32_t b, uint32_t c)
 {
-    const double *p = r->points[a], *q = r->points[b], *s = r->points[c];
-    return (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0]);
+    return tn_corner_area((const double(*)[2])r->points, a, b, c);
 }
 
 static bool turns_outward(const ring *r, uint32_t i)
@@ -87,110 +85,96 @@ static bool turns_outward(const ring *r, uint32_t i)
     return area(r, r->before[i], i, r->after[i]) <= 0;
 }
 
-/* ---- the grid */
-
-static uint32_t cell_of(const ring *r, int k, double at)
-{
-    double cell = (at - r->low[k]) / r->cell[k];
-    return cell >= r->size[k] ? r->size[k] - 1 : cell > 0 ? (uint32_t)cell : 0;
-}
-
-static void lay_grid(ring *r)
-{
-    double high[2];
-    uint32_t fine = (uint32_t)sqrt(r->outwards) + 1;
-    for (int k = 0; k < 2; k++) {
-        r->low[k] = high[k] = r->points[0][k];
-        for (uint32_t i = 1; i < r->count; i++) {
-            r->low[k] = fmin(r->low[k], r->points[i][k]);
-            high[k] = fmax(high[k], r->points[i][k]);
-        }
-        r->size[k] = high[k] > r->low[k] ? fine : 1;
-        r->cell[k] = high[k] > r->low[k] ? (high[k] - r->low[k]) / fine : 1;
-    }
-    memset(r->cells, 0xff, (size_t)r->size[0] * r->size[1] * sizeof *r->cells);
-    for (uint32_t i = 0; i < r->count; i++) {
-        if (!r->outward[i])
-            continue;
-        uint32_t *cell = &r->cells[cell_of(r, 1, r->points[i][1]) * r->size[0] + cell_of(r, 0, r->points[i][0])];
-        r->next[i] = *cell;
-        *cell = i;
-    }
-}
-
 static void find_outward(ring *r)
 {
-    r->outwards = 0;
     for (uint32_t i = 0; i < r->count; i++)
-        r->outwards += r->outward[i] = turns_outward(r, i);
-    if (r->outwards > FEW)
-        lay_grid(r);
+        r->outward[i] = turns_outward(r, i);
+    if (r->count > FEW)
+        tn_corner_tree_make(&r->tree, (const double(*)[2])r->points, r->outward, r->count);
 }
 
 /* ---- ears */
 
-static bool lies_in(const ring *r, uint32_t i, uint32_t a, uint32_t b, uint32_t c)
+static bool is_ear(const ring *r, uint32_t b)
 {
-    return i != a && i != b && i != c && area(r, a, b, i) >= 0 && area(r, b, c, i) >= 0 && area(r, c, a, i) >= 0;
-}
-
-/* Corners that turn inwards by now are left in their cells: they hide nothing, and are passed over. */
-static bool cell_is_clear(const ring *r, uint32_t cell, uint32_t a, uint32_t b, uint32_t c)
-{
-    for (uint32_t i = r->cells[cell]; i != NONE; i = r->next[i])
-        if (r->outward[i] && lies_in(r, i, a, b, c))
+    const double(*points)[2] = (const double(*)[2])r->points;
+    uint32_t a = r->before[b], c = r->after[b];
+    if (area(r, a, b, c) <= 0)
+        return false;
+    if (r->count > FEW)
+        return !tn_corner_tree_meets(&r->tree, a, b, c);
+    for (uint32_t i = r->after[c]; i != a; i = r->after[i])
+        if (r->outward[i] && tn_corner_in(points, i, a, b, c))
             return false;
     return true;
 }
 
-static bool is_ear(const ring *r, uint32_t b)
+/* The next corner from one on, round the face, that may be an ear; TN_BIT_TREE_NONE where none may. */
+static uint32_t next_maybe(const ring *r, uint32_t from)
 {
-    uint32_t a = r->before[b], c = r->after[b];
-    if (area(r, a, b, c) <= 0)
-        return false;
-    if (r->outwards <= FEW) {
-        for (uint32_t i = r->after[c]; i != a; i = r->after[i])
-            if (r->outward[i] && lies_in(r, i, a, b, c))
-                return false;
-        return true;
-    }
-    uint32_t low[2], high[2];
-    for (int k = 0; k < 2; k++) {
-        double p = r->points[a][k], q = r->points[b][k], s = r->points[c][k];
-        low[k] = cell_of(r, k, fmin(p, fmin(q, s)));
-        high[k] = cell_of(r, k, fmax(p, fmax(q, s)));
-    }
-    for (uint32_t row = low[1]; row <= high[1]; row++)
-        for (uint32_t column = low[0]; column <= high[0]; column++)
-            if (!cell_is_clear(r, row * r->size[0] + column, a, b, c))
-                return false;
-    return true;
+    uint32_t next = tn_bit_tree_next(&r->maybe, from);
+    return next == TN_BIT_TREE_NONE ? tn_bit_tree_next(&r->maybe, 0) : next;
 }
 
-/* The next ear from a corner on; where the face is folded over itself and has none, that corner. */
-static uint32_t find_ear(const ring *r, uint32_t from, uint32_t left)
+static uint32_t find_known_ear(ring *r, uint32_t from)
 {
-    uint32_t i = from;
-    for (uint32_t tried = 0; tried < left; tried++, i = r->after[i])
-        if (is_ear(r, i))
-            return i;
-    return from;
+    uint32_t i;
+    while ((i = next_maybe(r, from)) != TN_BIT_TREE_NONE && !is_ear(r, i))
+        tn_bit_tree_remove(&r->maybe, i);
+    return i;
+}
+
+/* The next ear from a corner on; where the face is folded over itself and none is found, that corner. */
+static uint32_t find_ear(ring *r, uint32_t from, uint32_t left)
+{
+    uint32_t ear = find_known_ear(r, from);
+    if (ear == TN_BIT_TREE_NONE && left <= r->looked_left - r->looked_left / 8 - 1) {
+        r->looked_left = left;
+        for (uint32_t i = 0, k = from; i < left; i++, k = r->after[k])
+            tn_bit_tree_add(&r->maybe, k);
+        ear = find_known_ear(r, from);
+    }
+    return ear == TN_BIT_TREE_NONE ? from : ear;
+}
+
+/* A neighbour of what was cut off may turn inwards and be an ear now. */
+static void look_again(ring *r, uint32_t corner)
+{
+    tn_bit_tree_add(&r->maybe, corner);
+    if (!r->outward[corner] || turns_outward(r, corner))
+        return;
+    r->outward[corner] = false;
+    if (r->count > FEW)
+        tn_corner_tree_remove(&r->tree, corner);
+}
+
+static void cut_off(ring *r, uint32_t corner)
+{
+    uint32_t a = r->before[corner], c = r->after[corner];
+    r->after[a] = c;
+    r->before[c] = a;
+    tn_bit_tree_remove(&r->maybe, corner);
+    if (r->outward[corner] && r->count > FEW)
+        tn_corner_tree_remove(&r->tree, corner);
+    r->outward[corner] = false;
+    look_again(r, a);
+    look_again(r, c);
 }
 
 static void cut_face(ring *r, const uint32_t *corners, uint32_t *out)
 {
     uint32_t at = 0;
     find_outward(r);
+    tn_bit_tree_reset(&r->maybe, r->count);
+    for (uint32_t i = 0; i < r->count; i++)
+        tn_bit_tree_add(&r->maybe, i);
+    r->looked_left = r->count;
     for (uint32_t left = r->count; left > 3; left--) {
-        uint32_t ear = find_ear(r, at, left), a = r->before[ear], c = r->after[ear];
-        *out++ = corners[a];
+        uint32_t ear = find_ear(r, at, left), c = r->after[ear];
+        *out++ = corners[r->before[ear]];
         *out++ = corners[ear];
         *out++ = corners[c];
-        r->after[a] = c;
-        r->before[c] = a;
-        r->outward[ear] = false;
-        r->outward[a] = r->outward[a] && turns_outward(r, a);
-        r->outward[c] = r->outward[c] && turns_outward(r, c);
+        cut_off(r, ear);
         at = r->after[c]; /* not the same corner again: triangles fan out less */
     }
     *out++ = corners[r->before[at]];

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/bit_tree.h"
+#include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
 
 /* One face with corners in the plane, tilted in space. */
@@ -148,12 +150,131 @@ static void test_faces_that_are_no_faces(void **state)
     }
 }
 
+/* Crossed many times, or all on few places: each cut is a triangle, together as large as the face, and the time is that
+ * of sorting (looking at all corners for each cut would take hours). */
+static void check_crossed(const double (*corners)[2], uint32_t count)
+{
+    static const double n[3] = {-0.6, 0, 0.8};
+    tn_mesh mesh;
+    tn_error error;
+    make_face(&mesh, corners, count);
+    double whole = size_along(&mesh, 0, n), sum = 0, all = 0;
+    assert_int_equal(tn_mesh_triangulate(&mesh, &error), TN_OK);
+    assert_int_equal(mesh.face_count, count - 2);
+    for (size_t t = 0; t < mesh.face_count; t++) {
+        double size = size_along(&mesh, t, n);
+        sum += size;
+        all += fabs(size);
+    }
+    assert_true(fabs(sum - whole) <= 1e-9 * all);
+    tn_mesh_clear(&mesh);
+}
+
+static void test_large_faces_that_cross_themselves(void **state)
+{
+    (void)state;
+    enum { MOST = 200000 };
+    double(*p)[2] = malloc(MOST * sizeof *p);
+    uint64_t random = 5;
+    for (uint32_t i = 0; i < MOST; i++) { /* corners anywhere */
+        for (int k = 0; k < 2; k++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            p[i][k] = (double)(random >> 11) * 0x1p-53;
+        }
+    }
+    check_crossed((const double(*)[2])p, MOST);
+    for (uint32_t i = 1; i < MOST; i++) { /* a walk over a lattice, which comes by the same places again and again */
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        p[i][0] = p[i - 1][0] + (double)(random >> 62) - 1.5;
+        p[i][1] = p[i - 1][1] + (double)(random >> 60 & 3) - 1.5;
+    }
+    check_crossed((const double(*)[2])p, MOST);
+    for (uint32_t i = 0; i < MOST; i++) { /* a circle, walked round three times */
+        p[i][0] = cos(3 * 6.283185307179586 * i / MOST);
+        p[i][1] = sin(3 * 6.283185307179586 * i / MOST);
+    }
+    check_crossed((const double(*)[2])p, MOST);
+    for (uint32_t i = 0; i < MOST; i++) { /* a convex face, whose ears hold nothing anywhere */
+        p[i][0] = cos(6.283185307179586 * i / MOST);
+        p[i][1] = sin(6.283185307179586 * i / MOST);
+    }
+    check_cut((const double(*)[2])p, MOST);
+    free(p);
+}
+
+/* The tree's answer is that of looking at every corner, also while corners are taken out. */
+static void test_corners_in_triangles(void **state)
+{
+    (void)state;
+    enum { MOST = 300 };
+    static double p[MOST][2];
+    static bool chosen[MOST];
+    uint64_t random = 9;
+    for (uint32_t round = 0; round < 60; round++) {
+        uint32_t count = 3 + round * 5 % (MOST - 3);
+        for (uint32_t i = 0; i < count; i++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            p[i][0] = (double)(random >> 33 & (round % 2 ? 7 : 1023));
+            p[i][1] = (double)(random >> 45 & (round % 2 ? 7 : 1023));
+            chosen[i] = random >> 60 & 1;
+        }
+        tn_corner_tree tree;
+        tn_error error;
+        assert_int_equal(tn_corner_tree_new(&tree, count, &error), TN_OK);
+        tn_corner_tree_make(&tree, (const double(*)[2])p, chosen, count);
+        for (uint32_t asked = 0; asked < 500; asked++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            uint32_t a = (uint32_t)(random >> 20) % count, b = (uint32_t)(random >> 35) % count,
+                     c = (uint32_t)(random >> 50) % count;
+            if (tn_corner_area((const double(*)[2])p, a, b, c) <= 0)
+                continue;
+            bool found = false;
+            for (uint32_t i = 0; i < count; i++)
+                found |= chosen[i] && i != a && i != b && i != c && tn_corner_in((const double(*)[2])p, i, a, b, c);
+            assert_int_equal(tn_corner_tree_meets(&tree, a, b, c), found);
+            if (asked % 4 == 0 && chosen[a]) {
+                tn_corner_tree_remove(&tree, a);
+                chosen[a] = false;
+            }
+        }
+        tn_corner_tree_clear(&tree);
+    }
+}
+
+static void test_sets_that_find_their_next_member(void **state)
+{
+    (void)state;
+    enum { MOST = 5000 };
+    static bool there[MOST];
+    const uint32_t sizes[] = {1, 2, 63, 64, 65, 4095, 4096, 4097, MOST};
+    uint64_t random = 3;
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        tn_bit_tree tree = {0};
+        assert_true(tn_bit_tree_new(&tree, sizes[s]));
+        memset(there, 0, sizeof there);
+        for (uint32_t turn = 0; turn < 3000; turn++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            uint32_t member = (uint32_t)(random >> 33) % sizes[s], from = (uint32_t)(random >> 13) % sizes[s];
+            there[member] = random >> 62 == 0;
+            if (there[member])
+                tn_bit_tree_add(&tree, member);
+            else
+                tn_bit_tree_remove(&tree, member);
+            uint32_t wanted = from;
+            while (wanted < sizes[s] && !there[wanted])
+                wanted++;
+            assert_int_equal(tn_bit_tree_next(&tree, from), wanted < sizes[s] ? wanted : TN_BIT_TREE_NONE);
+        }
+        tn_bit_tree_clear(&tree);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_snowflakes),
-        cmocka_unit_test(test_combs_spirals_and_stars),
-        cmocka_unit_test(test_faces_that_are_no_faces),
+        cmocka_unit_test(test_large_faces_that_cross_themselves), cmocka_unit_test(test_corners_in_triangles),
+        cmocka_unit_test(test_sets_that_find_their_next_member),  cmocka_unit_test(test_snowflakes),
+        cmocka_unit_test(test_combs_spirals_and_stars),           cmocka_unit_test(test_faces_that_are_no_faces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
