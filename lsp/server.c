@@ -12,6 +12,7 @@
 
 /* Error codes of JSON-RPC and of the protocol. */
 enum {
+    LOG_ERROR = 1, /* a MessageType */
     PARSE_ERROR = -32700,
     INVALID_REQUEST = -32600,
     METHOD_NOT_FOUND = -32601,
@@ -427,8 +428,9 @@ static void take_message(server *s)
         json_decref(message);
     } else {
         json_t *null = json_null();
-        fail(s, PARSE_ERROR, "the message cannot be read");
+        fail(s, PARSE_ERROR, s->wire.problem);
         respond(s, null, NULL);
+        notify(s, "window/logMessage", json_pack("{s:i,s:s}", "type", LOG_ERROR, "message", s->wire.problem));
     }
 }
 

@@ -1,3 +1,4 @@
+/* Reads and writes messages of the Base Protocol: a header that says how long, then JSON. */
 #include "lsp/wire.h"
 
 #include <errno.h>
@@ -7,7 +8,11 @@
 #include <strings.h>
 #include <unistd.h>
 
-enum { CHUNK = 65536, HEADER_MAX = 8192 };
+enum {
+    CHUNK = 65536,
+    HEADER_MAX = 8192,
+    LENGTH_MAX = 1 << 30, /* a message that is said to be longer is taken for a damaged header */
+};
 
 /* More bytes from the input; false at its end. */
 static bool fill(tn_wire *wire)
@@ -37,20 +42,31 @@ static bool fill(tn_wire *wire)
     return true;
 }
 
-/* The value of Content-Length in a header of lines; false where it has none. */
+static const char length_name[] = "content-length:";
+enum { LENGTH_NAME = sizeof length_name - 1 };
+
+/* The decimal number behind a header's name; false where it is none, or one that no message has. */
+static bool read_length(const char *text, const char *end, size_t *length)
+{
+    while (text < end && (*text == ' ' || *text == '\t'))
+        text++;
+    const char *first = text;
+    for (*length = 0; text < end && *text >= '0' && *text <= '9' && *length <= LENGTH_MAX; text++)
+        *length = *length * 10 + (size_t)(*text - '0');
+    while (text < end && (*text == ' ' || *text == '\t' || *text == '\r'))
+        text++;
+    return text > first && text == end && *first >= '0' && *first <= '9' && *length <= LENGTH_MAX;
+}
+
+/* The value of Content-Length in a header of lines; false where it has none that can be used. */
 static bool content_length(const char *header, size_t size, size_t *length)
 {
-    static const char name[] = "content-length:";
     for (const char *line = header; line < header + size;) {
         const char *end = memchr(line, '\n', (size_t)(header + size - line));
-        size_t line_size = end ? (size_t)(end - line) : (size_t)(header + size - line);
-        if (line_size > sizeof name && strncasecmp(line, name, sizeof name - 1) == 0) {
-            char *after;
-            unsigned long long value = strtoull(line + sizeof name - 1, &after, 10);
-            *length = (size_t)value;
-            return after > line + sizeof name - 1;
-        }
-        line += line_size + 1;
+        end = end ? end : header + size;
+        if (end - line > LENGTH_NAME && strncasecmp(line, length_name, LENGTH_NAME) == 0)
+            return read_length(line + LENGTH_NAME, end, length);
+        line = end + 1;
     }
     return false;
 }
@@ -80,30 +96,59 @@ static bool skip(tn_wire *wire, size_t size)
     return true;
 }
 
+/* After a header that says nothing of where its message ends: leaves out what comes before the next header. */
+static bool find_header(tn_wire *wire)
+{
+    for (;;) {
+        const char *text = wire->buffer + wire->begin;
+        size_t size = wire->end - wire->begin, at = 0;
+        while (at + LENGTH_NAME <= size && strncasecmp(text + at, length_name, LENGTH_NAME) != 0)
+            at++;
+        wire->begin += at;
+        if (at + LENGTH_NAME <= size)
+            return true;
+        if (!fill(wire))
+            return false;
+    }
+}
+
+static tn_wire_result malformed(tn_wire *wire, const char *problem, bool lost)
+{
+    wire->problem = problem;
+    wire->lost = lost;
+    return TN_WIRE_MALFORMED;
+}
+
 tn_wire_result tn_wire_read(tn_wire *wire, json_t **message)
 {
     size_t header, length = 0;
     *message = NULL;
     if (!wire->buffer && !fill(wire))
         return TN_WIRE_END;
+    if (wire->lost && !find_header(wire))
+        return TN_WIRE_END;
+    wire->lost = false;
     while ((header = header_size(wire->buffer + wire->begin, wire->end - wire->begin)) == 0) {
-        if (wire->end - wire->begin > HEADER_MAX)
-            return skip(wire, wire->end - wire->begin) ? TN_WIRE_MALFORMED : TN_WIRE_END;
+        if (wire->end - wire->begin > HEADER_MAX) {
+            wire->begin += LENGTH_NAME; /* so that this very header is not found again */
+            return malformed(wire, "the header of a message is longer than 8192 bytes", true);
+        }
         if (!fill(wire))
             return TN_WIRE_END;
     }
     bool known = content_length(wire->buffer + wire->begin, header, &length);
-    wire->begin += header;
+    wire->begin += known ? header : LENGTH_NAME < header ? LENGTH_NAME : header;
     if (!known)
-        return TN_WIRE_MALFORMED;
+        return malformed(wire, "the header of a message has no Content-Length from 0 to 1073741824", true);
     if (length > TN_WIRE_BYTES_MAX)
-        return skip(wire, length) ? TN_WIRE_MALFORMED : TN_WIRE_END;
+        return skip(wire, length) ? malformed(wire, "a message is longer than 67108864 bytes and was left out", false)
+                                  : TN_WIRE_END;
     while (wire->end - wire->begin < length)
         if (!fill(wire))
             return TN_WIRE_END;
     *message = json_loadb(wire->buffer + wire->begin, length, JSON_ALLOW_NUL, NULL);
     wire->begin += length;
-    return *message ? TN_WIRE_MESSAGE : TN_WIRE_MALFORMED;
+    return *message ? TN_WIRE_MESSAGE : malformed(wire, "a message is not JSON", false);
 }
 
 tn_wire_event tn_wire_wait(const tn_wire *wire, int wake, int milliseconds)

@@ -14,11 +14,14 @@ typedef struct tn_wire {
     char *buffer;
     size_t begin, end, capacity; /* unread bytes are [begin, end) */
     bool failed;                 /* out of memory, or the output cannot be written */
+    const char *problem;         /* why the last message was malformed, in words */
+    bool lost;                   /* the last header did not say where its message ends */
 } tn_wire;
 
 typedef enum tn_wire_result { TN_WIRE_MESSAGE, TN_WIRE_MALFORMED, TN_WIRE_END } tn_wire_result;
 
-/* Waits for the next message, which the caller releases. TN_WIRE_MALFORMED: it was skipped. */
+/* Waits for the next message, which the caller releases. TN_WIRE_MALFORMED: it was left out, and wire->problem says
+ * why; where a header could not be read, everything up to the next header is left out. */
 tn_wire_result tn_wire_read(tn_wire *wire, json_t **message);
 
 typedef enum tn_wire_event { TN_WIRE_INPUT, TN_WIRE_WOKEN, TN_WIRE_TIME } tn_wire_event;

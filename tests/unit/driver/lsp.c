@@ -469,6 +469,35 @@ static void test_rename_in_files_that_are_not_open(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
+/* After a header that says nothing useful the next message is found and answered; each is told. */
+static void test_wrong_headers(void **state)
+{
+    (void)state;
+    static const char *const headers[] = {
+        "Content-Length: -5\r\n\r\n{}",
+        "Content-Length: 18446744073709551615\r\n\r\n{\"a\":1}",
+        "Content-Length: 12345678901234567890123\r\n\r\n",
+        "Content-Length: 9999999999\r\n\r\n",
+        "Content-Length:\r\n\r\n",
+        "Content-Length: 7x\r\n\r\n",
+        "Content-Type: text\r\n\r\n{\"jsonrpc\":\"2.0\"}",
+        "\r\n\r\n",
+        "nothing of the kind ",
+    };
+    for (size_t i = 0; i <= sizeof headers / sizeof *headers; i++) {
+        session s;
+        start(&s);
+        if (i < sizeof headers / sizeof *headers)
+            fputs(headers[i], s.input);
+        for (int n = 0; i == sizeof headers / sizeof *headers && n < 1 << 20; n++)
+            fputs("X-Long: ", s.input); /* eight megabytes of one header */
+        int known = ask(&s, "textDocument/unknown", json_object());
+        serve(&s);
+        assert_int_equal(json_integer_value(json_object_get(answer(&s, known, "error"), "code")), -32601);
+        finish(&s);
+    }
+}
+
 static void test_wrong_messages(void **state)
 {
     (void)state;
@@ -726,6 +755,7 @@ int main(void)
         cmocka_unit_test(test_positions_are_utf16),
         cmocka_unit_test(test_rename_across_documents),
         cmocka_unit_test(test_rename_in_files_that_are_not_open),
+        cmocka_unit_test(test_wrong_headers),
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
         cmocka_unit_test(test_meaning_given_up),
