@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "runtime/base/file.h"
+#include "runtime/load.h"
 #include "runtime/module/module.h"
 
 static inline double seconds(clockid_t clock)

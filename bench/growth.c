@@ -15,6 +15,7 @@
 #include "runtime/base/numeric.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/study.h"
+#include "runtime/load.h"
 
 static int compare(const void *a, const void *b)
 {

@@ -8,6 +8,7 @@
 
 #include "driver/breed/grammar_report.h"
 #include "driver/plan/analysis.h"
+#include "runtime/load.h"
 
 enum { THREAD_STACK = 8 << 20 };
 

@@ -5,6 +5,7 @@
 #include "api/runtime/api.h"
 #include "runtime/base/file.h"
 #include "runtime/base/nearest.h"
+#include "runtime/load.h"
 
 _Static_assert((int)TARTAN_OK == (int)TN_OK && (int)TARTAN_INTERNAL == (int)TN_INTERNAL,
                "statuses are the same numbers");

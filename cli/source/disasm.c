@@ -1,5 +1,5 @@
 /* tartan disasm: lists what a rule file was compiled to. */
-#include "runtime/module/disasm.h"
+#include "runtime/load.h"
 #include <stdlib.h>
 
 #include "cli/common/job.h"

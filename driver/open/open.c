@@ -8,6 +8,7 @@
 #include "driver/open/stdlib_find.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/base/file.h"
+#include "runtime/load.h"
 
 static void start(const char *path, tn_opened *opened)
 {

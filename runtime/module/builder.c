@@ -6,7 +6,9 @@
 #include <xxhash.h>
 
 #include "runtime/base/bytes.h"
+#include "runtime/module/code.h"
 #include "runtime/module/layout.h"
+#include "runtime/module/records.h"
 
 /* A growing array of bytes or of records. */
 typedef struct tn_run {
@@ -162,7 +164,6 @@ tn_string tn_builder_string(tn_builder *builder, const char *text)
             ((TYPE *)run->items)[index] = *record;                                                                     \
     }
 #include "runtime/module/records.def"
-#undef SECTION
 
 size_t tn_builder_count(const tn_builder *builder, tn_section section)
 {
@@ -174,6 +175,14 @@ uint32_t tn_builder_offset(const tn_builder *builder)
     return (uint32_t)builder->sections[TN_SECTION_CODE].count;
 }
 
+static void put_operand(uint8_t *place, uint8_t width, int64_t value)
+{
+    if (width == 4)
+        tn_put_u32(place, (uint32_t)value);
+    else if (width == 8)
+        tn_put_u64(place, (uint64_t)value);
+}
+
 uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, int64_t second)
 {
     uint32_t offset = tn_builder_offset(builder);
@@ -182,87 +191,46 @@ uint32_t tn_builder_emit(tn_builder *builder, tn_opcode opcode, int64_t first, i
     if (!place)
         return offset;
     *place++ = (uint8_t)opcode;
-    switch (info->operands) {
-    case TN_OPERANDS_NONE:
-        break;
-    case TN_OPERANDS_SPEC:
-    case TN_OPERANDS_FUNC:
-    case TN_OPERANDS_COND:
-    case TN_OPERANDS_TEXT:
-    case TN_OPERANDS_SYMBOL:
-    case TN_OPERANDS_LETTER:
-    case TN_OPERANDS_BODY:
-    case TN_OPERANDS_TERM:
-        tn_put_u32(place, (uint32_t)first);
-        break;
-    case TN_OPERANDS_FIELD_COND:
-        tn_put_u32(place, (uint32_t)first);
-        tn_put_u32(place + 4, (uint32_t)second);
-        break;
-    case TN_OPERANDS_INT2:
-        tn_put_u64(place + 8, (uint64_t)second);
-        tn_put_u64(place, (uint64_t)first);
-        break;
-    case TN_OPERANDS_INT:
-    case TN_OPERANDS_REAL: /* its bits */
-        tn_put_u64(place, (uint64_t)first);
-        break;
-    }
+    tn_operand_widths widths = tn_code_widths((uint8_t)opcode);
+    put_operand(place, widths.first, first);
+    put_operand(place + widths.first, widths.second, second);
     return offset;
 }
 
 /* ---- the file */
 
-static const size_t stored_sizes[TN_SECTION_COUNT] = {
-    [TN_SECTION_STRINGS] = 1,
-    [TN_SECTION_CODE] = 1,
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) [NUMBER] = TN_STORED_##NAME,
-#include "runtime/module/records.def"
-#undef SECTION
-};
-
-/* Each writes one section's records and returns where the next section goes. */
-#define TN_WRITE_STR(value) (tn_put_u32(to, (value)), to += 4)
-#define TN_WRITE_U32(value) (tn_put_u32(to, (value)), to += 4)
-#define TN_WRITE_I64(value) (tn_put_u64(to, (uint64_t)(value)), to += 8)
-#define TN_WRITE_F64(value) (tn_put_u64(to, tn_bits_of(value)), to += 8)
-#define F(KIND, FIELD) TN_WRITE_##KIND(record->FIELD);
-#define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
-    static uint8_t *write_##NAME(const tn_run *run, uint8_t *to)                                                       \
-    {                                                                                                                  \
-        const TYPE *records = run->items;                                                                              \
-        for (size_t i = 0; i < run->count; i++) {                                                                      \
-            const TYPE *record = &records[i];                                                                          \
-            FIELDS                                                                                                     \
-        }                                                                                                              \
-        return to;                                                                                                     \
-    }
-#include "runtime/module/records.def"
-#undef SECTION
-#undef F
-
-static uint8_t *write_bytes(const tn_run *run, uint8_t *to)
+static void write_entry(uint8_t *entry, tn_section section, size_t count)
 {
+    uint32_t stored = tn_section_stored(section), number = tn_section_describe(section).number;
+    tn_put_u32(entry + TN_ENTRY_NUMBER, number | stored << 16);
+    tn_put_u32(entry + TN_ENTRY_COUNT, (uint32_t)count);
+}
+
+/* The header and the table of the sections that are not empty; returns where their records go. */
+static uint8_t *write_header(const tn_builder *builder, uint8_t *bytes, size_t size)
+{
+    uint8_t *entry = bytes + TN_HEADER_BYTES;
+    memcpy(bytes, TN_MAGIC, TN_MAGIC_SIZE);
+    tn_put_u32(bytes + TN_HEADER_FORMAT, TN_MODULE_FORMAT);
+    tn_put_u64(bytes + TN_HEADER_SIZE, size);
+    for (tn_section i = 0; i < TN_SECTION_COUNT; i++) {
+        if (builder->sections[i].count == 0)
+            continue;
+        write_entry(entry, i, builder->sections[i].count);
+        entry += TN_ENTRY_BYTES;
+    }
+    tn_put_u32(bytes + TN_HEADER_SECTIONS, (uint32_t)((entry - bytes - TN_HEADER_BYTES) / TN_ENTRY_BYTES));
+    return entry;
+}
+
+static uint8_t *write_section(const tn_builder *builder, tn_section section, uint8_t *to)
+{
+    const tn_run *run = &builder->sections[section];
+    if (section != TN_SECTION_STRINGS && section != TN_SECTION_CODE)
+        return tn_records_write(section, run->items, run->count, to);
     if (run->count > 0)
         memcpy(to, run->items, run->count);
     return to + run->count;
-}
-
-static void write_header(const tn_builder *builder, uint8_t *bytes, size_t size)
-{
-    memcpy(bytes, TN_MAGIC, TN_MAGIC_SIZE);
-    tn_put_u32(bytes + TN_HEADER_FORMAT, TN_MODULE_FORMAT);
-    tn_put_u32(bytes + TN_HEADER_SECTIONS, TN_SECTION_COUNT);
-    tn_put_u64(bytes + TN_HEADER_SIZE, size);
-    uint64_t offset = TN_CONTENTS;
-    for (uint32_t i = 0; i < TN_SECTION_COUNT; i++) {
-        uint8_t *entry = bytes + TN_HEADER_BYTES + i * TN_ENTRY_BYTES;
-        uint64_t section_size = builder->sections[i].count * stored_sizes[i];
-        tn_put_u32(entry + TN_ENTRY_NUMBER, i);
-        tn_put_u64(entry + TN_ENTRY_OFFSET, offset);
-        tn_put_u64(entry + TN_ENTRY_SIZE, section_size);
-        offset += section_size;
-    }
 }
 
 tn_status tn_builder_finish(tn_builder *builder, uint8_t **bytes, size_t *size, tn_error *error)
@@ -274,19 +242,16 @@ tn_status tn_builder_finish(tn_builder *builder, uint8_t **bytes, size_t *size, 
     if (builder->too_large)
         return tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE,
                        "the module is too large: a section passed 4 GiB or 2^32 records");
-    size_t total = TN_CONTENTS;
-    for (size_t i = 0; i < TN_SECTION_COUNT; i++)
-        total += builder->sections[i].count * stored_sizes[i];
+    size_t total = TN_HEADER_BYTES;
+    for (tn_section i = 0; i < TN_SECTION_COUNT; i++)
+        if (builder->sections[i].count > 0)
+            total += TN_ENTRY_BYTES + builder->sections[i].count * tn_section_stored(i);
     uint8_t *file = calloc(total, 1);
     if (!file)
         return tn_fail_memory(error);
-    write_header(builder, file, total);
-    uint8_t *to = file + TN_CONTENTS;
-    to = write_bytes(&builder->sections[TN_SECTION_STRINGS], to);
-    to = write_bytes(&builder->sections[TN_SECTION_CODE], to);
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) to = write_##NAME(&builder->sections[TN_SECTION_##NAME], to);
-#include "runtime/module/records.def"
-#undef SECTION
+    uint8_t *to = write_header(builder, file, total);
+    for (tn_section i = 0; i < TN_SECTION_COUNT; i++)
+        to = write_section(builder, i, to);
     if ((size_t)(to - file) != total) {
         free(file);
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the module's sections do not add up to its size");

@@ -22,13 +22,11 @@ tn_string tn_builder_string_n(tn_builder *builder, const char *text, size_t leng
 /* Appends a record: tn_builder_add_SCHEMA(builder, &(tn_schema_record){...}) and so on. */
 #define SECTION(NAME, NUMBER, TYPE, FIELDS) uint32_t tn_builder_add_##NAME(tn_builder *builder, const TYPE *record);
 #include "runtime/module/records.def"
-#undef SECTION
 
 /* Changes a record that was added before. */
 #define SECTION(NAME, NUMBER, TYPE, FIELDS)                                                                            \
     void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record);
 #include "runtime/module/records.def"
-#undef SECTION
 
 /* How many records a section has so far. */
 size_t tn_builder_count(const tn_builder *builder, tn_section section);

@@ -6,7 +6,7 @@
 #include "runtime/module/module.h"
 #include "runtime/module/opcodes.h"
 
-/* An instruction with its operands in the order of its row; 0 where it has none. */
+/* An instruction with its operands in the order of its row; 0 where it has none. F64: its bits. */
 typedef struct tn_instruction {
     tn_opcode opcode;
     uint32_t length; /* bytes */
@@ -14,13 +14,42 @@ typedef struct tn_instruction {
     int64_t second;
 } tn_instruction;
 
-/* How an opcode's operands are laid out. */
+/* What an operand is (operands.def). */
+typedef enum tn_slot_kind {
+    TN_SLOT_NOTHING,
+    TN_SLOT_U32,
+    TN_SLOT_I64,
+    TN_SLOT_F64,
+    TN_SLOT_STRING,
+    TN_SLOT_INDEX
+} tn_slot_kind;
+
+typedef struct tn_slot {
+    tn_slot_kind kind;
+    tn_section section; /* of an INDEX */
+} tn_slot;
+
+/* The two operands of each kind. */
+extern const tn_slot tn_operand_slots[TN_OPERANDS_COUNT][2];
+
+/* Bytes that each operand takes: TN_FIRST_SPEC, TN_SECOND_SPEC and so on. */
+#define TN_WIDTH_NOTHING 0
+#define TN_WIDTH_U32 4
+#define TN_WIDTH_I64 8
+#define TN_WIDTH_F64 8
+#define TN_WIDTH_STRING 4
+#define TN_WIDTH_INDEX(SECTION) 4
+enum {
+#define OPERANDS(NAME, FIRST, SECOND) TN_FIRST_##NAME = TN_WIDTH_##FIRST, TN_SECOND_##NAME = TN_WIDTH_##SECOND,
+#include "runtime/module/operands.def"
+};
+
+/* What kind of operands an opcode has. */
 static inline tn_operands tn_code_operands(uint8_t opcode)
 {
     static const uint8_t kinds[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) TN_OPERANDS_##OPERANDS,
+#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) TN_OPERANDS_##OPERANDS,
 #include "runtime/module/opcodes.def"
-#undef X
     };
     return (tn_operands)kinds[opcode];
 }
@@ -34,49 +63,41 @@ typedef struct tn_opcode_effect {
 static inline tn_opcode_effect tn_code_effect(uint8_t opcode)
 {
     static const tn_opcode_effect effects[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) {POPS, PUSHES},
+#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) {POPS, PUSHES},
 #include "runtime/module/opcodes.def"
-#undef X
     };
     return effects[opcode];
+}
+
+typedef struct tn_operand_widths {
+    uint8_t first;
+    uint8_t second;
+} tn_operand_widths;
+
+/* Bytes of an opcode's operands. */
+static inline tn_operand_widths tn_code_widths(uint8_t opcode)
+{
+    static const tn_operand_widths widths[TN_OPCODE_COUNT] = {
+#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) {TN_FIRST_##OPERANDS, TN_SECOND_##OPERANDS},
+#include "runtime/module/opcodes.def"
+    };
+    return widths[opcode];
+}
+
+static inline int64_t tn_code_operand(const uint8_t *bytes, uint8_t width)
+{
+    return width == 4 ? (int64_t)tn_get_u32(bytes) : width == 8 ? tn_get_i64(bytes) : 0;
 }
 
 /* The instruction at a byte offset of the code section, which must be one that verifying has seen. */
 static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
 {
     const uint8_t *bytes = code + offset;
-    tn_instruction instruction = {.opcode = (tn_opcode)bytes[0], .length = 1};
-    switch (tn_code_operands(bytes[0])) {
-    case TN_OPERANDS_NONE:
-        break;
-    case TN_OPERANDS_SPEC:
-    case TN_OPERANDS_FUNC:
-    case TN_OPERANDS_COND:
-    case TN_OPERANDS_TEXT:
-    case TN_OPERANDS_SYMBOL:
-    case TN_OPERANDS_LETTER:
-    case TN_OPERANDS_BODY:
-    case TN_OPERANDS_TERM:
-        instruction.first = tn_get_u32(bytes + 1);
-        instruction.length = 5;
-        break;
-    case TN_OPERANDS_FIELD_COND:
-        instruction.first = tn_get_u32(bytes + 1);
-        instruction.second = tn_get_u32(bytes + 5);
-        instruction.length = 9;
-        break;
-    case TN_OPERANDS_INT:
-    case TN_OPERANDS_REAL: /* its bits */
-        instruction.first = tn_get_i64(bytes + 1);
-        instruction.length = 9;
-        break;
-    case TN_OPERANDS_INT2:
-        instruction.first = tn_get_i64(bytes + 1);
-        instruction.second = tn_get_i64(bytes + 9);
-        instruction.length = 17;
-        break;
-    }
-    return instruction;
+    tn_operand_widths widths = tn_code_widths(bytes[0]);
+    return (tn_instruction){.opcode = (tn_opcode)bytes[0],
+                            .length = 1u + widths.first + widths.second,
+                            .first = tn_code_operand(bytes + 1, widths.first),
+                            .second = tn_code_operand(bytes + 1 + widths.first, widths.second)};
 }
 
 #endif

@@ -1,16 +1,17 @@
-/* Lists a module in text: tables, then each function's code beside the source lines it comes from. */
+/* Lists a module in text: tables, then each function's code beside the source lines it comes from. runtime/load.h does
+ * it with all engines. */
 #ifndef TARTAN_MODULE_DISASM_H
 #define TARTAN_MODULE_DISASM_H
 
 #include <stdio.h>
 
-#include "runtime/module/module.h"
+#include "runtime/module/engine.h"
 
-/* Writes the listing to `out`; false where writing failed or memory ran out. Texts from the module are shortened and
- * cleaned of what would upset a terminal. */
-bool tn_module_disassemble(const tn_module *module, FILE *out);
+/* Writes the listing to `out`; false where writing failed or memory ran out. */
+bool tn_module_list(const tn_module *module, const tn_engines *engines, FILE *out);
 
-/* The same, but only a rule (an index of the RULE records) and the functions that it needs. */
-bool tn_module_disassemble_rule(const tn_module *module, uint32_t rule, FILE *out);
+/* The same, but only a record and the functions that it needs. */
+bool tn_module_list_record(const tn_module *module, const tn_engines *engines, tn_section section, uint32_t index,
+                           FILE *out);
 
 #endif

@@ -10,28 +10,14 @@
 enum {
     TN_MAGIC_SIZE = 8,
     TN_HEADER_FORMAT = 8,    /* u32 */
-    TN_HEADER_SECTIONS = 12, /* u32 */
+    TN_HEADER_SECTIONS = 12, /* u32: that are not empty */
     TN_HEADER_SIZE = 16,     /* u64: of the file */
     TN_HEADER_HASH = 24,     /* u64 */
     TN_HEADER_BYTES = 32,
-    TN_ENTRY_NUMBER = 0, /* u32, then a u32 that is zero */
-    TN_ENTRY_OFFSET = 8, /* u64 */
-    TN_ENTRY_SIZE = 16,  /* u64 */
-    TN_ENTRY_BYTES = 24,
-    TN_CONTENTS = TN_HEADER_BYTES + TN_SECTION_COUNT * TN_ENTRY_BYTES,
-};
-
-/* Bytes of a record as stored: TN_STORED_SCHEMA and so on. */
-enum {
-#define TN_BYTES_STR 4
-#define TN_BYTES_U32 4
-#define TN_BYTES_I64 8
-#define TN_BYTES_F64 8
-#define F(KIND, FIELD) +TN_BYTES_##KIND
-#define SECTION(NAME, NUMBER, TYPE, FIELDS) TN_STORED_##NAME = 0 FIELDS,
-#include "runtime/module/records.def"
-#undef SECTION
-#undef F
+    TN_ENTRY_NUMBER = 0, /* u16 */
+    TN_ENTRY_STORED = 2, /* u16: bytes of a record; 1 of the strings and the code */
+    TN_ENTRY_COUNT = 4,  /* u32: of records; not 0 */
+    TN_ENTRY_BYTES = 8,
 };
 
 /* XXH3-64 over the file with the eight bytes of the hash taken as zero; size >= TN_HEADER_BYTES. */

@@ -1,35 +1,56 @@
+/* Describes the opcodes, the kinds of code, of functions and of operands, as the rows of opcodes.def and operands.def
+ * say. */
 #include "runtime/module/opcodes.h"
 
-/* Bytes that each kind of operands takes. */
-enum {
-    LENGTH_NONE = 0,
-    LENGTH_SPEC = 4,
-    LENGTH_FUNC = 4,
-    LENGTH_COND = 4,
-    LENGTH_FIELD_COND = 8,
-    LENGTH_INT = 8,
-    LENGTH_INT2 = 16,
-    LENGTH_TEXT = 4,
-    LENGTH_SYMBOL = 4,
-    LENGTH_LETTER = 4,
-    LENGTH_BODY = 4,
-    LENGTH_REAL = 8,
-    LENGTH_TERM = 4,
-};
-
-#define ENGINE_RULE TN_CODE_RULE
-#define ENGINE_CONDITION TN_CODE_CONDITION
-#define ENGINE_MAP TN_CODE_MAP
-#define ENGINE_MEASURE TN_CODE_MEASURE
+#include "runtime/module/code.h"
 
 static const tn_opcode_info infos[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC)                                                                   \
-    {#NAME, DOC, TN_OPERANDS_##OPERANDS, ENGINE_##ENGINE, POPS, PUSHES, 1 + LENGTH_##OPERANDS},
+#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC)                                                                     \
+    {#NAME, DOC, TN_OPERANDS_##OPERANDS, TN_CODE_##CODE, POPS, PUSHES, 1 + TN_FIRST_##OPERANDS + TN_SECOND_##OPERANDS},
 #include "runtime/module/opcodes.def"
-#undef X
 };
 
 const tn_opcode_info *tn_opcode_describe(uint8_t opcode)
 {
     return opcode < TN_OPCODE_COUNT ? &infos[opcode] : NULL;
 }
+
+const tn_function_kind_info tn_function_kinds[TN_FUNCTION_KIND_COUNT] = {
+#define FUNCTION_KIND(NAME, CODE, WORD) {WORD, TN_CODE_##CODE},
+#include "runtime/module/opcodes.def"
+};
+
+const tn_opcode tn_code_last[TN_CODE_KIND_COUNT] = {
+#define CODE_KIND(NAME, LAST) TN_OP_##LAST,
+#include "runtime/module/opcodes.def"
+};
+
+#define SLOT_NOTHING                                                                                                   \
+    {                                                                                                                  \
+        .kind = TN_SLOT_NOTHING                                                                                        \
+    }
+#define SLOT_U32                                                                                                       \
+    {                                                                                                                  \
+        .kind = TN_SLOT_U32                                                                                            \
+    }
+#define SLOT_I64                                                                                                       \
+    {                                                                                                                  \
+        .kind = TN_SLOT_I64                                                                                            \
+    }
+#define SLOT_F64                                                                                                       \
+    {                                                                                                                  \
+        .kind = TN_SLOT_F64                                                                                            \
+    }
+#define SLOT_STRING                                                                                                    \
+    {                                                                                                                  \
+        .kind = TN_SLOT_STRING                                                                                         \
+    }
+#define SLOT_INDEX(SECTION)                                                                                            \
+    {                                                                                                                  \
+        .kind = TN_SLOT_INDEX, .section = TN_SECTION_##SECTION                                                         \
+    }
+
+const tn_slot tn_operand_slots[TN_OPERANDS_COUNT][2] = {
+#define OPERANDS(NAME, FIRST, SECOND) {SLOT_##FIRST, SLOT_##SECOND},
+#include "runtime/module/operands.def"
+};

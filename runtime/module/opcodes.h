@@ -1,4 +1,4 @@
-/* What opcodes.def says, as C: the enum of opcodes and one description of each. */
+/* What opcodes.def says, as C: enums, and one description of each opcode and each kind of function. */
 #ifndef TARTAN_MODULE_OPCODES_H
 #define TARTAN_MODULE_OPCODES_H
 
@@ -6,27 +6,26 @@
 #include <stdint.h>
 
 typedef enum tn_operands {
-    TN_OPERANDS_NONE,
-    TN_OPERANDS_SPEC,
-    TN_OPERANDS_FUNC,
-    TN_OPERANDS_COND,
-    TN_OPERANDS_FIELD_COND,
-    TN_OPERANDS_INT,
-    TN_OPERANDS_INT2,
-    TN_OPERANDS_TEXT,
-    TN_OPERANDS_SYMBOL,
-    TN_OPERANDS_LETTER,
-    TN_OPERANDS_BODY,
-    TN_OPERANDS_REAL,
-    TN_OPERANDS_TERM,
+#define OPERANDS(NAME, FIRST, SECOND) TN_OPERANDS_##NAME,
+#include "runtime/module/operands.def"
+    TN_OPERANDS_COUNT
 } tn_operands;
 
-typedef enum tn_code_engine { TN_CODE_RULE, TN_CODE_CONDITION, TN_CODE_MAP, TN_CODE_MEASURE } tn_code_engine;
+typedef enum tn_code_kind {
+#define CODE_KIND(NAME, LAST) TN_CODE_##NAME,
+#include "runtime/module/opcodes.def"
+    TN_CODE_KIND_COUNT
+} tn_code_kind;
+
+typedef enum tn_function_kind {
+#define FUNCTION_KIND(NAME, CODE, WORD) TN_FUNCTION_##NAME,
+#include "runtime/module/opcodes.def"
+    TN_FUNCTION_KIND_COUNT
+} tn_function_kind;
 
 typedef enum tn_opcode {
-#define X(NAME, OPERANDS, POPS, PUSHES, ENGINE, DOC) TN_OP_##NAME,
+#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) TN_OP_##NAME,
 #include "runtime/module/opcodes.def"
-#undef X
     TN_OPCODE_COUNT
 } tn_opcode;
 
@@ -34,11 +33,21 @@ typedef struct tn_opcode_info {
     const char *name;
     const char *doc;
     tn_operands operands;
-    tn_code_engine engine;
+    tn_code_kind code;
     uint8_t pops;
     uint8_t pushes;
     uint8_t length; /* bytes of the whole instruction */
 } tn_opcode_info;
+
+typedef struct tn_function_kind_info {
+    const char *word;
+    tn_code_kind code;
+} tn_function_kind_info;
+
+extern const tn_function_kind_info tn_function_kinds[TN_FUNCTION_KIND_COUNT];
+
+/* The one instruction that code of each kind ends with. */
+extern const tn_opcode tn_code_last[TN_CODE_KIND_COUNT];
 
 /* NULL for a byte that is no opcode. */
 const tn_opcode_info *tn_opcode_describe(uint8_t opcode);

@@ -3,40 +3,69 @@
  * It takes a module that was decoded but not looked at, and refuses it (TN_INVALID, E0703, with the record or the code
  * offset named) unless:
  *
- *   strings   are UTF-8, begin where another ends, and names are 1 to TN_NAME_MAX bytes long
- *   runs      follow one another (records.def), so that no record belongs to two and the work is linear
- *   schemas   have 1 to TN_FIELDS_MAX fields of 1 to TN_VALUES_MAX values of a known kind; a flag has two; lengths lie
- * in 0..TN_LENGTH_MAX; forbidden trays and specifiers are of the schema, with no bit beyond its last value functions
- * end with their one RETURN or ANSWER and nothing after it; every opcode is known and of the function's engine;
- * operands name a record of the right kind and schema, calls a lower function; the stack never runs empty and never
- * passes stack_max, which never passes the limit rules, libraries and clauses name functions of the right kind and
- * schema places    lie in their source's text; the map ascends and names instructions
- *   growth    one rewrite system and one study at most; labels, points and templates that are there; numbers within the
- *             limits of growth.h
- *
- *   grammars  have rules, and rules have productions, that follow one another; a production is code of engine MAP that
- * ends with its one DONE, whose bodies nest, and whose operands are the grammar's own
- *
- *   settings  of an evolution ascend, are in range and agree with one another, and there is one grammar
+ *   strings   are UTF-8, begin where another ends, and names are of the length that their row says
+ *   fields    are what their rows in records.def say: numbers in bounds, references to records that are there, runs
+ * that follow one another and leave nothing out (so that the work is linear), places in their source's text sections
+ * and kinds of code belong to an engine that is there code      of the records follows one another; functions end with
+ * their one last instruction; every opcode is known and of the function's kind of code; operands are what their rows in
+ * operands.def say; the stack never runs empty and never passes stack_max, which never passes the limit; the map
+ * ascends and names instructions engines   find what must hold between fields (engine.h): each of them says what in its
+ * own verify.c
  *
  * Time and memory are linear in the module's size but for sorting the names.
  */
 #ifndef TARTAN_MODULE_VERIFY_H
 #define TARTAN_MODULE_VERIFY_H
 
-#include "runtime/module/module.h"
+#include "runtime/module/code.h"
+
+typedef struct tn_engines tn_engines;
+struct tn_operand_rules;
+
+/* What verifying works with. Engines read it; the functions below write it. */
+typedef struct tn_checker {
+    const tn_module *module;
+    const tn_engines *engines;
+    const tn_module_limits *limits;
+    tn_error *error;
+    const struct tn_operand_rules *operands[TN_OPERANDS_COUNT];
+    uint32_t *sizes; /* bytes of each source's text */
+
+    /* Where it is in the code; section is TN_SECTION_STRINGS before that. */
+    tn_section section;
+    uint32_t record; /* whose code it is */
+    uint32_t offset; /* of the instruction */
+    uint32_t end;    /* of the record's code */
+    uint32_t depth;  /* of the stack before the instruction */
+    size_t map;      /* the next map record */
+} tn_checker;
 
 /* Does the module hold to all of the above? TN_INVALID (E0703), TN_LIMIT (E0810), TN_MEMORY. */
-tn_status tn_module_verify(const tn_module *module, const tn_module_limits *limits, tn_error *error);
+tn_status tn_module_verify(const tn_module *module, const tn_engines *engines, const tn_module_limits *limits,
+                           tn_error *error);
 
-/* Its parts. Code relies on the tables having been verified before. */
-tn_status tn_verify_tables(const tn_module *module, const tn_module_limits *limits, tn_error *error);
-tn_status tn_verify_growth(const tn_module *module, tn_error *error);
-tn_status tn_verify_settings(const tn_module *module, tn_error *error);
-tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error);
+/* ---- for engines */
 
-/* Grammars with their productions' code, which starts at *offset, and its map records, from *map on; both are moved
- * past them. A part of verifying the code. */
-tn_status tn_verify_grammars(const tn_module *module, uint32_t *offset, size_t *map, tn_error *error);
+/* Refuses the module for this reason; says where in the code it is, if it is there. */
+__attribute__((format(printf, 2, 3))) tn_status tn_refuse(const tn_checker *checker, const char *format, ...);
+
+/* Are these texts different from one another: the first of them, and how far one is from the next (a field of records)?
+ * Refuses the module for the reason. */
+tn_status tn_check_different(const tn_checker *checker, const tn_string *texts, size_t stride, size_t count,
+                             const char *reason);
+
+/* A record's code begins: it follows the code before. */
+tn_status tn_code_enter(tn_checker *checker, tn_section section, uint32_t record, uint32_t begin, uint32_t end);
+
+/* Reads the next instruction: a known one of this kind of code, whole, with right operands. Does not go past it. */
+tn_status tn_code_next(const tn_checker *checker, tn_code_kind code, tn_instruction *instruction);
+
+/* Goes past the instruction; what the map says of it is checked. */
+tn_status tn_code_pass(tn_checker *checker, const tn_instruction *instruction);
+
+/* ---- its parts, in this order */
+
+tn_status tn_verify_records(tn_checker *checker);
+tn_status tn_verify_code(tn_checker *checker);
 
 #endif

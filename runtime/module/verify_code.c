@@ -1,239 +1,189 @@
-/* The code: every instruction of every function, in one pass. */
+/* Verifies the code: every instruction of every record that has code, in one pass. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/growth/model/records.h"
-#include "runtime/module/opcodes.h"
-#include "runtime/module/verify.h"
-
-typedef struct tn_checker {
-    const tn_module *module;
-    tn_error *error;
-    uint32_t function; /* being checked */
-    uint32_t offset;   /* of the instruction being checked */
-    uint32_t depth;    /* of the stack before it */
-    size_t map;        /* the next map record */
-} tn_checker;
-
-__attribute__((format(printf, 2, 3))) static tn_status refuse(const tn_checker *checker, const char *format, ...)
-{
-    char what[160];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(what, sizeof what, format, args);
-    va_end(args);
-    tn_fail(checker->error, TN_INVALID, E_REFUSED_MODULE, "the module is refused: function %u, code offset %u: %s",
-            checker->function, checker->offset, what);
-    if (checker->error)
-        checker->error->code_offset = checker->offset;
-    return TN_INVALID;
-}
-
-static const tn_function_record *function_of(const tn_checker *checker)
-{
-    return &checker->module->FUNCTION_records[checker->function];
-}
+#include "runtime/module/engine.h"
+#include "runtime/module/records.h"
 
 /* ---- operands */
 
-static tn_status check_spec(const tn_checker *checker, uint32_t spec)
+static bool is_string(const tn_module *module, int64_t string)
 {
-    const tn_module *module = checker->module;
-    if (spec >= module->SPEC_count)
-        return refuse(checker, "there is no specifier %u", spec);
-    if (module->SPEC_records[spec].schema != function_of(checker)->schema)
-        return refuse(checker, "specifier %u is of another schema", spec);
-    return TN_OK;
+    return string < (int64_t)module->strings_size && (string == 0 || module->strings[string - 1] == '\0');
 }
 
-static tn_status check_call(const tn_checker *checker, uint32_t callee)
+static tn_status check_operand(const tn_checker *checker, const tn_slot *slot, int64_t value)
 {
-    if (callee >= checker->function)
-        return refuse(checker, "calls function %u, which is not a lower one", callee);
-    const tn_function_record *function = &checker->module->FUNCTION_records[callee];
-    if (function->kind == TN_FUNCTION_CONDITION || function->kind == TN_FUNCTION_MEASURE)
-        return refuse(checker, "calls function %u, which is no part of a rule", callee);
-    if (function->schema != function_of(checker)->schema)
-        return refuse(checker, "calls function %u, which is of another schema", callee);
-    return TN_OK;
-}
-
-static tn_status check_condition(const tn_checker *checker, uint32_t condition)
-{
-    if (condition >= checker->module->FUNCTION_count ||
-        checker->module->FUNCTION_records[condition].kind != TN_FUNCTION_CONDITION)
-        return refuse(checker, "function %u is no condition", condition);
-    return TN_OK;
-}
-
-static tn_status check_field(const tn_checker *checker, uint32_t field)
-{
-    const tn_schema_record *schema = &checker->module->SCHEMA_records[function_of(checker)->schema];
-    if (field < schema->field_first || field - schema->field_first >= schema->field_count)
-        return refuse(checker, "field %u is not of the function's schema", field);
-    uint32_t kind = checker->module->FIELD_records[field].kind;
-    if (kind != TN_FIELD_LENGTH && kind != TN_FIELD_ZONE)
-        return refuse(checker, "field %u has no lengths", field);
-    return TN_OK;
-}
-
-static tn_status check_numbers(const tn_checker *checker, tn_opcode opcode, int64_t first, int64_t second)
-{
-    if (opcode == TN_OP_REMAINDER && (first <= 0 || second < 0))
-        return refuse(checker, "a remainder needs a divisor above 0 and a rest not below 0");
-    return TN_OK;
-}
-
-static tn_status check_real(const tn_checker *checker, int64_t bits)
-{
-    double number;
-    memcpy(&number, &bits, sizeof number);
-    return isfinite(number) ? TN_OK : refuse(checker, "a number that is not finite");
-}
-
-static tn_status check_operands(const tn_checker *checker, tn_opcode opcode, const tn_opcode_info *info,
-                                const uint8_t *operands)
-{
-    tn_status status;
-    switch (info->operands) {
-    case TN_OPERANDS_NONE:
-    case TN_OPERANDS_INT:
-        return TN_OK;
-    case TN_OPERANDS_SPEC:
-        return check_spec(checker, tn_get_u32(operands));
-    case TN_OPERANDS_FUNC:
-        return check_call(checker, tn_get_u32(operands));
-    case TN_OPERANDS_COND:
-        return check_condition(checker, tn_get_u32(operands));
-    case TN_OPERANDS_FIELD_COND:
-        status = check_field(checker, tn_get_u32(operands));
-        return status == TN_OK ? check_condition(checker, tn_get_u32(operands + 4)) : status;
-    case TN_OPERANDS_INT2:
-        return check_numbers(checker, opcode, tn_get_i64(operands), tn_get_i64(operands + 8));
-    case TN_OPERANDS_REAL:
-        return check_real(checker, tn_get_i64(operands));
-    case TN_OPERANDS_TERM:
-        return tn_get_u32(operands) < TN_MEASURED_COUNT ? TN_OK : refuse(checker, "nothing of this number is measured");
-    case TN_OPERANDS_TEXT:
-    case TN_OPERANDS_SYMBOL:
-    case TN_OPERANDS_LETTER:
-    case TN_OPERANDS_BODY:
-        break; /* of productions, which tn_verify_grammars checks */
+    char title[TN_TITLE_MAX];
+    switch (slot->kind) {
+    case TN_SLOT_F64:
+        return isfinite(tn_double_of((uint64_t)value)) ? TN_OK : tn_refuse(checker, "a number that is not finite");
+    case TN_SLOT_STRING:
+        return is_string(checker->module, value) ? TN_OK
+                                                 : tn_refuse(checker, "there is no text at %u", (unsigned)value);
+    case TN_SLOT_INDEX:
+        if (value < (int64_t)checker->module->tables[slot->section].count)
+            return TN_OK;
+        tn_section_title(slot->section, title);
+        return tn_refuse(checker, "there is no %s %u", title, (unsigned)value);
+    case TN_SLOT_NOTHING:
+    case TN_SLOT_U32:
+    case TN_SLOT_I64:
+        break;
     }
-    return refuse(checker, "an unknown kind of operands");
+    return TN_OK;
+}
+
+static tn_status check_operands(const tn_checker *checker, tn_operands kind, const tn_instruction *instruction)
+{
+    tn_status status = check_operand(checker, &tn_operand_slots[kind][0], instruction->first);
+    if (status == TN_OK)
+        status = check_operand(checker, &tn_operand_slots[kind][1], instruction->second);
+    const tn_operand_rules *rules = checker->operands[kind];
+    return status == TN_OK && rules && rules->verify ? rules->verify(checker, instruction) : status;
 }
 
 /* ---- instructions */
 
-static bool ends_function(tn_opcode opcode)
+tn_status tn_code_enter(tn_checker *checker, tn_section section, uint32_t record, uint32_t begin, uint32_t end)
 {
-    return opcode == TN_OP_RETURN || opcode == TN_OP_ANSWER || opcode == TN_OP_VALUE;
+    checker->section = section;
+    checker->record = record;
+    if (begin != checker->offset || end <= begin || end > checker->module->code_size)
+        return tn_refuse(checker, "its code is not the stretch after the one before");
+    checker->end = end;
+    checker->depth = 0;
+    return TN_OK;
 }
 
-static tn_status check_stack(tn_checker *checker, tn_opcode opcode, const tn_opcode_info *info)
+tn_status tn_code_next(const tn_checker *checker, tn_code_kind code, tn_instruction *instruction)
 {
-    if (checker->depth < info->pops)
-        return refuse(checker, "%s takes %u from a stack of %u", info->name, info->pops, checker->depth);
-    if (ends_function(opcode) && checker->depth != 1)
-        return refuse(checker, "%s leaves %u on the stack", info->name, checker->depth - 1);
-    checker->depth += (uint32_t)info->pushes - info->pops;
-    if (checker->depth > function_of(checker)->stack_max)
-        return refuse(checker, "the stack passes the %u that the function declares", function_of(checker)->stack_max);
-    return TN_OK;
+    uint8_t opcode = checker->module->code[checker->offset];
+    const tn_opcode_info *info = tn_opcode_describe(opcode);
+    if (!info)
+        return tn_refuse(checker, "%u is no opcode", opcode);
+    if (info->code != code)
+        return tn_refuse(checker, "%s does not belong into this kind of code", info->name);
+    if (info->length > checker->end - checker->offset)
+        return tn_refuse(checker, "%s runs past its end", info->name);
+    *instruction = tn_code_read(checker->module->code, checker->offset);
+    return check_operands(checker, info->operands, instruction);
 }
 
 /* The map's records name instructions, in ascending order and each but once. */
-static tn_status check_map(tn_checker *checker, uint32_t next)
+tn_status tn_code_pass(tn_checker *checker, const tn_instruction *instruction)
 {
     const tn_module *module = checker->module;
-    if (checker->map == module->MAP_count || module->MAP_records[checker->map].offset >= next)
-        return TN_OK;
-    if (module->MAP_records[checker->map].offset != checker->offset)
-        return refuse(checker, "the source map's record %zu names no instruction", checker->map);
-    checker->map++;
-    if (checker->map < module->MAP_count && module->MAP_records[checker->map].offset < next)
-        return refuse(checker, "the source map does not ascend at its record %zu", checker->map);
+    uint32_t next = checker->offset + instruction->length;
+    if (checker->map < module->MAP_count && module->MAP_records[checker->map].offset < next) {
+        if (module->MAP_records[checker->map].offset != checker->offset)
+            return tn_refuse(checker, "the source map's record %zu names no instruction", checker->map);
+        checker->map++;
+        if (checker->map < module->MAP_count && module->MAP_records[checker->map].offset < next)
+            return tn_refuse(checker, "the source map does not ascend at its record %zu", checker->map);
+    }
+    checker->offset = next;
     return TN_OK;
 }
 
-static tn_code_engine engine_of(tn_function_kind kind)
+/* ---- functions */
+
+static tn_status check_stack(tn_checker *checker, uint32_t stack_max, tn_opcode opcode, bool last)
 {
-    return kind == TN_FUNCTION_CONDITION ? TN_CODE_CONDITION
-           : kind == TN_FUNCTION_MEASURE ? TN_CODE_MEASURE
-                                         : TN_CODE_RULE;
+    const tn_opcode_info *info = tn_opcode_describe((uint8_t)opcode);
+    if (checker->depth < info->pops)
+        return tn_refuse(checker, "%s takes %u from a stack of %u", info->name, info->pops, checker->depth);
+    if (last && checker->depth != info->pops)
+        return tn_refuse(checker, "%s leaves %u on the stack", info->name, checker->depth - info->pops);
+    checker->depth += (uint32_t)info->pushes - info->pops;
+    if (checker->depth > stack_max)
+        return tn_refuse(checker, "the stack passes the %u that the function declares", stack_max);
+    return TN_OK;
 }
 
-static tn_status check_instruction(tn_checker *checker, bool *ended)
+static tn_status check_body(tn_checker *checker, const tn_function_record *function, tn_code_kind code)
 {
-    const tn_function_record *function = function_of(checker);
-    const uint8_t *code = checker->module->code + checker->offset;
-    const tn_opcode_info *info = tn_opcode_describe(code[0]);
-    if (!info)
-        return refuse(checker, "%u is no opcode", code[0]);
-    tn_opcode opcode = (tn_opcode)code[0];
-    if (info->engine != engine_of((tn_function_kind)function->kind))
-        return refuse(checker, "%s does not belong into this kind of function", info->name);
-    if (info->length > function->code_end - checker->offset)
-        return refuse(checker, "%s runs past the function's end", info->name);
-    tn_status status = check_operands(checker, opcode, info, code + 1);
-    if (status == TN_OK)
-        status = check_stack(checker, opcode, info);
-    if (status == TN_OK)
-        status = check_map(checker, checker->offset + info->length);
-    checker->offset += info->length;
-    *ended = ends_function(opcode);
-    return status;
+    while (checker->offset < checker->end) {
+        tn_instruction instruction;
+        tn_status status = tn_code_next(checker, code, &instruction);
+        bool last = status == TN_OK && instruction.opcode == tn_code_last[code];
+        if (status == TN_OK)
+            status = check_stack(checker, function->stack_max, instruction.opcode, last);
+        if (status == TN_OK)
+            status = tn_code_pass(checker, &instruction);
+        if (status != TN_OK)
+            return status;
+        if (last && checker->offset != checker->end)
+            return tn_refuse(checker, "code follows the function's end");
+        if (last)
+            return TN_OK;
+    }
+    return tn_refuse(checker, "the function does not end with %s", tn_opcode_describe(tn_code_last[code])->name);
 }
 
-static tn_status check_function(tn_checker *checker, const tn_module_limits *limits)
+static tn_status check_function(tn_checker *checker, uint32_t index)
 {
-    const tn_function_record *function = function_of(checker);
-    if (function->kind >= TN_FUNCTION_KIND_COUNT)
-        return refuse(checker, "%u is no kind of function", function->kind);
-    bool of_schema = function->kind == TN_FUNCTION_WHOLE || function->kind == TN_FUNCTION_HOLDS;
-    if (of_schema && function->schema >= checker->module->SCHEMA_count)
-        return refuse(checker, "there is no schema %u", function->schema);
-    if (function->kind == TN_FUNCTION_MEASURE && function->stack_max > TN_MEASURE_STACK_MAX)
-        return refuse(checker, "an expression's stack passes %u", TN_MEASURE_STACK_MAX);
-    if (function->stack_max > limits->stack) {
+    const tn_function_record *function = &checker->module->FUNCTION_records[index];
+    tn_code_kind code = tn_function_kinds[function->kind].code;
+    const tn_engine *engine = tn_engine_of_code(checker->engines, code);
+    tn_status status = tn_code_enter(checker, TN_SECTION_FUNCTION, index, function->code_begin, function->code_end);
+    if (status != TN_OK)
+        return status;
+    if (!engine)
+        return tn_refuse(checker, "this program lacks the engine of such functions");
+    if (function->stack_max > checker->limits->stack) {
         tn_fail(checker->error, TN_LIMIT, E_MODULE_TOO_LARGE, "function %u declares a stack of %u; the limit is %zu",
-                checker->function, function->stack_max, limits->stack);
+                index, function->stack_max, checker->limits->stack);
         tn_error_help(checker->error, "this limit is fixed: give parts of the rule's expression names of their own");
         return TN_LIMIT;
     }
-    if (function->code_begin != checker->offset || function->code_end < function->code_begin ||
-        function->code_end > checker->module->code_size)
-        return refuse(checker, "the function's code is not the stretch after the one before");
-    bool ended = false;
-    checker->depth = 0;
-    while (checker->offset < function->code_end && !ended) {
-        tn_status status = check_instruction(checker, &ended);
+    status = engine->verify_function ? engine->verify_function(checker, index) : TN_OK;
+    return status == TN_OK ? check_body(checker, function, code) : status;
+}
+
+static tn_status check_functions(tn_checker *checker)
+{
+    for (uint32_t i = 0; i < checker->module->FUNCTION_count; i++) {
+        tn_status status = check_function(checker, i);
         if (status != TN_OK)
             return status;
     }
-    if (!ended)
-        return refuse(checker, "the function does not end with RETURN, ANSWER or VALUE");
-    if (checker->offset != function->code_end)
-        return refuse(checker, "code follows the function's end");
     return TN_OK;
 }
 
-tn_status tn_verify_code(const tn_module *module, const tn_module_limits *limits, tn_error *error)
+/* ---- all code */
+
+static bool has_code(tn_section section)
 {
-    tn_checker checker = {.module = module, .error = error};
-    for (; checker.function < module->FUNCTION_count; checker.function++) {
-        tn_status status = check_function(&checker, limits);
-        if (status != TN_OK)
-            return status;
-    }
-    tn_status status = tn_verify_grammars(module, &checker.offset, &checker.map, error);
+    tn_members members = tn_section_describe(section).members;
+    for (size_t i = 0; i < members.count; i++)
+        if (members.items[i].kind == TN_MEMBER_CODE)
+            return true;
+    return false;
+}
+
+/* The code of an engine's own section; that each section with records has an engine is known. */
+static tn_status check_engine_code(tn_checker *checker, tn_section section)
+{
+    const tn_engine *engine = tn_engine_of_section(checker->engines, section);
+    if (!engine->verify_code)
+        return tn_refuse(checker, "its engine runs no code of its section %s", tn_section_describe(section).name);
+    return engine->verify_code(checker, section);
+}
+
+tn_status tn_verify_code(tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    tn_status status = check_functions(checker);
+    for (tn_section i = TN_SECTION_CODE + 1; i < TN_SECTION_COUNT && status == TN_OK; i++)
+        if (i != TN_SECTION_FUNCTION && module->tables[i].count > 0 && has_code(i))
+            status = check_engine_code(checker, i);
     if (status != TN_OK)
         return status;
-    if (checker.offset != module->code_size)
-        return refuse(&checker, "code that belongs to no function or production");
-    if (checker.map != module->MAP_count)
-        return refuse(&checker, "the source map names places past the code");
+    checker->section = TN_SECTION_STRINGS;
+    if (checker->offset != module->code_size)
+        return tn_refuse(checker, "it has code that belongs to no function or production");
+    if (checker->map != module->MAP_count)
+        return tn_refuse(checker, "the source map names places past the code");
     return TN_OK;
 }

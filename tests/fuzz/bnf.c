@@ -9,6 +9,7 @@
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/tree.h"
 #include "runtime/grammar/analysis.h"
+#include "runtime/load.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { CODONS = 40, STEPS = 4000, ITEMS = 20000, LONGEST = 120 };

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/load.h"
 #include "runtime/plan/schema/schema.h"
 #include "tests/support/compile_file.h"
 

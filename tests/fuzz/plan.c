@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "compiler/compile.h"
+#include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "tests/fuzz/fuzz.h"
 

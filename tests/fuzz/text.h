@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "compiler/compile.h"
+#include "runtime/load.h"
 #include "tests/fuzz/grow.h"
 
 /* Files of the standard library may be named; paths could reach anything on this machine. */

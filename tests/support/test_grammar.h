@@ -14,6 +14,7 @@
 #include "compiler/bnf/bnf.h"
 #include "runtime/base/file.h"
 #include "runtime/grammar/grammar.h"
+#include "runtime/load.h"
 
 /* Compiles; what there is to say goes to `codes` as "E1004 W1001 ", in the order of the text. NULL where there are
  * errors. */

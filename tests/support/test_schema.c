@@ -1,4 +1,5 @@
 #include "tests/support/test_schema.h"
+#include "runtime/load.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Lists a rewrite system and its study. */
 #include "runtime/growth/model/list.h"
 
 #include <string.h>
@@ -79,23 +80,15 @@ static void list_rule(FILE *out, const tn_module *module, const tn_rewrite_group
         list_alternative(out, module, rule->alternative_first + i);
 }
 
-static void list_surroundings(FILE *out, const tn_module *module)
+/* Records that are listed field by field. */
+static void list_records(tn_lister *lister, tn_section section)
 {
-    static const char *const forces[] = {"attractor", "repeller", "gravity"};
-    static const char *const shapes[] = {"plane", "box", "sphere", "mesh"}, *const modes[] = {"slide", "stop", "soft"};
-    for (size_t i = 0; i < module->FORCE_count; i++) {
-        const tn_force_record *f = &module->FORCE_records[i];
-        fprintf(out, "  %s (%.15g, %.15g, %.15g) strength %.15g exponent %.15g\n", forces[f->kind], f->x, f->y, f->z,
-                f->strength, f->exponent);
-    }
-    for (size_t i = 0; i < module->BOUNDARY_count; i++) {
-        const tn_boundary_record *b = &module->BOUNDARY_records[i];
-        fprintf(out, "  boundary %s (%.15g, %.15g, %.15g) (%.15g, %.15g, %.15g) radius %.15g %s %s ", shapes[b->kind],
-                b->a_x, b->a_y, b->a_z, b->b_x, b->b_y, b->b_z, b->radius, b->inside ? "inside" : "outside",
-                modes[b->mode]);
-        write_text(out, module, b->mesh);
-        fputc('\n', out);
-    }
+    for (uint32_t i = 0; i < lister->module->tables[section].count && !ferror(lister->out); i++)
+        tn_list_record(lister, section, i);
+}
+
+static void list_goals(FILE *out, const tn_module *module)
+{
     for (size_t i = 0; i < module->GOAL_count; i++) {
         const tn_goal_record *g = &module->GOAL_records[i];
         fputs("  fitness ", out);
@@ -120,8 +113,10 @@ static void list_study(FILE *out, const tn_module *module)
             s->branch_length, (long long)s->seed, (long long)s->edge_limit, s->flags);
 }
 
-void tn_disassemble_growth(const tn_module *module, FILE *out)
+void tn_growth_list(tn_lister *lister)
 {
+    const tn_module *module = lister->module;
+    FILE *out = lister->out;
     if (module->GROWTH_count == 0)
         return;
     const tn_growth_record *growth = &module->GROWTH_records[0];
@@ -144,5 +139,7 @@ void tn_disassemble_growth(const tn_module *module, FILE *out)
             list_rule(out, module, &module->REWRITE_GROUP_records[g], module->REWRITE_GROUP_records[g].rule_first + r);
     if (module->STUDY_count)
         list_study(out, module);
-    list_surroundings(out, module);
+    list_records(lister, TN_SECTION_FORCE);
+    list_records(lister, TN_SECTION_BOUNDARY);
+    list_goals(out, module);
 }

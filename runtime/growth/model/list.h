@@ -2,12 +2,10 @@
 #ifndef TARTAN_GROWTH_LIST_H
 #define TARTAN_GROWTH_LIST_H
 
-#include <stdio.h>
-
-#include "runtime/module/module.h"
+#include "runtime/module/lister.h"
 
 /* The rewrite system: labels, seed, each rule with its successors as the constant templates that they are, and the
- * study. */
-void tn_disassemble_growth(const tn_module *module, FILE *out);
+ * study with its surroundings and goals. */
+void tn_growth_list(tn_lister *lister);
 
 #endif

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "compiler/compile.h"
+#include "runtime/load.h"
 #include "runtime/plan/match/vm.h"
 #include "tests/support/test_rule.h"
 

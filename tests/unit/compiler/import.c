@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "tests/support/compile_file.h"
 

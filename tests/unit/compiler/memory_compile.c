@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "compiler/compile.h"
+#include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "runtime/plan/match/rules.h"
 #include "tests/support/failing_memory.h"

@@ -1,5 +1,6 @@
 /* The compiler of .bnf grammars: what it says of wrong ones, and how it reads awkward ones. */
 #include "runtime/genome/mapping/mapper.h"
+#include "runtime/load.h"
 #include "tests/support/test_grammar.h"
 
 static size_t wrong; /* of what `says` was told */

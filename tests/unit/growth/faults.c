@@ -13,6 +13,7 @@
 #include "compiler/compile.h"
 #include "runtime/geometry/outline.h"
 #include "runtime/growth/faults.h"
+#include "runtime/load.h"
 
 typedef struct grown {
     tn_compilation compilation;

@@ -16,6 +16,7 @@
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
+#include "runtime/load.h"
 
 typedef struct grown {
     tn_compilation compilation;

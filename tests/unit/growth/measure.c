@@ -12,6 +12,7 @@
 #include "compiler/compile.h"
 #include "runtime/base/numeric.h"
 #include "runtime/growth/study.h"
+#include "runtime/load.h"
 #include "runtime/module/builder.h"
 #include "runtime/number/measure.h"
 

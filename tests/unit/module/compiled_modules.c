@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/load.h"
 #include "runtime/module/builder.h"
-#include "runtime/module/disasm.h"
 #include "runtime/module/module.h"
 #include "tests/support/compile_file.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/module/disasm.h"
+#include "runtime/load.h"
 #include "runtime/plan/match/condition_text.h"
 #include "tests/support/sample_module.h"
 
@@ -34,7 +34,7 @@ static void test_sample(void **state)
     (void)state;
     char *text = listing(sample_builder());
     char *rest = strchr(text, '\n'); /* after the line with the hash */
-    assert_memory_equal(text, "module: format 1, hash ", 23);
+    assert_memory_equal(text, "module: format 2, hash ", 23);
     assert_string_equal(
         rest,
         "\n"

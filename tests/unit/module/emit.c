@@ -10,6 +10,7 @@
 
 #include "compiler/compile.h"
 #include "compiler/plan/program.h"
+#include "runtime/load.h"
 #include "runtime/module/code.h"
 
 #define SCHEMA                                                                                                         \

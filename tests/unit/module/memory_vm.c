@@ -12,7 +12,7 @@
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
 #include "runtime/base/file.h"
-#include "runtime/module/disasm.h"
+#include "runtime/load.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/sample_module.h"
 

@@ -2,6 +2,7 @@
  * study could say is refused. */
 #include "runtime/genome/settings.h"
 #include "runtime/genome/breeding/evolve.h"
+#include "runtime/load.h"
 #include "tests/support/test_grammar.h"
 
 static void is_choice(tn_setting setting, const char *word, uint32_t number, uint32_t count)

@@ -1,0 +1,193 @@
+/* Verifies and lists the grammars that genomes are mapped through: their tables and their productions' code. */
+#include "runtime/module/engine.h"
+
+/* ---- tables */
+
+static bool is_symbol(const tn_grammar_record *grammar, int64_t symbol)
+{
+    return symbol >= grammar->rule_first && symbol - grammar->rule_first < grammar->rule_count;
+}
+
+static bool is_special(const tn_grammar_record *grammar, uint32_t symbol)
+{
+    bool needed = grammar->repair != TN_REPAIR_OFF;
+    return symbol == TN_NO_RECORD ? !needed : is_symbol(grammar, symbol);
+}
+
+/* Repair and flags are of the grammar's dialect, and what repair needs are non-terminals of its own. */
+static tn_status verify(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (size_t i = 0; i < module->GRAMMAR_count; i++) {
+        const tn_grammar_record *grammar = &module->GRAMMAR_records[i];
+        if (grammar->dialect == TN_DIALECT_GE ? grammar->repair != TN_REPAIR_OFF : grammar->flags != 0)
+            return tn_refuse(checker, "grammar %zu has a repair or flags that are not of its dialect", i);
+        if (!is_special(grammar, grammar->rewrite_rule) || !is_special(grammar, grammar->predecessor) ||
+            !is_special(grammar, grammar->successor))
+            return tn_refuse(checker, "grammar %zu has a repair that names non-terminals that are not its own", i);
+    }
+    return TN_OK;
+}
+
+/* ---- productions */
+
+static tn_status check_letter(const tn_checker *checker, const tn_instruction *instruction)
+{
+    if (instruction->first >= TN_EDGE_LETTERS)
+        return tn_refuse(checker, "there is no edge variable %u", (unsigned)instruction->first);
+    return TN_OK;
+}
+
+static bool has_body(tn_opcode opcode)
+{
+    return opcode == TN_OP_REPEAT || opcode == TN_OP_MAYBE;
+}
+
+/* What holds of an instruction within its production; `body_end`: where the innermost open body ends. */
+static tn_status check_instruction(const tn_checker *checker, const tn_grammar_record *grammar,
+                                   const tn_instruction *instruction, uint32_t body_end)
+{
+    tn_opcode opcode = instruction->opcode;
+    const char *name = tn_opcode_describe((uint8_t)opcode)->name;
+    if ((opcode == TN_OP_DONE) != (checker->offset + 1 == checker->end))
+        return tn_refuse(checker, "a production ends with its one DONE");
+    if (opcode != TN_OP_DONE && instruction->length > body_end - checker->offset)
+        return tn_refuse(checker, "%s runs past its end", name);
+    if (grammar->dialect == TN_DIALECT_GE && opcode != TN_OP_EMIT && opcode != TN_OP_EXPAND && opcode != TN_OP_DONE)
+        return tn_refuse(checker, "%s is not of the grammar's dialect", name);
+    if (opcode == TN_OP_EXPAND && !is_symbol(grammar, instruction->first))
+        return tn_refuse(checker, "non-terminal %u is not of the grammar", (unsigned)instruction->first);
+    if (has_body(opcode) && instruction->first > body_end - checker->offset - instruction->length)
+        return tn_refuse(checker, "a body runs past the end of what holds it");
+    return TN_OK;
+}
+
+static tn_status check_code(tn_checker *checker, const tn_grammar_record *grammar)
+{
+    uint32_t ends[TN_GROUP_DEPTH + 1], depth = 0;
+    ends[0] = checker->end - 1; /* where the DONE is */
+    while (checker->offset < checker->end) {
+        while (depth && ends[depth] == checker->offset)
+            depth--;
+        tn_instruction instruction;
+        tn_status status = tn_code_next(checker, TN_CODE_MAP, &instruction);
+        if (status == TN_OK)
+            status = check_instruction(checker, grammar, &instruction, ends[depth]);
+        if (status == TN_OK)
+            status = tn_code_pass(checker, &instruction);
+        if (status != TN_OK)
+            return status;
+        if (!has_body(instruction.opcode))
+            continue;
+        if (depth == TN_GROUP_DEPTH)
+            return tn_refuse(checker, "bodies nest more than %u deep", TN_GROUP_DEPTH);
+        ends[++depth] = checker->offset + (uint32_t)instruction.first;
+    }
+    return TN_OK;
+}
+
+static tn_status check_production(tn_checker *checker, const tn_grammar_record *grammar, uint32_t index)
+{
+    const tn_production_record *production = &checker->module->PRODUCTION_records[index];
+    tn_status status =
+        tn_code_enter(checker, TN_SECTION_PRODUCTION, index, production->code_begin, production->code_end);
+    return status == TN_OK ? check_code(checker, grammar) : status;
+}
+
+/* A grammar's non-terminals and their productions are runs, so that these are all productions in their order. */
+static tn_status check_grammar(tn_checker *checker, const tn_grammar_record *grammar)
+{
+    const tn_module *module = checker->module;
+    const tn_nonterminal_record *first = &module->NONTERMINAL_records[grammar->rule_first];
+    const tn_nonterminal_record *last = first + grammar->rule_count - 1;
+    for (uint32_t i = first->production_first; i < last->production_first + last->production_count; i++) {
+        tn_status status = check_production(checker, grammar, i);
+        if (status != TN_OK)
+            return status;
+    }
+    return TN_OK;
+}
+
+/* A production ends with its one DONE; bodies nest; instructions are of the grammar's dialect, and symbols its own. */
+static tn_status verify_code(tn_checker *checker, tn_section section)
+{
+    (void)section; /* the engine has code in one */
+    for (size_t i = 0; i < checker->module->GRAMMAR_count; i++) {
+        tn_status status = check_grammar(checker, &checker->module->GRAMMAR_records[i]);
+        if (status != TN_OK)
+            return status;
+    }
+    return TN_OK;
+}
+
+/* ---- listing */
+
+static void list_nonterminal(tn_lister *lister, uint32_t index)
+{
+    const tn_module *module = lister->module;
+    const tn_nonterminal_record *rule = &module->NONTERMINAL_records[index];
+    fputc('\n', lister->out);
+    tn_list_name(lister, rule->name);
+    fprintf(lister->out, ", productions %u..%u\n", rule->production_first,
+            rule->production_first + rule->production_count - 1);
+    lister->shown_line = 0;
+    for (uint32_t i = 0; i < rule->production_count && !ferror(lister->out); i++) {
+        const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
+        tn_map_record place = {production->code_begin, production->file, production->begin, production->end};
+        tn_list_code(lister, production->code_begin, production->code_end, &place);
+    }
+}
+
+static void list_grammar(tn_lister *lister, size_t index)
+{
+    static const char *const dialects[] = {"ge", "genr8"}, *const repairs[] = {"genome", "identity", "off"};
+    const tn_grammar_record *grammar = &lister->module->GRAMMAR_records[index];
+    fprintf(lister->out, "\ngrammar %zu  ", index);
+    tn_list_name(lister, grammar->name);
+    fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect],
+            grammar->max_depth, grammar->wraps, repairs[grammar->repair],
+            grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
+    tn_list_place(lister, grammar->file, grammar->begin);
+    for (uint32_t i = 0; i < grammar->rule_count && !ferror(lister->out); i++)
+        list_nonterminal(lister, grammar->rule_first + i);
+}
+
+static void list_code(tn_lister *lister)
+{
+    for (size_t i = 0; i < lister->module->GRAMMAR_count && !ferror(lister->out); i++)
+        list_grammar(lister, i);
+}
+
+static void list_symbol(tn_lister *lister, const tn_instruction *instruction)
+{
+    tn_list_name(lister, lister->module->NONTERMINAL_records[instruction->first].name);
+}
+
+static void list_letter(tn_lister *lister, const tn_instruction *instruction)
+{
+    fputc((int)('X' + instruction->first), lister->out);
+}
+
+static void list_body(tn_lister *lister, const tn_instruction *instruction)
+{
+    fprintf(lister->out, "%u bytes", (unsigned)instruction->first);
+}
+
+static const tn_section sections[] = {TN_SECTION_GRAMMAR, TN_SECTION_NONTERMINAL, TN_SECTION_PRODUCTION,
+                                      TN_SECTION_STRINGS};
+
+static const tn_operand_rules operands[] = {
+    {TN_OPERANDS_SYMBOL, NULL, list_symbol},
+    {TN_OPERANDS_LETTER, check_letter, list_letter},
+    {TN_OPERANDS_BODY, NULL, list_body},
+};
+
+extern const tn_engine tn_engine_grammar;
+const tn_engine tn_engine_grammar = {.name = "grammar",
+                                     .sections = sections,
+                                     .codes = 1u << TN_CODE_MAP,
+                                     .operands = operands,
+                                     .operand_count = sizeof operands / sizeof *operands,
+                                     .verify = verify,
+                                     .verify_code = verify_code,
+                                     .list_code = list_code};

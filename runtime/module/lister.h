@@ -1,0 +1,46 @@
+/* What engines list their part of a module with (engine.h). Texts from the module are shortened and cleaned of what
+ * would upset a terminal: a module from anywhere must not make the listing endless. */
+#ifndef TARTAN_MODULE_LISTER_H
+#define TARTAN_MODULE_LISTER_H
+
+#include <stdio.h>
+
+#include "runtime/module/code.h"
+#include "runtime/module/disasm_lines.h"
+
+struct tn_operand_rules;
+struct tn_engines;
+
+enum { TN_TEXT_SHOWN = 240 };
+
+typedef struct tn_lister {
+    const tn_module *module;
+    const struct tn_engines *engines;
+    const struct tn_operand_rules *operands[TN_OPERANDS_COUNT];
+    FILE *out;
+    tn_source_lines *lines;
+    uint32_t shown_file; /* the source line that was shown last */
+    size_t shown_line;
+    bool failed; /* out of memory */
+} tn_lister;
+
+void tn_list_text(tn_lister *lister, const char *text);
+void tn_list_name(tn_lister *lister, tn_string name);
+
+/* ` "what it is"`, or nothing where there is no text. */
+void tn_list_doc(tn_lister *lister, tn_string doc);
+
+/* Ends a line with where the record comes from. */
+void tn_list_place(tn_lister *lister, uint32_t file, uint32_t begin);
+
+/* A line of a record, field by field: "  boundary 0  kind sphere, mode slide ...". */
+void tn_list_record(tn_lister *lister, tn_section section, uint32_t index);
+
+/* "function 3 (holds pair)". */
+void tn_list_function(tn_lister *lister, uint32_t function);
+
+/* The instructions of a stretch of code, beside the source lines that they come from: those of the map, or that of the
+ * one place of all. */
+void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_map_record *place);
+
+#endif

@@ -1,0 +1,121 @@
+/* What the numbers in a module's records mean, and how large they may be: the enumerations, flags and bounds that the
+ * rows of records.def name. */
+#ifndef TARTAN_MODULE_VALUES_H
+#define TARTAN_MODULE_VALUES_H
+
+#include <stdint.h>
+
+/* A reference to nothing. */
+#define TN_NO_RECORD UINT32_MAX
+
+/* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
+#define TN_FIELDS_MAX 64u    /* fields of a schema */
+#define TN_VALUES_MAX 255u   /* values of a field: engines number them in a byte */
+#define TN_NAME_MAX 255u     /* bytes of a name */
+#define TN_SPELLING_MAX 511u /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
+
+/* ---- plans */
+
+typedef enum tn_field_kind {
+    TN_FIELD_LENGTH, /* alternatives, each a length */
+    TN_FIELD_CHOICE, /* alternatives, each a name */
+    TN_FIELD_FLAG,   /* two values: unset, then set */
+    TN_FIELD_ZONE,   /* alternatives, each a fill with a depth (or none) */
+    TN_FIELD_KIND_COUNT
+} tn_field_kind;
+
+/* What a field means to a drawing; nothing else looks at it. */
+typedef enum tn_field_role {
+    TN_ROLE_NONE,
+    TN_ROLE_LENGTH, /* the tray's extent along the row */
+    TN_ROLE_LEVEL,  /* the n-th value has n levels */
+    TN_ROLE_PUBLIC_END,
+    TN_ROLE_GREAT_HALL,
+    TN_ROLE_BAND, /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_FIELD_ROLE_COUNT
+} tn_field_role;
+
+typedef enum tn_fill_role {
+    TN_FILL_NONE,
+    TN_FILL_SOLID,
+    TN_FILL_VOID,
+    TN_FILL_ABSENT,
+    TN_FILL_ROLE_COUNT
+} tn_fill_role;
+
+typedef enum tn_clause_kind {
+    TN_CLAUSE_REQUIRE,
+    TN_CLAUSE_TOTAL,
+    TN_CLAUSE_PRUNE,
+    TN_CLAUSE_KIND_COUNT
+} tn_clause_kind;
+
+/* Flags of rules and libraries. */
+#define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
+
+/* ---- growth */
+
+#define TN_TEMPLATE_ITEMS_MAX 4096u /* segments, and branches, of one successor */
+#define TN_CHAIN_MAX 64u            /* edges of a predecessor */
+#define TN_STEPS_MAX 100000u
+#define TN_COORDINATE_MAX 1e12 /* of anything in a rewrite system or an environment */
+
+/* What becomes of the age i of the replaced edge: Edge0, Edge0_i, Edge0_i+1, Edge0_i-1. */
+typedef enum tn_age_change { TN_AGE_ZERO, TN_AGE_KEEP, TN_AGE_MORE, TN_AGE_LESS, TN_AGE_CHANGE_COUNT } tn_age_change;
+
+typedef enum tn_side { TN_SIDE_NONE, TN_SIDE_LEFT, TN_SIDE_RIGHT, TN_SIDE_COUNT } tn_side;
+
+/* When an alternative applies: always, or where the age is below, above or equal to its bound. */
+typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUALS, TN_COMPARISON_COUNT } tn_comparison;
+
+/* Flags of a study. */
+#define TN_STUDY_FIXED_CENTRE 1u
+#define TN_STUDY_FIXED_PERIMETER 2u
+#define TN_STUDY_FACING 4u
+#define TN_STUDY_MIRROR 8u
+#define TN_STUDY_RAW_FITNESS 16u
+#define TN_STUDY_FLAGS 31u
+
+typedef enum tn_force_kind { TN_ATTRACTOR, TN_REPELLER, TN_GRAVITY, TN_FORCE_KIND_COUNT } tn_force_kind;
+
+typedef enum tn_boundary_kind {
+    TN_BOUNDARY_PLANE,
+    TN_BOUNDARY_BOX,
+    TN_BOUNDARY_SPHERE,
+    TN_BOUNDARY_MESH,
+    TN_BOUNDARY_KIND_COUNT
+} tn_boundary_kind;
+
+/* What becomes of a vertex that meets a boundary. */
+typedef enum tn_boundary_mode {
+    TN_SLIDE, /* it goes on along the boundary */
+    TN_STOP,  /* it stays where it met it */
+    TN_SOFT,  /* it passes, and counts in the fitness term of soft boundaries */
+    TN_BOUNDARY_MODE_COUNT
+} tn_boundary_mode;
+
+typedef enum tn_fitness_term {
+    TN_TERM_SIZE,
+    TN_TERM_SMOOTHNESS,
+    TN_TERM_SOFT_BOUNDARY,
+    TN_TERM_SUBDIVISIONS,
+    TN_TERM_SYMMETRY,
+    TN_TERM_UNDULATION,
+    TN_FITNESS_TERM_COUNT
+} tn_fitness_term;
+
+/* ---- grammars that genomes are mapped through */
+
+/* How a .bnf file is read and its genomes mapped (docs/genome-language.md). */
+typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_COUNT } tn_dialect;
+
+/* What becomes of edge types that a genr8 sentence leaves without a rule. */
+typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN_REPAIR_COUNT } tn_repair;
+
+#define TN_EDGE_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */
+#define TN_GROUP_DEPTH 64u /* how deep { } and [ ] may nest in a production */
+
+/* Flags of grammars. */
+#define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
+
+#endif

@@ -1,0 +1,208 @@
+/* Verifies and lists the rules and libraries of a module, and the code of rules and conditions. */
+#include "runtime/module/engine.h"
+#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/schema/list.h"
+
+/* ---- verifying tables */
+
+static bool is_function(const tn_module *module, uint32_t function, tn_function_kind kind, uint32_t schema)
+{
+    return module->FUNCTION_records[function].kind == kind && module->FUNCTION_records[function].schema == schema;
+}
+
+static tn_status check_rules(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (size_t i = 0; i < module->RULE_count; i++) {
+        const tn_rule_record *rule = &module->RULE_records[i];
+        if (!is_function(module, rule->whole, TN_FUNCTION_WHOLE, rule->schema) ||
+            !is_function(module, rule->holds, TN_FUNCTION_HOLDS, rule->schema))
+            return tn_refuse(checker, "rule %zu names a function of another kind or schema", i);
+    }
+    return tn_check_different(checker, &module->RULE_records->name, sizeof *module->RULE_records, module->RULE_count,
+                              "two rules have the same name");
+}
+
+static tn_status check_libraries(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (size_t i = 0; i < module->LIBRARY_count; i++) {
+        const tn_library_record *library = &module->LIBRARY_records[i];
+        if (library->trays_min > library->trays_max)
+            return tn_refuse(checker, "library %zu has fewer trays at most than at least", i);
+        for (uint32_t k = 0; k < library->clause_count; k++) {
+            uint32_t clause = library->clause_first + k;
+            if (!is_function(module, module->CLAUSE_records[clause].holds, TN_FUNCTION_HOLDS, library->schema))
+                return tn_refuse(checker, "clause %u names a function of another kind or schema", clause);
+        }
+    }
+    return tn_check_different(checker, &module->LIBRARY_records->name, sizeof *module->LIBRARY_records,
+                              module->LIBRARY_count, "two libraries have the same name");
+}
+
+/* Rules, libraries and clauses name functions of the right kind and schema; no two rules or libraries have one name. */
+static tn_status verify(const tn_checker *checker)
+{
+    tn_status status = check_rules(checker);
+    return status == TN_OK ? check_libraries(checker) : status;
+}
+
+/* ---- verifying code */
+
+static const tn_function_record *function_of(const tn_checker *checker)
+{
+    return &checker->module->FUNCTION_records[checker->record];
+}
+
+static tn_status verify_function(const tn_checker *checker, uint32_t index)
+{
+    const tn_function_record *function = &checker->module->FUNCTION_records[index];
+    if (function->kind != TN_FUNCTION_CONDITION && function->schema >= checker->module->SCHEMA_count)
+        return tn_refuse(checker, "there is no schema %u", function->schema);
+    return TN_OK;
+}
+
+static tn_status check_spec(const tn_checker *checker, const tn_instruction *instruction)
+{
+    if (checker->module->SPEC_records[instruction->first].schema != function_of(checker)->schema)
+        return tn_refuse(checker, "specifier %u is of another schema", (unsigned)instruction->first);
+    return TN_OK;
+}
+
+static tn_status check_call(const tn_checker *checker, const tn_instruction *instruction)
+{
+    uint32_t callee = (uint32_t)instruction->first;
+    if (callee >= checker->record)
+        return tn_refuse(checker, "calls function %u, which is not a lower one", callee);
+    const tn_function_record *function = &checker->module->FUNCTION_records[callee];
+    if (tn_function_kinds[function->kind].code != TN_CODE_RULE)
+        return tn_refuse(checker, "calls function %u, which is no part of a rule", callee);
+    if (function->schema != function_of(checker)->schema)
+        return tn_refuse(checker, "calls function %u, which is of another schema", callee);
+    return TN_OK;
+}
+
+static tn_status check_condition_kind(const tn_checker *checker, int64_t condition)
+{
+    if (checker->module->FUNCTION_records[condition].kind != TN_FUNCTION_CONDITION)
+        return tn_refuse(checker, "function %u is no condition", (unsigned)condition);
+    return TN_OK;
+}
+
+static tn_status check_condition(const tn_checker *checker, const tn_instruction *instruction)
+{
+    return check_condition_kind(checker, instruction->first);
+}
+
+static tn_status check_sum(const tn_checker *checker, const tn_instruction *instruction)
+{
+    uint32_t field = (uint32_t)instruction->first;
+    const tn_schema_record *schema = &checker->module->SCHEMA_records[function_of(checker)->schema];
+    if (field < schema->field_first || field - schema->field_first >= schema->field_count)
+        return tn_refuse(checker, "field %u is not of the function's schema", field);
+    uint32_t kind = checker->module->FIELD_records[field].kind;
+    if (kind != TN_FIELD_LENGTH && kind != TN_FIELD_ZONE)
+        return tn_refuse(checker, "field %u has no lengths", field);
+    return check_condition_kind(checker, instruction->second);
+}
+
+static tn_status check_numbers(const tn_checker *checker, const tn_instruction *instruction)
+{
+    if (instruction->opcode == TN_OP_REMAINDER && (instruction->first <= 0 || instruction->second < 0))
+        return tn_refuse(checker, "a remainder needs a divisor above 0 and a rest not below 0");
+    return TN_OK;
+}
+
+/* ---- listing */
+
+static void list_rule(tn_lister *lister, size_t index)
+{
+    const tn_rule_record *rule = &lister->module->RULE_records[index];
+    fprintf(lister->out, "  %zu  ", index);
+    tn_list_name(lister, rule->name);
+    tn_list_doc(lister, rule->doc);
+    fprintf(lister->out, ": whole function %u, holds function %u%s", rule->whole, rule->holds,
+            rule->flags & TN_IMPORTED ? ", imported" : "");
+    tn_list_place(lister, rule->file, rule->begin);
+}
+
+static void list_rules(tn_lister *lister)
+{
+    if (lister->module->RULE_count > 0)
+        fputs("\nrules\n", lister->out);
+    for (size_t i = 0; i < lister->module->RULE_count; i++)
+        list_rule(lister, i);
+}
+
+static void list_library(tn_lister *lister, size_t index)
+{
+    static const char *const kinds[] = {"require", "total", "prune"};
+    const tn_library_record *library = &lister->module->LIBRARY_records[index];
+    fprintf(lister->out, "\nlibrary %zu  ", index);
+    tn_list_name(lister, library->name);
+    tn_list_doc(lister, library->doc);
+    fputs(" using ", lister->out);
+    tn_list_name(lister, lister->module->SCHEMA_records[library->schema].name);
+    fprintf(lister->out, ": %u..%u trays%s", library->trays_min, library->trays_max,
+            library->flags & TN_IMPORTED ? ", imported" : "");
+    tn_list_place(lister, library->file, library->begin);
+    for (uint32_t i = 0; i < library->clause_count; i++) {
+        const tn_clause_record *clause = &lister->module->CLAUSE_records[library->clause_first + i];
+        fprintf(lister->out, "  %s ", kinds[clause->kind]);
+        tn_list_name(lister, clause->name);
+        tn_list_doc(lister, clause->doc);
+        fprintf(lister->out, ": function %u", clause->holds);
+        tn_list_place(lister, clause->file, clause->begin);
+    }
+}
+
+static void list(tn_lister *lister)
+{
+    list_rules(lister);
+    for (size_t i = 0; i < lister->module->LIBRARY_count; i++)
+        list_library(lister, i);
+}
+
+static void list_spec(tn_lister *lister, const tn_instruction *instruction)
+{
+    fprintf(lister->out, "spec %u  ", (unsigned)instruction->first);
+    tn_list_spec(lister, (uint32_t)instruction->first);
+}
+
+static void list_function(tn_lister *lister, uint32_t function)
+{
+    if (lister->module->FUNCTION_records[function].kind != TN_FUNCTION_CONDITION)
+        return;
+    char text[TN_CONDITION_TEXT_MAX];
+    tn_condition_text(lister->module, function, text);
+    fprintf(lister->out, " %s", text);
+}
+
+static void list_heading(tn_lister *lister, uint32_t function)
+{
+    const tn_function_record *record = &lister->module->FUNCTION_records[function];
+    if (record->kind == TN_FUNCTION_CONDITION)
+        return;
+    fputs(" of ", lister->out);
+    tn_list_name(lister, lister->module->SCHEMA_records[record->schema].name);
+}
+
+static const tn_section sections[] = {TN_SECTION_RULE, TN_SECTION_LIBRARY, TN_SECTION_CLAUSE, TN_SECTION_STRINGS};
+
+static const tn_operand_rules operands[] = {
+    {TN_OPERANDS_SPEC, check_spec, list_spec}, {TN_OPERANDS_FUNC, check_call, NULL},
+    {TN_OPERANDS_COND, check_condition, NULL}, {TN_OPERANDS_FIELD_COND, check_sum, NULL},
+    {TN_OPERANDS_INT2, check_numbers, NULL},
+};
+
+extern const tn_engine tn_engine_match;
+const tn_engine tn_engine_match = {.name = "match",
+                                   .sections = sections,
+                                   .codes = 1u << TN_CODE_RULE | 1u << TN_CODE_CONDITION,
+                                   .operands = operands,
+                                   .operand_count = sizeof operands / sizeof *operands,
+                                   .verify = verify,
+                                   .verify_function = verify_function,
+                                   .list = list,
+                                   .list_function = list_function,
+                                   .list_heading = list_heading};
