@@ -100,7 +100,9 @@ static bool list_one(tn_lister *lister, tn_section section, uint32_t index)
     for (size_t i = module->FUNCTION_count; i-- > 0;)
         if (needed[i])
             mark_callees(module, &module->FUNCTION_records[i], needed);
-    tn_list_record(lister, section, index);
+    const tn_engine *engine = tn_engine_of_section(lister->engines, section);
+    if (!engine || !engine->list_record || !engine->list_record(lister, section, index))
+        tn_list_record(lister, section, index);
     for (uint32_t i = 0; i < module->FUNCTION_count && !ferror(lister->out); i++)
         if (needed[i])
             list_function(lister, i);

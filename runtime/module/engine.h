@@ -38,6 +38,8 @@ typedef struct tn_engine {
      * listed field by field. */
     void (*list)(tn_lister *lister);
     void (*list_code)(tn_lister *lister);
+    /* Lists one record of a section in its own words; false: it has none, and the fields are listed. */
+    bool (*list_record)(tn_lister *lister, tn_section section, uint32_t index);
     /* Writes what a function of its code is: after its kind (" n > 1" of a condition), and in its heading (" of
      * houses" of a rule's). */
     void (*list_function)(tn_lister *lister, uint32_t function);

@@ -91,9 +91,7 @@ static void list_reference(tn_lister *lister, tn_section section, uint32_t index
 
 static void list_whole(tn_lister *lister, const tn_member *member, int64_t value)
 {
-    if (member->kind == TN_MEMBER_FLAGS && value == 0)
-        fputs("none", lister->out);
-    else if (member->words && *member->words)
+    if (member->words && *member->words)
         list_words(lister, member->words, member->kind == TN_MEMBER_FLAGS ? (uint32_t)value : 1u << value);
     else
         fprintf(lister->out, "%" PRId64, value);
@@ -123,7 +121,8 @@ static void list_member(tn_lister *lister, const void *record, const tn_member *
             break;
         } /* fall through */
     case TN_MEMBER_REF:
-        list_reference(lister, member->section, (uint32_t)value);
+        fprintf(out, "%" PRId64, value);
+        list_name_of(lister, member->section, (uint32_t)value);
         break;
     default:
         list_whole(lister, member, value);
@@ -131,8 +130,11 @@ static void list_member(tn_lister *lister, const void *record, const tn_member *
     }
 }
 
-static bool is_shown(const tn_member *member)
+/* Empty texts and flags are not, nor is a place, which ends the line. */
+static bool is_shown(const void *record, const tn_member *member)
 {
+    if (member->kind == TN_MEMBER_TEXT || member->kind == TN_MEMBER_FLAGS)
+        return tn_member_whole(record, member) != 0;
     return member->kind != TN_MEMBER_FILE && member->kind != TN_MEMBER_BEGIN && member->kind != TN_MEMBER_END;
 }
 
@@ -148,7 +150,7 @@ void tn_list_record(tn_lister *lister, tn_section section, uint32_t index)
     for (size_t i = 0; i < info.members.count; i++) {
         const tn_member *member = &info.members.items[i];
         place = member->kind == TN_MEMBER_FILE ? member : place;
-        if (!is_shown(member))
+        if (!is_shown(record, member))
             continue;
         fprintf(lister->out, "%s%s ", between, member->name);
         list_member(lister, record, member);

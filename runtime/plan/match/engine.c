@@ -163,6 +163,13 @@ static void list(tn_lister *lister)
         list_library(lister, i);
 }
 
+static bool list_record(tn_lister *lister, tn_section section, uint32_t index)
+{
+    if (section == TN_SECTION_RULE)
+        list_rule(lister, index);
+    return section == TN_SECTION_RULE;
+}
+
 static void list_spec(tn_lister *lister, const tn_instruction *instruction)
 {
     fprintf(lister->out, "spec %u  ", (unsigned)instruction->first);
@@ -204,5 +211,6 @@ const tn_engine tn_engine_match = {.name = "match",
                                    .verify = verify,
                                    .verify_function = verify_function,
                                    .list = list,
+                                   .list_record = list_record,
                                    .list_function = list_function,
                                    .list_heading = list_heading};
