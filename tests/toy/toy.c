@@ -1,0 +1,74 @@
+/* An engine that a build adds from outside: its records and code are read, verified and listed like those of any other,
+ * by the rows of tests/toy/engine.def and the few lines of tests/toy/engine.c. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/load.h"
+#include "runtime/module/builder.h"
+
+static tn_status load(uint32_t start, uint32_t step, tn_opcode last, tn_module **module, tn_error *error)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_builder *builder = tn_builder_new();
+    tn_builder_emit(builder, TN_OP_COUNT_UP, step, 0);
+    tn_builder_emit(builder, last, 0, 0);
+    tn_builder_add_COUNTER(builder, &(tn_counter_record){.name = tn_builder_string(builder, "sheep"),
+                                                         .start = start,
+                                                         .code_end = tn_builder_offset(builder)});
+    assert_int_equal(tn_builder_finish(builder, &bytes, &size, error), TN_OK);
+    tn_status status = tn_module_load(bytes, size, NULL, module, error);
+    tn_builder_free(builder);
+    free(bytes);
+    return status;
+}
+
+static void refuse(uint32_t start, uint32_t step, tn_opcode last, const char *reason)
+{
+    tn_module *module;
+    tn_error error = {0};
+    assert_int_equal(load(start, step, last, &module, &error), TN_INVALID);
+    if (!strstr(error.message, reason))
+        fail_msg("wanted \"%s\", got \"%s\"", reason, error.message);
+}
+
+static void test_it_is_listed(void **state)
+{
+    (void)state;
+    tn_module *module;
+    tn_error error = {0};
+    char *text;
+    size_t size;
+    if (load(3, 7, TN_OP_STOP, &module, &error) != TN_OK)
+        fail_msg("%s", error.message);
+    FILE *out = open_memstream(&text, &size);
+    assert_true(tn_module_disassemble(module, out));
+    fclose(out);
+    assert_string_equal(strchr(text, '\n'), "\n"
+                                            "  counter 0  name \"sheep\", start 3, code_begin 0, code_end 6\n"
+                                            "       0  COUNT_UP    7\n"
+                                            "       5  STOP\n");
+    free(text);
+    tn_module_free(module);
+}
+
+static void test_it_is_verified(void **state)
+{
+    (void)state;
+    refuse(10, 7, TN_OP_STOP, "counter 0: start is 10; 0 to 9 are possible");
+    refuse(3, 0, TN_OP_STOP, "counter 0, code offset 0: a step of nothing");
+    refuse(3, 7, TN_OP_DONE, "counter 0, code offset 5: DONE does not belong into this kind of code");
+    refuse(3, 7, TN_OP_COUNT_UP, "counter 0, code offset 5: ");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
