@@ -60,7 +60,8 @@ typedef struct bench {
 static void compile(sample *s)
 {
     tn_error error;
-    if (tn_open_bytes("bench.hemls", (const uint8_t *)s->sentence, s->size, false, &s->opened) == TN_OK &&
+    if (tn_open_text(TN_NOTATION(hemls), "a sentence", s->sentence, s->size, &(tn_compile_options){0}, &s->opened) ==
+            TN_OK &&
         tn_growth_system_read(s->opened.module, &s->system, &error) != TN_OK)
         stop(error.message);
 }

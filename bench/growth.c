@@ -130,7 +130,8 @@ int main(int count, char **words)
     tn_module *module;
     tn_growth_system *system;
     tn_error error;
-    if (tn_compile_text("bench.hemls", text, strlen(text), &(tn_compile_options){0}, &compilation) != TN_OK ||
+    tn_input input = {.text = text, .size = strlen(text), .name = scene};
+    if (tn_compile_text(TN_NOTATION(hemls), &input, &(tn_compile_options){0}, &compilation) != TN_OK ||
         tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error) != TN_OK ||
         tn_growth_system_read(module, &system, &error) != TN_OK)
         return 1;

@@ -3,7 +3,7 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def cli/notations.def)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def compiler/notations.def)
 set(TARTAN_WRITTEN_FILES "")
 
 # The binary prints it: tartan help WORDS...
@@ -21,16 +21,24 @@ foreach(row ${rows})
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
 endforeach()
 
-file(STRINGS cli/notations.def rows REGEX "^NOTATION")
-foreach(row ${rows})
-  string(REGEX MATCH "NOTATION\\(([a-z]+), \"(.*)\", \"(.*)\"\\)" row "${row}")
-  set(file ${TARTAN_WRITTEN}/tartan-${CMAKE_MATCH_1}.5)
-  set(page ${PROJECT_SOURCE_DIR}/docs/${CMAKE_MATCH_2})
-  add_custom_command(OUTPUT ${file} DEPENDS ${page} ${PROJECT_SOURCE_DIR}/tools/manual-page cli/notations.def
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${page} ${CMAKE_MATCH_1} ${CMAKE_MATCH_3} ${PROJECT_VERSION} > ${file} VERBATIM)
+# A page of docs as a page of section 5. Its words are a notation's row, or those of files that are no rules.
+function(tartan_page name page summary)
+  set(file ${TARTAN_WRITTEN}/tartan-${name}.5)
+  set(source ${PROJECT_SOURCE_DIR}/docs/${page})
+  add_custom_command(OUTPUT ${file} DEPENDS ${source} ${PROJECT_SOURCE_DIR}/tools/manual-page compiler/notations.def
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${source} ${name} ${summary} ${PROJECT_VERSION} > ${file} VERBATIM)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
-  list(APPEND TARTAN_WRITTEN_FILES ${file})
+  set(TARTAN_WRITTEN_FILES ${TARTAN_WRITTEN_FILES} ${file} PARENT_SCOPE)
+endfunction()
+
+file(STRINGS compiler/notations.def rows REGEX "^[A-Z_]+\\(")
+foreach(row ${rows})
+  string(REGEX MATCH "\"([^\"]*)\", \"([^\"]*)\", \"([^\"]*)\"\\)$" row "${row}")
+  if(CMAKE_MATCH_2)
+    tartan_page(${CMAKE_MATCH_2} ${CMAKE_MATCH_1} ${CMAKE_MATCH_3})
+  endif()
 endforeach()
+tartan_page(plans plan-files.md "the formats of files of plans")
 
 # Each shell looks in a folder of its own, and under a name of its own.
 tartan_writes(bash/tartan ${CMAKE_INSTALL_DATADIR}/bash-completion/completions --completion bash)

@@ -1,13 +1,11 @@
+/* Lays out a text in its notation's one way, and checks that it still means what it did. */
 #include "compiler/format.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/bnf/format.h"
 #include "compiler/common/lexical.h"
-#include "compiler/plan/format_clauses.h"
-#include "compiler/reading.h"
 
 enum { PASSES_MAX = 8 };
 
@@ -63,37 +61,6 @@ static bool same_tokens(const tn_sources *sources, const tn_reading *before, con
     return i == one->count && k == other->count;
 }
 
-static bool same_grammar(const tn_sources *sources, const tn_reading *before, const tn_reading *after)
-{
-    (void)sources;
-    return tn_format_bnf_same(before->tree, after->tree);
-}
-
-/* ---- the notations */
-
-static const char *spell_hemls(tn_arena *arena, const char *text, size_t size)
-{
-    static const char *const words[] = {"Angle", "BranchAngle", "Sync", "Weight", "If", "i"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
-            return words[i];
-    return tn_arena_copy(arena, text, size);
-}
-
-typedef struct format_notation {
-    tn_format_spell *spell;
-    bool nests; /* has brackets that come in pairs, or else an error of syntax */
-    void (*lay_out)(tn_format *format);
-    bool (*same)(const tn_sources *sources, const tn_reading *before, const tn_reading *after);
-} format_notation;
-
-static const format_notation notations[TN_NOTATION_COUNT] = {
-    [TN_NOTATION_PLAN] = {tn_format_small_letters, true, tn_format_plan, same_tokens},
-    [TN_NOTATION_HEMLS] = {spell_hemls, false, tn_format_hemls, same_tokens},
-    [TN_NOTATION_STUDY] = {tn_format_small_letters, false, tn_format_study, same_tokens},
-    [TN_NOTATION_BNF] = {tn_format_bnf_directive, true, tn_format_bnf, same_grammar},
-};
-
 /* ---- one text */
 
 /* What a lexer did not leave a token for would be lost: there may be nothing but white space between tokens, and the
@@ -126,7 +93,7 @@ static bool reports_late_mark(tn_diagnostics *diagnostics, uint32_t file)
     return true;
 }
 
-static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
+static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, const tn_notation *notation, const char *path,
                            const char *text, size_t size, tn_reading *read, tn_error *error)
 {
     size_t errors = diagnostics->error_count;
@@ -138,8 +105,8 @@ static tn_status read_text(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     bool done = tn_read(arena, diagnostics, notation, read->file, read);
     if (!done || diagnostics->failed || tn_arena_failed(arena))
         return tn_fail_memory(error);
-    if (notation == TN_NOTATION_BNF)
-        tn_format_bnf_trim(&diagnostics->sources->files[read->file], &read->tokens);
+    if (notation->front->trim)
+        notation->front->trim(&diagnostics->sources->files[read->file], &read->tokens);
     return diagnostics->error_count > errors ? TN_INVALID : TN_OK;
 }
 
@@ -154,16 +121,17 @@ static tn_status report_depth(tn_diagnostics *diagnostics, const tn_reading *tex
 }
 
 /* Lays the file out, and again until the lines that clauses are named by have come to rest. */
-static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const tn_reading *from,
-                         char **text, size_t *size, tn_error *error)
+static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, const tn_notation *notation,
+                         const tn_reading *from, char **text, size_t *size, tn_error *error)
 {
     const tn_source *source = &diagnostics->sources->files[from->file];
+    const tn_front *front = notation->front;
     tn_format format = {0};
     size_t place = 0;
-    tn_format_take(&format, arena, source, &from->tokens, notations[notation].spell);
+    tn_format_take(&format, arena, source, &from->tokens, front->spell);
     if (tn_arena_failed(arena))
         return tn_fail_memory(error);
-    if (notations[notation].nests && !tn_format_match_brackets(&format, &place))
+    if (front->nests && !tn_format_match_brackets(&format, &place))
         return report_depth(diagnostics, from, format.tokens[place].offset);
     tn_format_token *tokens = format.tokens;
     size_t bytes = (format.count + 1) * sizeof *tokens;
@@ -174,29 +142,30 @@ static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, tn_notati
             return tn_fail_memory(error);
         memcpy(format.tokens, tokens, bytes);
         tn_layout_start(&format.layout, arena);
-        notations[notation].lay_out(&format);
-        renamed = notation == TN_NOTATION_PLAN && tn_format_clause_names(arena, source, from->tree, &format, tokens);
+        front->lay_out(&format);
+        renamed = front->rename && front->rename(arena, source, from, &format, tokens);
     }
     *text = tn_layout_finish(&format.layout, size);
     return *text ? TN_OK : tn_fail_memory(error);
 }
 
 /* Reads what was laid out; *same: it is what it was made from. What there is to say about it has been said. */
-static tn_status compare(tn_arena *arena, tn_sources *sources, tn_notation notation, const char *path, const char *text,
-                         size_t size, const tn_reading *before, bool *same, tn_error *error)
+static tn_status compare(tn_arena *arena, tn_sources *sources, const tn_notation *notation, const char *path,
+                         const char *text, size_t size, const tn_reading *before, bool *same, tn_error *error)
 {
     tn_diagnostics scratch;
     tn_reading after;
     tn_diagnostics_init(&scratch, sources);
     tn_status status = read_text(arena, &scratch, notation, path, text, size, &after, error);
-    *same = status == TN_OK && notations[notation].same(sources, before, &after);
+    *same = status == TN_OK &&
+            (notation->front->same ? notation->front->same(before, &after) : same_tokens(sources, before, &after));
     tn_diagnostics_clear(&scratch);
     if (tn_arena_failed(arena))
         return tn_fail_memory(error);
     return status == TN_INVALID ? TN_OK : status;
 }
 
-static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_notation notation, const char *path,
+static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, const tn_notation *notation, const char *path,
                            const char *text, size_t size, char **formatted, size_t *formatted_size, tn_error *error)
 {
     tn_reading before;
@@ -221,7 +190,7 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, tn_nota
     return TN_OK;
 }
 
-tn_status tn_format_text(tn_diagnostics *diagnostics, tn_notation notation, const char *path, const char *text,
+tn_status tn_format_text(tn_diagnostics *diagnostics, const tn_notation *notation, const char *path, const char *text,
                          size_t size, char **formatted, size_t *formatted_size)
 {
     tn_error error = {0};

@@ -15,7 +15,7 @@
 /* Formats a file's text; `path` is its name in diagnostics. *formatted, zero-ended, is the caller's to free().
  * The text is added to the diagnostics' sources. TN_INVALID where it has errors of syntax, TN_LIMIT, TN_MEMORY: all
  * reported, and *formatted is NULL. */
-tn_status tn_format_text(tn_diagnostics *diagnostics, tn_notation notation, const char *path, const char *text,
+tn_status tn_format_text(tn_diagnostics *diagnostics, const tn_notation *notation, const char *path, const char *text,
                          size_t size, char **formatted, size_t *formatted_size);
 
 #endif

@@ -1,19 +1,50 @@
-/* The notations of rule files, told apart by the ends of their names. */
-#ifndef TARTAN_COMPILER_COMMON_NOTATION_H
-#define TARTAN_COMPILER_COMMON_NOTATION_H
+/* The notations of rule files: the table that compiler/notations.def says, and how a text's notation is found. */
+#ifndef TARTAN_COMPILER_NOTATION_H
+#define TARTAN_COMPILER_NOTATION_H
 
-typedef enum tn_notation {
-    TN_NOTATION_PLAN,
-    TN_NOTATION_HEMLS,
-    TN_NOTATION_STUDY,
-    TN_NOTATION_BNF,
-    TN_NOTATION_COUNT
-} tn_notation;
+#include "compiler/common/notation.h"
 
-/* "plan": the name, and without its dot the extension. */
-const char *tn_notation_name(tn_notation notation);
+extern const tn_notation tn_notations[];
+extern const size_t tn_notation_count;
 
-/* The notation of a file by its path; TN_NOTATION_COUNT where its name ends in none of them. */
-tn_notation tn_notation_of(const char *path);
+enum {
+#define NOTATION(ID, ...) TN_NOTATION_ROW_##ID,
+#include "compiler/notations.def"
+};
+
+/* The notation of this id: TN_NOTATION(plan). */
+#define TN_NOTATION(ID) (&tn_notations[TN_NOTATION_ROW_##ID])
+
+/* The notation of a file, by the end of its path and, where several have that, by its text: the one whose word heads a
+ * block in it. NULL where no notation's files end so. */
+const tn_notation *tn_notation_of(const char *path, const char *text, size_t size);
+
+/* The same, where texts whose path says nothing are taken for the first notation's. */
+const tn_notation *tn_notation_or_first(const char *path, const char *text, size_t size);
+
+/* The notation of a text by what editors and --notation call its language, which is its extension without the point.
+ * NULL where there is none. */
+const tn_notation *tn_notation_of_language(const char *language, const char *text, size_t size);
+
+/* The notation of a module's rules: of the first row after the first one that says it made it; else the first. */
+const tn_notation *tn_notation_of_module(const tn_module *module);
+
+/* Is it the first of those with its extension? There is one for every extension. */
+static inline bool tn_notation_is_main(const tn_notation *notation)
+{
+    return notation->word[0] == '\0';
+}
+
+/* "plan": what editors and --notation call it. */
+static inline const char *tn_notation_language(const tn_notation *notation)
+{
+    return notation->extension + 1;
+}
+
+/* Is the command (by its name) about what such a file says? */
+bool tn_notation_takes(const tn_notation *notation, const char *command);
+
+/* "it is a grammar that genomes are mapped through: `tartan map` takes it", into a text of that size. */
+void tn_notation_help(const tn_notation *notation, char *text, size_t size);
 
 #endif

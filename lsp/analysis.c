@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "compiler/common/lexical.h"
-#include "compiler/reading.h"
+#include "compiler/compile.h"
 
 void tn_analysis_free(tn_analysis *analysis)
 {
@@ -19,31 +19,34 @@ void tn_analysis_free(tn_analysis *analysis)
 /* The compilation has read the tokens and forgotten them. */
 static void read_tokens(tn_analysis *analysis)
 {
+    tn_compilation *c = &analysis->compilation;
     tn_diagnostics scratch;
     tn_reading reading;
-    tn_diagnostics_init(&scratch, &analysis->compilation.sources);
-    if (tn_text_check(&scratch, 0) && tn_read(analysis->compilation.arena, &scratch, analysis->notation, 0, &reading))
+    tn_diagnostics_init(&scratch, &c->sources);
+    if (tn_text_check(&scratch, 0) && tn_read(c->arena, &scratch, c->notation, 0, &reading))
         analysis->tokens = reading.tokens;
     tn_diagnostics_clear(&scratch);
 }
 
-tn_analysis *tn_analysis_new(const char *path, tn_notation notation, const char *text, size_t size,
-                             const tn_stdlib_dirs *stdlib, tn_overlay *overlay, void *context)
+tn_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
+                             tn_overlay *overlay, void *context)
 {
     tn_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)
         return NULL;
-    tn_compile_options options = {.stdlib_dirs = (const char *const *)stdlib->dirs,
-                                  .stdlib_dir_count = stdlib->count,
-                                  .overlay = overlay,
-                                  .overlay_context = context};
-    analysis->notation = notation;
-    tn_status status = tn_compile_text(path, text, size, &options, &analysis->compilation);
-    analysis->compilation.sources.overlay = NULL;
+    tn_files files;
+    tn_files_begin(&files, stdlib);
+    files.overlay = overlay;
+    files.overlay_context = context;
+    tn_compile_options options = {.resolver = tn_files_resolver(&files)};
+    tn_input input = {.text = text, .size = size, .name = path};
+    tn_status status =
+        tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, &analysis->compilation);
+    tn_files_clear(&files);
     analysis->lines = calloc(analysis->compilation.sources.count + 1, sizeof *analysis->lines);
     if (analysis->compilation.sources.count > 0 && analysis->compilation.arena) {
         read_tokens(analysis);
-        if (notation == TN_NOTATION_PLAN)
+        if (analysis->compilation.imports)
             tn_index_build(&analysis->index, &analysis->compilation);
     }
     if (analysis->lines && status != TN_MEMORY)

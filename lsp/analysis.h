@@ -5,22 +5,21 @@
 #include <jansson.h>
 
 #include "compiler/notation.h"
-#include "driver/open/stdlib_dirs.h"
+#include "driver/open/files.h"
 #include "lsp/index.h"
 #include "lsp/lines.h"
 
 typedef struct tn_analysis {
-    tn_notation notation;
     tn_compilation compilation;
     tn_lines *lines;  /* of each source, made when needed */
     tn_index index;   /* of a .plan file */
     tn_tokens tokens; /* of the text itself */
 } tn_analysis;
 
-/* Compiles a text; `path` is where it is or would be. What `overlay` gives stands in for files (source.h); it is not
- * asked afterwards. NULL where out of memory. */
-tn_analysis *tn_analysis_new(const char *path, tn_notation notation, const char *text, size_t size,
-                             const tn_stdlib_dirs *stdlib, tn_overlay *overlay, void *context);
+/* Compiles a text; `path` is where it is or would be, a real one that ends as files of its notation do. What `overlay`
+ * gives stands in for files (driver/open/files.h); it is not asked afterwards. NULL where out of memory. */
+tn_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
+                             tn_overlay *overlay, void *context);
 void tn_analysis_free(tn_analysis *analysis);
 
 /* The lines of a source; NULL where out of memory. */

@@ -20,7 +20,6 @@ typedef struct copy {
 
 struct tn_background {
     pthread_t thread;
-    tn_notation notation;
     copy *copies; /* the document's own first */
     size_t copy_count;
     const tn_stdlib_dirs *stdlib; /* the workspace's, which does not change */
@@ -62,7 +61,7 @@ static void look(tn_background *b)
 {
     const copy *own = &b->copies[0];
     tn_error error;
-    b->analysis = tn_analysis_new(own->path, b->notation, own->text, own->size, b->stdlib, copied_text, b);
+    b->analysis = tn_analysis_new(own->path, own->text, own->size, b->stdlib, copied_text, b);
     if (!b->analysis || !b->analysis->compilation.module)
         return;
     tn_opened opened = {.path = own->path, .compilation = b->analysis->compilation, .compiled = true};
@@ -135,7 +134,6 @@ tn_background *tn_background_start(const tn_workspace *workspace, const tn_docum
     tn_background *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
-    b->notation = document->notation;
     b->stdlib = &workspace->stdlib;
     b->wake = wake;
     if (copy_documents(b, workspace, document) && start_thread(b))

@@ -289,9 +289,10 @@ static void complete_files(cursor *c, const tn_workspace *workspace)
         DIR *folder = opendir(workspace->stdlib.dirs[i]);
         for (struct dirent *entry; folder && (entry = readdir(folder));) {
             size_t size = strlen(entry->d_name);
-            if (size < 6 || strcmp(entry->d_name + size - 5, ".plan") != 0)
+            size_t tail = strlen(TN_NOTATION(plan)->extension);
+            if (size <= tail || strcmp(entry->d_name + size - tail, TN_NOTATION(plan)->extension) != 0)
                 continue;
-            char *name = strndup(entry->d_name, size - 5);
+            char *name = strndup(entry->d_name, size - tail);
             if (name)
                 offer(c, name, KIND_FILE, "standard library", "1");
             free(name);

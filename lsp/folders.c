@@ -41,7 +41,7 @@ static bool is_folder(const struct dirent *entry, const char *path)
 
 static void look_at(tn_rule_files *files, const char *folder, const struct dirent *entry, unsigned depth)
 {
-    bool rules = tn_notation_of(entry->d_name) == TN_NOTATION_PLAN;
+    bool rules = tn_notation_of(entry->d_name, "", 0) == TN_NOTATION(plan);
     bool maybe_folder = depth > 0 && (entry->d_type == DT_DIR || entry->d_type == DT_UNKNOWN);
     char *path = NULL;
     if (!rules && !maybe_folder)

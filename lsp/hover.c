@@ -62,7 +62,8 @@ json_t *tn_lsp_format(tn_document *document)
     size_t size;
     json_t *edits = json_array();
     tn_diagnostics_init(&diagnostics, &sources);
-    tn_format_text(&diagnostics, document->notation, document->path, document->text, document->size, &text, &size);
+    const tn_notation *notation = tn_notation_or_first(document->path, document->text, document->size);
+    tn_format_text(&diagnostics, notation, document->path, document->text, document->size, &text, &size);
     tn_lines lines;
     if (text && strcmp(text, document->text) != 0 && tn_lines_make(&lines, document->text, document->size)) {
         json_array_append_new(

@@ -83,11 +83,7 @@ static bool visit_file(tn_workspace *workspace, tn_document *asked, const tn_sym
         tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK)
         return true;
     if (memmem(bytes, size, symbol->name, strlen(symbol->name))) {
-        tn_document document = {.uri = tn_path_uri(path),
-                                .path = strdup(path),
-                                .notation = TN_NOTATION_PLAN,
-                                .text = (char *)bytes,
-                                .size = size};
+        tn_document document = {.uri = tn_path_uri(path), .path = strdup(path), .text = (char *)bytes, .size = size};
         good = document.uri && document.path && visit_document(workspace, asked, symbol, &document, visit, context);
         tn_analysis_free(document.analysis);
         free(document.uri);

@@ -1,9 +1,5 @@
-/* The outline of a document: of a .plan file from the index, of others from the tokens, so that it is there too while a
- * file is being typed. */
-#include <string.h>
-#include <strings.h>
-
-#include "compiler/study/study.h"
+/* The outline of a document: from the tokens, so that it is there too while a file is being typed, where the notation's
+ * front end makes one of them; else from the index. */
 #include "lsp/features.h"
 
 /* SymbolKind of the protocol. */
@@ -18,7 +14,7 @@ enum {
     KIND_STRUCT = 23,
 };
 
-/* ---- .plan */
+/* ---- from the index */
 
 static int outline_kind(tn_symbol_kind kind)
 {
@@ -48,7 +44,7 @@ static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
     return item;
 }
 
-static json_t *outline_plan(tn_analysis *analysis)
+static json_t *outline_index(tn_analysis *analysis)
 {
     json_t *list = json_array();
     for (const tn_symbol *s = analysis->index.first; s; s = s->next)
@@ -59,177 +55,43 @@ static json_t *outline_plan(tn_analysis *analysis)
 
 /* ---- from tokens */
 
-typedef struct reader {
-    tn_analysis *analysis;
-    const char *text;
-    const tn_token *tokens; /* without comments */
-    size_t count;
-} reader;
-
-static bool is(const reader *r, size_t i, const char *text)
+static json_t *entry_item(tn_analysis *analysis, const char *text, const tn_listing_entry *entry)
 {
-    if (i >= r->count)
-        return false;
-    tn_span span = r->tokens[i].span;
-    return strlen(text) == span.end - span.begin && strncasecmp(r->text + span.begin, text, strlen(text)) == 0;
-}
-
-static tn_span span_of(const reader *r, size_t first, size_t last)
-{
-    return tn_span_join(r->tokens[first].span, r->tokens[last - 1].span);
-}
-
-/* Tokens [first, named) are the name, the rest up to `last` the detail. */
-static json_t *entry(const reader *r, int kind, size_t first, size_t named, size_t last)
-{
-    tn_span name = span_of(r, first, named), whole = span_of(r, first, last);
-    json_t *item = json_pack("{s:s%,s:i,s:o,s:o}", "name", r->text + name.begin, (size_t)(name.end - name.begin),
-                             "kind", kind, "range", tn_analysis_range(r->analysis, whole), "selectionRange",
-                             tn_analysis_range(r->analysis, name));
-    if (named < last && item) {
-        tn_span rest = span_of(r, named, last);
-        size_t size = strcspn(r->text + rest.begin, "\r\n"); /* its first line */
-        if (size > rest.end - rest.begin)
-            size = rest.end - rest.begin;
-        json_object_set_new(item, "detail", json_stringn(r->text + rest.begin, size));
-    }
+    static const int kinds[] = {[TN_LISTING_RULE] = KIND_FUNCTION,
+                                [TN_LISTING_SETTING] = KIND_PROPERTY,
+                                [TN_LISTING_CONSTANT] = KIND_CONSTANT,
+                                [TN_LISTING_BLOCK] = KIND_MODULE};
+    json_t *item =
+        json_pack("{s:s%,s:i,s:o,s:o}", "name", text + entry->name.begin, (size_t)(entry->name.end - entry->name.begin),
+                  "kind", kinds[entry->kind], "range", tn_analysis_range(analysis, entry->whole), "selectionRange",
+                  tn_analysis_range(analysis, entry->name));
+    if (item && entry->detail.end > 0)
+        json_object_set_new(item, "detail",
+                            json_stringn(text + entry->detail.begin, entry->detail.end - entry->detail.begin));
     return item;
 }
 
-/* The next line end from i on, or `last`. */
-static size_t line_end(const reader *r, size_t i, size_t last)
+static json_t *outline_tokens(tn_analysis *analysis)
 {
-    while (i < last && r->tokens[i].kind != TN_TOKEN_LINE)
-        i++;
-    return i;
-}
-
-static bool is_arrow(const reader *r, size_t i)
-{
-    return is(r, i, "->") || is(r, i, "\xe2\x86\x92");
-}
-
-/* A rule by what it replaces; the seed; settings. */
-static json_t *outline_hemls(const reader *r)
-{
-    json_t *list = json_array();
-    for (size_t first = 0, last; first < r->count; first = last + 1) {
-        last = line_end(r, first, r->count);
-        size_t arrow = first;
-        while (arrow < last && !is_arrow(r, arrow))
-            arrow++;
-        if (first == last)
-            continue;
-        if (arrow > first && arrow < last)
-            json_array_append_new(list, entry(r, KIND_FUNCTION, first, arrow, last));
-        else if (r->tokens[first].kind == TN_TOKEN_WORD)
-            json_array_append_new(list, entry(r, KIND_PROPERTY, first, first + 1, last));
-        else
-            json_array_append_new(list, entry(r, KIND_CONSTANT, first, last, last));
+    tn_listing listing;
+    json_t *list = json_array(), *children = NULL;
+    if (!tn_listing_start(&listing, analysis->compilation.sources.files[0].text, &analysis->tokens))
+        return list;
+    analysis->compilation.notation->front->list(&listing);
+    for (size_t i = 0; i < listing.entry_count; i++) {
+        const tn_listing_entry *entry = &listing.entries[i];
+        json_t *item = entry_item(analysis, listing.text, entry);
+        if (entry->kind == TN_LISTING_BLOCK)
+            json_object_set_new(item, "children", children = json_array());
+        json_array_append_new(entry->inside ? children : list, item);
     }
     return list;
-}
-
-static size_t block_end(const reader *r, size_t i)
-{
-    while (i < r->count && !is(r, i, "}"))
-        i++;
-    return i < r->count ? i + 1 : i;
-}
-
-static json_t *outline_block(const reader *r, size_t first, size_t last)
-{
-    json_t *block = entry(r, KIND_MODULE, first, first + 1, first + 1), *settings = json_array();
-    size_t close = is(r, last - 1, "}") ? last - 1 : last;
-    json_object_set_new(block, "range", tn_analysis_range(r->analysis, span_of(r, first, last)));
-    for (size_t i = first + 2, end; i < close; i = end + 1) {
-        end = line_end(r, i, close);
-        if (end > i)
-            json_array_append_new(settings, entry(r, KIND_PROPERTY, i, i + 1, end));
-    }
-    json_object_set_new(block, "children", settings);
-    return block;
-}
-
-static bool starts_block(const reader *r, size_t i)
-{
-    return is(r, i, "evolution") && is(r, i + 1, "{");
-}
-
-static bool starts_statement(const reader *r, size_t i)
-{
-    tn_token token = r->tokens[i];
-    return starts_block(r, i) || (token.kind == TN_TOKEN_WORD &&
-                                  tn_study_heads(r->text + token.span.begin, token.span.end - token.span.begin));
-}
-
-/* Statements by their word; a boundary and a fitness term by two. */
-static json_t *outline_study(const reader *r)
-{
-    json_t *list = json_array();
-    for (size_t i = 0, end; i < r->count; i = end) {
-        end = starts_block(r, i) ? block_end(r, i) : i + 1;
-        if (starts_block(r, i)) {
-            json_array_append_new(list, outline_block(r, i, end));
-            continue;
-        }
-        if (!starts_statement(r, i))
-            continue;
-        while (end < r->count && !starts_statement(r, end) && r->tokens[end].kind != TN_TOKEN_LINE)
-            end++;
-        size_t named = i + 1 + ((is(r, i, "boundary") || is(r, i, "fitness")) && end > i + 1);
-        json_array_append_new(list, entry(r, KIND_PROPERTY, i, named, end));
-    }
-    return list;
-}
-
-/* Rules and directives. */
-static json_t *outline_bnf(const reader *r)
-{
-    json_t *list = json_array();
-    for (size_t i = 0, end; i < r->count; i = end) {
-        bool rule = r->tokens[i].kind == TN_TOKEN_NAME;
-        for (end = i + 1; rule && end < r->count && r->tokens[end].kind != TN_TOKEN_NAME;)
-            end++;
-        if (rule || r->tokens[i].kind == TN_TOKEN_WORD)
-            json_array_append_new(list, entry(r, rule ? KIND_FUNCTION : KIND_PROPERTY, i, i + 1, i + 1));
-        if (rule) { /* blank texts and line ends before the next rule are not this one's */
-            json_t *item = json_array_get(list, json_array_size(list) - 1);
-            size_t last = end;
-            while (last > i + 1 && r->tokens[last - 1].kind == TN_TOKEN_LINE)
-                last--;
-            json_object_set_new(item, "range", tn_analysis_range(r->analysis, span_of(r, i, last)));
-        }
-    }
-    return list;
-}
-
-/* ---- all */
-
-/* The tokens but for the comments, in the arena; where lines mean something, with their ends. */
-static bool make_reader(tn_analysis *analysis, reader *r)
-{
-    const tn_tokens *all = &analysis->tokens;
-    tn_token *tokens = all->arena ? TN_NEW_ARRAY(all->arena, tn_token, all->count + 1) : NULL;
-    *r = (reader){.analysis = analysis, .tokens = tokens};
-    if (!tokens)
-        return false;
-    r->text = analysis->compilation.sources.files[0].text;
-    for (size_t i = 0; i < all->count; i++)
-        if (all->items[i].kind != TN_TOKEN_COMMENT)
-            tokens[r->count++] = all->items[i];
-    return true;
 }
 
 json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis)
 {
-    reader r;
     (void)document;
-    if (analysis->notation == TN_NOTATION_PLAN)
-        return outline_plan(analysis);
-    if (!make_reader(analysis, &r))
-        return json_array();
-    return analysis->notation == TN_NOTATION_HEMLS   ? outline_hemls(&r)
-           : analysis->notation == TN_NOTATION_STUDY ? outline_study(&r)
-                                                     : outline_bnf(&r);
+    if (!analysis->compilation.notation->front->list)
+        return outline_index(analysis);
+    return outline_tokens(analysis);
 }

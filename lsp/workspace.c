@@ -104,21 +104,16 @@ static void text_changed(tn_workspace *workspace, const char *path)
 }
 
 /* The file's real path, or what would be: ends so that it says the notation. */
-static char *path_of_uri(const char *uri, const char *language, tn_notation *notation)
+static char *path_of_uri(const char *uri, const char *language)
 {
     char *path = tn_uri_path(uri), *real = path ? realpath(path, NULL) : NULL, *longer = NULL;
     char *found = real ? real : path;
     if (real)
         free(path);
-    *notation = found ? tn_notation_of(found) : TN_NOTATION_PLAN;
-    if (!found || *notation != TN_NOTATION_COUNT)
+    if (!found || tn_notation_of(found, "", 0))
         return found;
-    for (*notation = 0; *notation < TN_NOTATION_COUNT; ++*notation)
-        if (language && strcmp(language, tn_notation_name(*notation)) == 0)
-            break;
-    if (*notation == TN_NOTATION_COUNT)
-        *notation = TN_NOTATION_PLAN;
-    if (asprintf(&longer, "%s.%s", found, tn_notation_name(*notation)) < 0)
+    const tn_notation *notation = language ? tn_notation_of_language(language, "", 0) : NULL;
+    if (asprintf(&longer, "%s%s", found, (notation ? notation : &tn_notations[0])->extension) < 0)
         longer = NULL;
     free(found);
     return longer;
@@ -130,7 +125,7 @@ static tn_document *new_document(tn_workspace *workspace, const char *uri, const
     if (!document)
         return NULL;
     document->uri = strdup(uri);
-    document->path = path_of_uri(uri, language, &document->notation);
+    document->path = path_of_uri(uri, language);
     if (!document->uri || !document->path) {
         free_document(document);
         return NULL;
@@ -236,8 +231,8 @@ static bool open_text(void *context, const char *real_path, const char **text, s
 tn_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document)
 {
     if (!document->analysis)
-        document->analysis = tn_analysis_new(document->path, document->notation, document->text, document->size,
-                                             &workspace->stdlib, open_text, workspace);
+        document->analysis =
+            tn_analysis_new(document->path, document->text, document->size, &workspace->stdlib, open_text, workspace);
     return document->analysis;
 }
 

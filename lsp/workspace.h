@@ -7,7 +7,6 @@
 typedef struct tn_document {
     struct tn_document *next;
     char *uri, *path; /* path: the real one where there is such a file; ends as files of the notation do */
-    tn_notation notation;
     char *text;
     size_t size;
     json_int_t version;

@@ -2,12 +2,14 @@
 """Runs the examples of Markdown pages: docs.py [--update] PAGE...
 
 A ```console block holds commands (lines that start with "$ ") and under each what it prints, standard output and errors
-together; a line "..." stands for any number of lines. A ```plan, ```bnf, ```hemls or ```study block is a rule file: it must pass
-`tartan check`, and one whose first line is "# NAME.plan" ("// NAME.hemls") is there under that name for the commands below it. Each page runs in a copy of its own
+together; a line "..." stands for any number of lines. A block of a notation's language (```plan; compiler/notations.def) is a rule file: it must
+pass `tartan check`, and one whose first line is "# NAME.plan" ("// NAME.hemls") is there under that name for the commands below it. Each page runs in a copy of its own
 folder. TARTAN is the binary. --update writes what is printed now into the pages.
 """
 import os, re, shutil, subprocess, sys, tempfile
 
+TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "compiler", "notations.def")
+LANGUAGES = set(re.findall(r'^[A-Z_]+\(\w+, "\.(\w+)"', open(TABLE).read(), re.M))
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.S | re.M)
 
 
@@ -83,7 +85,7 @@ def check(page, update):
             if kind == "console":
                 block, failed = console(page, block, folder, update)
                 failures += failed
-            elif kind in ("plan", "bnf", "hemls", "study"):
+            elif kind in LANGUAGES:
                 failures += rules(page, kind, block, folder)
             return "```%s\n%s```" % (kind, block)
 

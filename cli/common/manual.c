@@ -1,6 +1,9 @@
+/* Writes manual pages, made of the same tables as the help. */
 #include "cli/common/manual.h"
 
 #include <string.h>
+
+#include "compiler/notation.h"
 
 /* Writes text so that roff takes none of it for its own: backslashes, minus signs, and dots or quotes that start a
  * line. */
@@ -63,17 +66,13 @@ static void write_option(const tn_option *option, FILE *out)
 /* What is to be read beside a page: tartan(1) where it is not that one, and the notations. */
 static void write_see_also(bool overview, FILE *out)
 {
-    static const char *const notations[] = {
-#define NOTATION(NAME, PAGE, SUMMARY) #NAME,
-#include "cli/notations.def"
-#undef NOTATION
-    };
-    const size_t count = sizeof notations / sizeof *notations;
     fputs(".SH SEE ALSO\n", out);
     if (!overview)
         fputs(".BR tartan (1),\n", out);
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, ".BR tartan\\-%s (5)%s\n", notations[i], i + 1 < count ? "," : "");
+    for (size_t i = 0; i < tn_notation_count; i++)
+        if (tn_notations[i].manual[0])
+            fprintf(out, ".BR tartan\\-%s (5),\n", tn_notations[i].manual);
+    fputs(".BR tartan\\-plans (5)\n", out); /* of files that are no rules */
 }
 
 void tn_manual_overview(FILE *out)

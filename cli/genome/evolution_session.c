@@ -74,9 +74,10 @@ static bool open_session(tn_job *command, tn_evolution_session *e)
         return false;
     if (!tn_evolution_study_of(command->opened.module, &study)) {
         tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
-        tn_error_help(&error, "%s",
-                      tn_opened_help(&command->opened,
-                                     "a study to be evolved is a .study file with a block `evolution { ... }`"));
+        tn_error_help(
+            &error, "%s",
+            tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")
+                .text);
         tn_job_fail(command, &error);
         return false;
     }

@@ -275,7 +275,7 @@ static bool prepare(mapping_run *run)
     if (job->opened.module->GRAMMAR_count == 0) {
         tn_fail(&error, TN_INVALID, E_NOT_A_GRAMMAR, "%.200s holds no grammar that genomes are mapped through",
                 settings->operands.items[0]);
-        tn_error_help(&error, "%s", tn_opened_help(&job->opened, "such grammars are .bnf files"));
+        tn_error_help(&error, "%s", tn_opened_help(&job->opened, "such grammars are .bnf files").text);
         fail(run, &error);
         return false;
     }

@@ -278,7 +278,7 @@ static tn_status prepare(run_state *run, tn_error *error)
         tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rewrite system", opened->path);
         tn_error_help(
             error, "%s",
-            tn_opened_help(opened, "a surface grows from a .hemls file, or from a .study file that names one"));
+            tn_opened_help(opened, "a surface grows from a .hemls file, or from a .study file that names one").text);
         return TN_INVALID;
     }
     tn_status status = tn_growth_system_read(opened->module, &run->system, error);

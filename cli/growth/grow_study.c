@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cli/growth/grow.h"
-#include "compiler/study/study.h"
+#include "driver/open/files.h"
 #include "driver/open/stdlib_find.h"
 
 static void say_quoted(FILE *out, const char *text)
@@ -61,13 +61,28 @@ static bool say_statements(FILE *out, const tn_settings *s)
     return any;
 }
 
-static bool open_study(tn_job *job, const char *path, bool has_source, char *text, size_t size)
+/* Compiles the study that the options are, which uses the file. */
+static bool open_options(tn_job *job, const char *text, size_t size)
 {
-    if (has_source) {
-        tn_job_status(
-            job, tn_open_bytes("<options>.study", (const uint8_t *)text, size, job->settings->werror, &job->opened));
-        return job->opened.module != NULL;
-    }
+    tn_stdlib_dirs dirs;
+    tn_files files;
+    tn_error error;
+    tn_status status = tn_stdlib_dirs_find(&dirs, &error);
+    tn_files_begin(&files, &dirs);
+    tn_compile_options options = {tn_files_resolver(&files), job->settings->werror};
+    if (status == TN_OK)
+        tn_job_status(job, tn_open_text(TN_NOTATION(study), "<options>", text, size, &options, &job->opened));
+    else
+        tn_job_fail(job, &error);
+    tn_files_clear(&files);
+    tn_stdlib_dirs_clear(&dirs);
+    return job->opened.module != NULL;
+}
+
+static bool open_study(tn_job *job, const char *path, bool has_source, const char *text, size_t size)
+{
+    if (has_source)
+        return open_options(job, text, size);
     if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)
         return job->opened.module != NULL;
     tn_diagnostic *d = tn_job_usage(job, "a module is grown as it was compiled");
@@ -92,9 +107,10 @@ bool tn_grow_open(tn_job *job)
         return false;
     }
     const char *named = found.path ? found.recorded : path;
-    bool is_hemls = tn_is_hemls(named), has_source = is_hemls || tn_is_study(named);
+    const tn_notation *notation = tn_notation_of(named, "", 0);
+    bool has_source = notation && tn_notation_takes(notation, "grow");
     tn_stdlib_file_clear(&found);
-    fputs(is_hemls ? "rules " : "use ", out);
+    fputs(notation == TN_NOTATION(hemls) ? "rules " : "use ", out);
     say_quoted(out, path);
     bool any = say_statements(out, job->settings), written = !ferror(out);
     fclose(out);

@@ -25,7 +25,7 @@ static bool choose_own(tn_job *job, const char *otherwise, tn_chosen_rules *chos
     if (chosen->count > 0)
         return true;
     tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rules of its own", job->opened.path);
-    tn_error_help(&error, "%s", tn_opened_help(&job->opened, otherwise));
+    tn_error_help(&error, "%s", tn_opened_help(&job->opened, otherwise).text);
     tn_job_fail(job, &error);
     return false;
 }

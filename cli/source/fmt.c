@@ -7,13 +7,31 @@
 #include "cli/common/option_rows.h"
 #include "compiler/format.h"
 
-/* What the option says, in the order of its choices; else what the name does; else plans. */
-static tn_notation notation_of(const tn_settings *settings, const char *path)
+/* What the option says, in the order of its choices; else what the name does; else the first. */
+static const tn_notation *notation_of(const tn_settings *settings, const char *path, const char *text, size_t size)
 {
-    if (settings->notation)
-        return (tn_notation)(settings->notation - 1);
-    tn_notation notation = tn_notation_of(path);
-    return notation == TN_NOTATION_COUNT ? TN_NOTATION_PLAN : notation;
+    const char *language = NULL;
+    for (size_t i = 0, choice = 0; i < tn_notation_count && settings->notation; i++) {
+        choice += tn_notation_is_main(&tn_notations[i]);
+        if (choice == (size_t)settings->notation && !language)
+            language = tn_notation_language(&tn_notations[i]);
+    }
+    return language ? tn_notation_of_language(language, text, size) : tn_notation_or_first(path, text, size);
+}
+
+/* The others than the first: "hemls, study or bnf". */
+static void list_others(char *text, size_t size)
+{
+    size_t last = tn_notation_count, used = 0;
+    while (last > 1 && !tn_notation_is_main(&tn_notations[last - 1]))
+        last--;
+    for (size_t i = 1; i < last && used < size; i++)
+        if (tn_notation_is_main(&tn_notations[i]))
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                     i == 1          ? ""
+                                     : i == last - 1 ? " or "
+                                                     : ", ",
+                                     tn_notation_language(&tn_notations[i]));
 }
 
 static void write_text(tn_job *job, const char *path, const char *text, size_t size)
@@ -68,13 +86,17 @@ static void format_file(tn_job *job, const char *path)
         tn_job_fail(job, &error);
         return;
     }
-    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path), path,
-                                      (const char *)bytes, size, &formatted, &formatted_size));
-    if (!formatted && !job->settings->notation && tn_notation_of(path) == TN_NOTATION_COUNT)
-        tn_job_note(job, "%.200s was read as .plan, as its name says nothing else; --notation hemls, study or bnf does",
-                    path);
+    const char *text = (const char *)bytes;
+    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path, text, size), path, text,
+                                      size, &formatted, &formatted_size));
+    if (!formatted && !job->settings->notation && !tn_notation_of(path, text, size)) {
+        char others[160] = "";
+        list_others(others, sizeof others);
+        tn_job_note(job, "%.200s was read as %s, as its name says nothing else; --notation %s does", path,
+                    tn_notations[0].extension, others);
+    }
     if (formatted)
-        deliver(job, path, (const char *)bytes, formatted, formatted_size);
+        deliver(job, path, text, formatted, formatted_size);
     free(formatted);
     free(bytes);
 }
@@ -92,10 +114,16 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+static const char languages[] = "auto"
+#define NOTATION(ID, ...) "|" #ID
+#define VARIANT(...)
+#include "compiler/notations.def"
+    ;
+
 static const tn_option options[] = {
     FLAG("check", 0, check, "change nothing; say which files are laid out otherwise, and exit with 1 where one is"),
     FLAG("diff", 0, diff, "change nothing; show what would be changed"),
-    CHOICE("notation", 0, "NAME", notation, "auto|plan|hemls|study|bnf",
+    CHOICE("notation", 0, "NAME", notation, languages,
            "which notation it is: for standard input, and where a file's name does not say (auto: by the name, else "
            "plan)"),
 };
@@ -105,7 +133,12 @@ const tn_command tn_command_fmt = {
     .summary = "lay rule files out in the canonical way",
     .usage = "FILE...",
     .description =
-        "Lays out each rule file (.plan, .hemls, .study, .bnf) in its notation's one canonical way, in place: written "
+        "Lays out each rule file ("
+#define FIRST_NOTATION(ID, EXTENSION, ...) EXTENSION
+#define NOTATION(ID, EXTENSION, ...) ", " EXTENSION
+#define VARIANT(...)
+#include "compiler/notations.def"
+        ") in its notation's one canonical way, in place: written "
         "beside the file, then renamed over it. Comments, parentheses and the spelling of lengths stay as they are, "
         "and so does, up to one, an empty line between two things. What the file means is never changed, and a file "
         "with an error of syntax is not touched. For - standard input is laid out on standard output.",

@@ -24,7 +24,12 @@ const tn_command tn_command_lsp = {
     .usage = "",
     .description =
         "Speaks the Language Server Protocol on standard input and output. Editors start it: for VS Code there is an "
-        "extension in editors/vscode. For every notation (.plan, .hemls, .study, .bnf) it shows what is wrong as you "
+        "extension in editors/vscode. For every notation ("
+#define FIRST_NOTATION(ID, EXTENSION, ...) EXTENSION
+#define NOTATION(ID, EXTENSION, ...) ", " EXTENSION
+#define VARIANT(...)
+#include "compiler/notations.def"
+        ") it shows what is wrong as you "
         "type, lists a file's contents and lays it out. For .plan files it also says in the background what rules "
         "mean where that is hardly meant, completes fields, values and rules, says what a name means, what its rule "
         "prunes and how it lies to others, finds and renames names, and offers the fixes that diagnostics suggest.",

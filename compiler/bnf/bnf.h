@@ -12,10 +12,4 @@
 tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
                          tn_builder *builder, tn_error *error);
 
-/* Is it a .bnf file, by its name? */
-bool tn_is_bnf(const char *path);
-
-/* Makes the module of a compilation whose one source is a .bnf text. What is wrong is in its diagnostics. */
-tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilation *compilation, tn_error *error);
-
 #endif

@@ -1,11 +1,13 @@
-/* A .bnf text as a module of its own. */
+/* Compiles .bnf texts to modules of their own; and the front end that the table of notations names. */
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "compiler/bnf/bnf.h"
+#include "compiler/bnf/format.h"
 #include "compiler/common/lexical.h"
+#include "compiler/common/notation.h"
 
 static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn_error *error)
 {
@@ -22,13 +24,7 @@ static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn
     return tn_builder_finish(builder, &c->module, &c->module_size, error);
 }
 
-bool tn_is_bnf(const char *path)
-{
-    size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".bnf") == 0;
-}
-
-tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilation *compilation, tn_error *error)
+static tn_status compile(tn_compilation *compilation, const tn_compile_options *options, tn_error *error)
 {
     if (!tn_text_check(&compilation->diagnostics, 0))
         return TN_INVALID;
@@ -42,3 +38,57 @@ tn_status tn_bnf_compile_module(const tn_compile_options *options, tn_compilatio
     }
     return status;
 }
+
+static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
+{
+    const tn_source *source = &diagnostics->sources->files[reading->file];
+    size_t errors = diagnostics->error_count;
+    tn_bnf_reader *reader = TN_NEW(arena, tn_bnf_reader);
+    if (!reader)
+        return false;
+    *reader =
+        (tn_bnf_reader){.arena = arena, .diagnostics = diagnostics, .file = reading->file, .tokens = &reading->tokens};
+    tn_bnf_read(reader, source->text, source->size);
+    reading->tree = reader;
+    return !reader->failed || diagnostics->error_count > errors;
+}
+
+static bool made(const tn_module *module)
+{
+    return module->GRAMMAR_count > 0;
+}
+
+static bool same(const tn_reading *one, const tn_reading *other)
+{
+    return tn_format_bnf_same(one->tree, other->tree);
+}
+
+/* Rules and directives. */
+static void list(tn_listing *listing)
+{
+    for (size_t i = 0, end; i < listing->count; i = end) {
+        bool rule = listing->tokens[i].kind == TN_TOKEN_NAME;
+        for (end = i + 1; rule && end < listing->count && listing->tokens[end].kind != TN_TOKEN_NAME;)
+            end++;
+        if (!rule && listing->tokens[i].kind != TN_TOKEN_WORD)
+            continue;
+        tn_listing_entry *entry = tn_listing_add(listing, rule ? TN_LISTING_RULE : TN_LISTING_SETTING, i, i + 1, i + 1);
+        size_t last = end; /* blank texts and line ends before the next rule are not this one's */
+        while (last > i + 1 && listing->tokens[last - 1].kind == TN_TOKEN_LINE)
+            last--;
+        entry->whole = tn_listing_span(listing, i, last);
+    }
+}
+
+extern const tn_front tn_front_bnf;
+const tn_front tn_front_bnf = {
+    .read = read,
+    .compile = compile,
+    .made = made,
+    .list = list,
+    .lay_out = tn_format_bnf,
+    .spell = tn_format_bnf_directive,
+    .nests = true,
+    .trim = tn_format_bnf_trim,
+    .same = same,
+};

@@ -4,20 +4,19 @@
 
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
-#include "compiler/common/import.h"
+#include "compiler/common/resolver.h"
 
 typedef struct tn_compile_options {
-    const char *const *stdlib_dirs; /* where `use "name"` without slash or extension is looked for, in order */
-    size_t stdlib_dir_count;
+    tn_resolver resolver; /* of what is used */
     bool warnings_are_errors;
-    tn_overlay *overlay; /* or NULL */
-    void *overlay_context;
 } tn_compile_options;
 
 typedef struct tn_compilation {
+    const struct tn_notation *notation;
     tn_sources sources;
     tn_diagnostics diagnostics;
     tn_arena *arena;
+    const tn_input *input;      /* while it is compiled; NULL afterwards */
     struct tn_program *program; /* checked; NULL where there were errors */
     /* for editors, of a .plan file, and also where there were errors: the files with their syntax trees (import.h), and
      * what became of them (check.h) */

@@ -15,23 +15,17 @@ typedef struct tn_span {
 } tn_span;
 
 typedef struct tn_source {
-    char *path; /* as the user wrote it, or as it was found: shown in diagnostics */
+    char *path; /* what diagnostics call it */
     char *text; /* followed by two zero bytes (flex scans in place) */
     size_t size;
     uint32_t *line_starts; /* byte offset of each line; found when first needed */
     size_t line_count;
 } tn_source;
 
-/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the
- * disk counts. */
-typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
-
 typedef struct tn_sources {
     tn_source *files;
     size_t count, capacity;
-    size_t bytes;        /* of all texts */
-    tn_overlay *overlay; /* or NULL */
-    void *overlay_context;
+    size_t bytes; /* of all texts */
 } tn_sources;
 
 #define TN_SOURCE_BYTES_MAX (16u << 20)  /* of one text */

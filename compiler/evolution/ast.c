@@ -1,3 +1,4 @@
+/* Makes the syntax tree of evolution blocks: what the parser calls. */
 #include <string.h>
 
 #include "compiler/common/lexical.h"
@@ -78,25 +79,4 @@ void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span)
         tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "the evolution block is not closed");
     tn_note(reader->diagnostics, diagnostic, &reader->open, "it begins here");
     tn_help(reader->diagnostics, diagnostic, "write `}` after the last setting");
-}
-
-bool tn_has_evolution(const char *text)
-{
-    text += tn_text_mark(text, strlen(text));
-    for (const char *at = text; (at = strcasestr(at, "evolution")); at++) {
-        const char *next = at + 9, *line = at;
-        while (*next == ' ' || *next == '\t' || *next == '\r' || *next == '\n')
-            next++;
-        while (line > text && (line[-1] == ' ' || line[-1] == '\t'))
-            line--;
-        if (*next == '{' && (line == text || line[-1] == '\n'))
-            return true;
-    }
-    return false;
-}
-
-bool tn_is_evolution(const char *path, const char *text)
-{
-    size_t length = strlen(path);
-    return length >= 6 && strcmp(path + length - 6, ".study") == 0 && tn_has_evolution(text);
 }

@@ -1,4 +1,5 @@
-/* A .study with an evolution block as a module: its settings, and the grammar that it names. */
+/* Compiles .study files with an evolution block: its settings, and the grammar that it names; and the front end that
+ * the table of notations names. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -7,18 +8,22 @@
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/import.h"
 #include "compiler/common/lexical.h"
+#include "compiler/common/notation.h"
 #include "compiler/evolution/evolution.h"
+#include "compiler/study/study.h"
+
+static const char grammar_files[] = ".bnf";
 
 /* What importing asks: the study uses its grammar, a grammar uses nothing. */
-static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,
-                       size_t *use_count)
+static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
 {
+    uint32_t file = unit->file;
     tn_source *source = &diagnostics->sources->files[file];
     tn_evolution_reader *reader = TN_NEW(arena, tn_evolution_reader);
     *use_count = 0;
     if (!reader)
         return false;
-    *unit = reader;
+    unit->tree = reader;
     *reader = (tn_evolution_reader){.arena = arena, .diagnostics = diagnostics, .file = file};
     reader->failed = !tn_text_check(diagnostics, file);
     if (reader->failed || file != 0)
@@ -64,17 +69,16 @@ static tn_status emit(tn_compilation *c, const tn_imports *imports, uint32_t gra
     return status;
 }
 
-tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation *c, tn_error *error)
+static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
 {
     tn_imports imports;
     tn_evolution_study study;
-    tn_status status = tn_import_all(c->arena, &c->diagnostics, options->stdlib_dirs, options->stdlib_dir_count, ".bnf",
-                                     parse_unit, 0, &imports);
+    tn_status status = tn_import_all(c, options, grammar_files, parse_unit, &imports);
     if (status != TN_OK)
         return tn_fail_memory(error);
     const tn_unit *named = imports.units[imports.count - 1], *grammar = imports.count > 1 ? imports.units[0] : NULL;
     tn_evolution_check(named->tree, &study);
-    if (grammar && !tn_is_bnf(c->sources.files[grammar->file].path)) {
+    if (grammar && strcmp(grammar->extension, grammar_files) != 0) {
         const tn_setting_value *v = &study.of[TN_SET_GRAMMAR];
         tn_diagnostic *d = tn_report(&c->diagnostics, E_EVOLUTION_VALUE, (tn_span){v->file, v->begin, v->end},
                                      "`grammar` names a .bnf file");
@@ -99,3 +103,29 @@ bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnosti
     tn_evolution_read(&reader, sources->files[file].text, sources->files[file].size);
     return tn_evolution_check(&reader, study) && !reader.failed;
 }
+
+/* ---- the front end */
+
+static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
+{
+    const tn_source *source = &diagnostics->sources->files[reading->file];
+    tn_evolution_reader reader = {
+        .arena = arena, .diagnostics = diagnostics, .file = reading->file, .tokens = &reading->tokens};
+    tn_evolution_read(&reader, source->text, source->size);
+    return !reader.failed;
+}
+
+static bool made(const tn_module *module)
+{
+    return module->SETTING_count > 0;
+}
+
+extern const tn_front tn_front_evolution;
+const tn_front tn_front_evolution = {
+    .read = read,
+    .compile = compile,
+    .made = made,
+    .list = tn_study_list,
+    .lay_out = tn_format_study,
+    .spell = tn_format_small_letters,
+};

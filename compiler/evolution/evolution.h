@@ -79,17 +79,10 @@ void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span);
 
 /* ---- checking */
 
-/* Makes the module of a compilation whose first source is a study: its settings and its grammar. */
-tn_status tn_evolution_compile(const tn_compile_options *options, tn_compilation *compilation, tn_error *error);
-
 /* Only the settings, from a study's text: its grammar is not looked for. Texts of the study live in the arena. False
  * where there are errors. */
 bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
                                 tn_evolution_study *study);
-
-/* Has the text of a study an evolution block? Is it a .study file that has one? */
-bool tn_has_evolution(const char *text);
-bool tn_is_evolution(const char *path, const char *text);
 
 /* What the settings mean, but for the grammar's file. False where there are errors. */
 bool tn_evolution_check(const tn_evolution_reader *reader, tn_evolution_study *study);

@@ -1,3 +1,4 @@
+/* Makes the syntax tree of .study files: what the parser calls. */
 #include <string.h>
 #include <strings.h>
 
@@ -92,20 +93,4 @@ bool tn_study_heads(const char *text, size_t size)
         if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
             return true;
     return false;
-}
-
-static bool ends_in(const char *path, const char *extension)
-{
-    size_t size = strlen(path), tail = strlen(extension);
-    return size > tail && strcmp(path + size - tail, extension) == 0;
-}
-
-bool tn_is_study(const char *path)
-{
-    return ends_in(path, ".study");
-}
-
-bool tn_is_hemls(const char *path)
-{
-    return ends_in(path, ".hemls");
 }

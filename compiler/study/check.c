@@ -227,16 +227,17 @@ static void take_item(check *c, const tn_study_item *item)
     }
 }
 
-static const tn_study_file *study_of(const tn_imports *imports, const tn_sources *sources, size_t unit)
+/* NULL where it is the rewrite system. */
+static const tn_study_file *study_of(const tn_imports *imports, size_t unit)
 {
-    return tn_is_hemls(sources->files[imports->units[unit]->file].path) ? NULL : imports->units[unit]->tree;
+    return strcmp(imports->units[unit]->extension, ".hemls") == 0 ? NULL : imports->units[unit]->tree;
 }
 
 static bool make_lists(check *c, const tn_imports *imports)
 {
     size_t count = TN_FITNESS_TERM_COUNT;
     for (size_t u = 0; u < imports->count; u++) {
-        const tn_study_file *file = study_of(imports, c->diagnostics->sources, u);
+        const tn_study_file *file = study_of(imports, u);
         for (const tn_study_item *item = file ? file->first : NULL; item; item = item->next)
             count++;
     }
@@ -271,7 +272,7 @@ bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_impor
     if (!make_lists(&c, imports))
         return false;
     for (size_t u = 0; u < imports->count; u++) {
-        const tn_study_file *file = study_of(imports, diagnostics->sources, u);
+        const tn_study_file *file = study_of(imports, u);
         if (!file)
             continue;
         memset(c.here, 0, sizeof c.here);

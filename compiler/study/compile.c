@@ -1,20 +1,35 @@
-/* Compiling .hemls and .study files: a study, what it uses, and the rewrite system that it names. */
+/* Compiles .study files about growth: a study, what it uses, and the rewrite system that it names; and the front end
+ * that the table of notations names. */
+#include <string.h>
+
 #include "compiler/common/emit_sources.h"
+#include "compiler/common/notation.h"
 #include "compiler/study/study.h"
 
+static const char study_files[] = ".study", rule_files[] = ".hemls";
+
+static bool ends_in(const char *path, const char *extension)
+{
+    return strcmp(tn_path_extension(path), extension) == 0;
+}
+
+static bool is_rules(const tn_unit *unit)
+{
+    return strcmp(unit->extension, rule_files) == 0;
+}
+
 /* What importing needs to know of a file of either kind. */
-static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, void **unit, tn_use **uses,
-                       size_t *use_count)
+static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
 {
     *use_count = 0;
-    if (tn_is_hemls(diagnostics->sources->files[file].path)) {
-        *unit = tn_parse_hemls(arena, diagnostics, file, NULL);
-        return *unit != NULL;
+    if (is_rules(unit)) {
+        unit->tree = tn_parse_hemls(arena, diagnostics, unit->file, NULL);
+        return unit->tree != NULL;
     }
-    tn_study_file *study = tn_parse_study(arena, diagnostics, file, NULL);
+    tn_study_file *study = tn_parse_study(arena, diagnostics, unit->file, NULL);
     if (!study)
         return false;
-    *unit = study;
+    unit->tree = study;
     size_t count = 0;
     for (const tn_study_item *item = study->first; item; item = item->next)
         count += item->kind == TN_STUDY_USE || item->kind == TN_STUDY_RULES;
@@ -31,7 +46,7 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
             continue;
         }
         item->use = &found[(*use_count)++];
-        *item->use = (tn_use){item->text, item->text_span, rules ? ".hemls" : NULL, NULL};
+        *item->use = (tn_use){item->text, item->text_span, rules ? rule_files : NULL, NULL};
     }
     *uses = found;
     return true;
@@ -41,14 +56,12 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t fi
 static void check_kinds(tn_diagnostics *diagnostics, const tn_imports *imports)
 {
     for (size_t u = 0; u < imports->count; u++) {
-        const char *path = diagnostics->sources->files[imports->units[u]->file].path;
         const tn_study_file *study = imports->units[u]->tree;
-        for (const tn_study_item *item = tn_is_hemls(path) ? NULL : study->first; item; item = item->next) {
-            bool bare = item->text && !tn_is_hemls(item->text) && !tn_is_study(item->text);
-            if (item->kind == TN_STUDY_RULES && !bare && !tn_is_hemls(item->text)) {
+        for (const tn_study_item *item = is_rules(imports->units[u]) ? NULL : study->first; item; item = item->next) {
+            if (item->kind == TN_STUDY_RULES && item->text && ends_in(item->text, study_files)) {
                 tn_diagnostic *d = tn_report(diagnostics, E_NOT_RULES, item->text_span, "`rules` names a .hemls file");
                 tn_help(diagnostics, d, "for a study write `use`");
-            } else if (item->kind == TN_STUDY_USE && !bare && !tn_is_study(item->text)) {
+            } else if (item->kind == TN_STUDY_USE && item->text && ends_in(item->text, rule_files)) {
                 tn_diagnostic *d = tn_report(diagnostics, E_NOT_RULES, item->text_span, "`use` names a .study file");
                 tn_help(diagnostics, d, "for a rewrite system write `rules`");
             }
@@ -56,53 +69,66 @@ static void check_kinds(tn_diagnostics *diagnostics, const tn_imports *imports)
     }
 }
 
-/* The rewrite system that grows: the named file, or what its `rules` leads to. */
-static const tn_unit *find_rules(const tn_imports *imports, const tn_sources *sources, const tn_checked_study *study)
+/* The rewrite system that grows: what the study's `rules` leads to. */
+static const tn_unit *find_rules(const tn_checked_study *study)
 {
     const tn_study_item *rules = study->settings[TN_STUDY_RULES];
-    const tn_unit *named = imports->units[imports->count - 1], *found = rules && rules->use ? rules->use->unit : NULL;
-    if (tn_is_hemls(sources->files[named->file].path))
-        return named;
-    return found && tn_is_hemls(sources->files[found->file].path) ? found : NULL;
+    const tn_unit *found = rules && rules->use ? rules->use->unit : NULL;
+    return found && is_rules(found) ? found : NULL;
 }
 
-static tn_status emit(tn_arena *arena, const tn_imports *imports, const tn_diagnostics *diagnostics,
-                      const tn_checked_growth *growth, const tn_checked_study *study, uint8_t **bytes, size_t *size,
-                      tn_error *error)
+static tn_status emit(tn_compilation *c, const tn_imports *imports, const tn_checked_growth *growth,
+                      const tn_checked_study *study, tn_error *error)
 {
     tn_builder *builder = tn_builder_new();
     if (!builder)
         return tn_fail_memory(error);
-    tn_emit_sources(builder, imports, diagnostics->sources);
+    tn_emit_sources(builder, imports, &c->sources);
     tn_emit_growth(builder, growth);
-    if (study)
-        tn_emit_study(builder, arena, diagnostics->sources, study);
-    tn_status status = tn_builder_finish(builder, bytes, size, error);
+    tn_emit_study(builder, c->arena, &c->sources, study);
+    tn_status status = tn_builder_finish(builder, &c->module, &c->module_size, error);
     tn_builder_free(builder);
     return status;
 }
 
-tn_status tn_compile_growth(tn_arena *arena, tn_diagnostics *diagnostics, const char *const *stdlib_dirs,
-                            size_t stdlib_dir_count, bool warnings_are_errors, uint8_t **bytes, size_t *size,
-                            tn_error *error)
+static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
 {
     tn_imports imports;
     tn_checked_study study = {0};
     tn_checked_growth *growth = NULL;
-    bool has_study = tn_is_study(diagnostics->sources->files[0].path);
-    tn_status status =
-        tn_import_all(arena, diagnostics, stdlib_dirs, stdlib_dir_count, ".study", parse_unit, 0, &imports);
+    tn_diagnostics *diagnostics = &c->diagnostics;
+    tn_status status = tn_import_all(c, options, study_files, parse_unit, &imports);
     if (status == TN_OK) {
         check_kinds(diagnostics, &imports);
-        if (has_study)
-            tn_check_study(arena, diagnostics, &imports, &study);
-        const tn_unit *rules = find_rules(&imports, diagnostics->sources, &study);
+        tn_check_study(c->arena, diagnostics, &imports, &study);
+        const tn_unit *rules = find_rules(&study);
         if (rules)
-            growth = tn_check_hemls(arena, diagnostics, rules->tree, rules->file);
+            growth = tn_check_hemls(c->arena, diagnostics, rules->tree, rules->file);
     }
-    if (status != TN_OK || tn_arena_failed(arena) || diagnostics->failed)
+    if (status != TN_OK || tn_arena_failed(c->arena) || diagnostics->failed)
         return tn_fail_memory(error);
-    if (diagnostics->error_count > 0 || (warnings_are_errors && diagnostics->warning_count > 0) || !growth)
+    if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0) || !growth)
         return TN_INVALID;
-    return emit(arena, &imports, diagnostics, growth, has_study ? &study : NULL, bytes, size, error);
+    return emit(c, &imports, growth, &study, error);
 }
+
+static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
+{
+    reading->tree = tn_parse_study(arena, diagnostics, reading->file, &reading->tokens);
+    return reading->tree != NULL;
+}
+
+static bool made(const tn_module *module)
+{
+    return module->GROWTH_count > 0;
+}
+
+extern const tn_front tn_front_study;
+const tn_front tn_front_study = {
+    .read = read,
+    .compile = compile,
+    .made = made,
+    .list = tn_study_list,
+    .lay_out = tn_format_study,
+    .spell = tn_format_small_letters,
+};

@@ -7,6 +7,7 @@
 #define TARTAN_COMPILER_STUDY_STUDY_H
 
 #include "compiler/common/import.h"
+#include "compiler/common/listing.h"
 #include "compiler/hemls/hemls.h"
 
 typedef enum tn_study_kind {
@@ -145,13 +146,7 @@ uint32_t tn_study_term(const char *name);
 
 void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study);
 
-/* Is this the path of a study or of a rewrite system? */
-bool tn_is_study(const char *path);
-bool tn_is_hemls(const char *path);
-
-/* Compiles source 0, a .hemls or .study file, to a module's bytes. TN_INVALID where there are errors. */
-tn_status tn_compile_growth(tn_arena *arena, tn_diagnostics *diagnostics, const char *const *stdlib_dirs,
-                            size_t stdlib_dir_count, bool warnings_are_errors, uint8_t **bytes, size_t *size,
-                            tn_error *error);
+/* Lists the statements of a study, and of an evolution block its settings. */
+void tn_study_list(tn_listing *listing);
 
 #endif

@@ -80,7 +80,7 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
     if (status == TN_OK && run->job->grower)
         status = tn_grower_draw(run->job->grower, text, NULL, 1, sentence, picture, error);
     else if (status == TN_OK && run->job->learner)
-        status = tn_learner_draw(individual->sentence, picture, error);
+        status = tn_learner_draw(run->job->learner, individual->sentence, picture, error);
     else if (status == TN_OK)
         status = draw_derivation(run, picture, individual, error);
     if (status == TN_LIMIT)

@@ -95,7 +95,8 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
 {
     const tn_study *study = &g->study;
     *r = (rules){0};
-    tn_status status = tn_open_bytes("evolved.hemls", (const uint8_t *)sentence, size, false, &r->opened);
+    tn_status status =
+        tn_open_text(TN_NOTATION(hemls), "the sentence", sentence, size, &(tn_compile_options){0}, &r->opened);
     if (status != TN_OK)
         return tn_open_error(&r->opened, status, error);
     status = tn_growth_system_read(r->opened.module, &r->system, error);

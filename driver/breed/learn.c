@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/open/files.h"
 #include "driver/open/open.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/picture/draw_rule.h"
@@ -11,6 +12,8 @@
 
 #define EXAMPLES_MAX 1000000u
 #define STATES_MAX 2000u /* of a rule's automaton: what needs more is no rule that a person would keep */
+
+static const char sentence_name[] = "the sentence";
 
 typedef struct example {
     size_t first; /* tray */
@@ -21,8 +24,10 @@ typedef struct example {
 struct tn_learner {
     example *examples;
     size_t count, capacity;
+    tn_stdlib_dirs dirs;
+    tn_files files;   /* what sentences use, each read once */
     tn_opened opened; /* what declares the schema */
-    char *user;       /* the path that it was opened by */
+    char *user;       /* the path of the file that names it */
     tn_schema *schema;
     tn_tray *trays;
     size_t tray_count, tray_capacity;
@@ -38,6 +43,8 @@ void tn_learner_free(tn_learner *l)
     free(l->trays);
     tn_schema_free(l->schema);
     tn_close(&l->opened);
+    tn_files_clear(&l->files);
+    tn_stdlib_dirs_clear(&l->dirs);
     free(l->user);
     free(l);
 }
@@ -83,18 +90,22 @@ static tn_status read_examples(tn_learner *l, const tn_schema *schema, const cha
     return status;
 }
 
+/* Compiles a text of rules; `name` is where what it uses is looked for. */
+static tn_status open_rule(tn_files *files, const char *name, const char *text, size_t size, tn_opened *opened)
+{
+    tn_compile_options options = {.resolver = tn_files_resolver(files)};
+    return tn_open_text(TN_NOTATION(plan), name, text, size, &options, opened);
+}
+
 /* Compiles a rule that only serves to have the schema. */
 static tn_status find_schema(tn_learner *l, const char *name, const char *user, tn_error *error)
 {
     char text[320];
-    const char *slash = strrchr(user, '/');
-    int folder = slash ? (int)(slash - user) + 1 : 0;
     snprintf(text, sizeof text, "use \"%.200s\"\nrule learned = any\n", name);
-    if (asprintf(&l->user, "%.*sexamples.plan", folder, user) < 0) {
-        l->user = NULL;
+    l->user = strdup(user);
+    if (!l->user)
         return tn_fail_memory(error);
-    }
-    tn_status status = tn_open_bytes(l->user, (const uint8_t *)text, strlen(text), false, &l->opened);
+    tn_status status = open_rule(&l->files, l->user, text, strlen(text), &l->opened);
     if (status != TN_OK) {
         status = tn_fail(error, TN_INVALID, E_EXAMPLES, "the schema `%.200s` of the examples cannot be used", name);
         tn_error_help(error, "name a .plan file that declares it, or one of the standard library, as \"lahave\"");
@@ -114,7 +125,10 @@ tn_status tn_learner_new(const char *schema, const char *user, double length_wei
         return tn_fail_memory(error);
     l->length_weight = length_weight;
     l->separately = separately;
-    tn_status status = find_schema(l, schema, user, error);
+    tn_status status = tn_stdlib_dirs_find(&l->dirs, error);
+    tn_files_begin(&l->files, &l->dirs);
+    if (status == TN_OK)
+        status = find_schema(l, schema, user, error);
     if (status != TN_OK) {
         tn_learner_free(l);
         *learner = NULL;
@@ -172,12 +186,12 @@ static tn_status judge(const tn_learner *l, const tn_module *module, uint64_t *w
 static tn_status score_rule(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                             char message[200], tn_error *error)
 {
-    const tn_learner *l = context;
+    tn_learner *l = context;
     tn_opened opened;
     tn_error own = {0};
     uint64_t wrong = 0;
     (void)thread;
-    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, size, false, &opened);
+    tn_status status = open_rule(&l->files, sentence_name, sentence, size, &opened);
     if (status != TN_OK)
         tn_open_error(&opened, status, &own);
     else
@@ -213,12 +227,12 @@ tn_evaluator tn_learner_evaluator(tn_learner *learner)
 
 /* ---- pictures */
 
-tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *error)
+tn_status tn_learner_draw(tn_learner *l, const char *sentence, const char *path, tn_error *error)
 {
     tn_opened opened;
     tn_schema *schema = NULL;
     tn_picture picture = {.path = path};
-    tn_status status = tn_open_bytes("learned.plan", (const uint8_t *)sentence, strlen(sentence), false, &opened);
+    tn_status status = open_rule(&l->files, sentence_name, sentence, strlen(sentence), &opened);
     const tn_module *module = opened.module;
     if (status != TN_OK || module->RULE_count == 0) {
         status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the sentence holds no rule");

@@ -22,6 +22,6 @@ void tn_learner_free(tn_learner *learner);
 tn_evaluator tn_learner_evaluator(tn_learner *learner);
 
 /* Draws the rule of a sentence that could be scored (runtime/plan/picture/draw_rule.h). */
-tn_status tn_learner_draw(const char *sentence, const char *path, tn_error *error);
+tn_status tn_learner_draw(tn_learner *learner, const char *sentence, const char *path, tn_error *error);
 
 #endif

@@ -1,9 +1,12 @@
+/* Opens rule files and modules: compiles the ones, loads the others. */
 #include "driver/open/open.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "driver/open/files.h"
 #include "driver/open/stdlib_dirs.h"
 #include "driver/open/stdlib_find.h"
 #include "driver/open/suggest_file.h"
@@ -22,26 +25,48 @@ static tn_status refuse(tn_opened *opened, const tn_error *error)
     return error->status;
 }
 
-static tn_status compile(tn_opened *opened, const uint8_t *bytes, size_t size, bool warnings_are_errors)
+static tn_status compile(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
+                         tn_opened *opened)
 {
-    tn_stdlib_dirs found;
     tn_error error;
-    tn_status status = tn_stdlib_dirs_find(&found, &error);
-    if (status == TN_OK) {
-        tn_compile_options options = {.stdlib_dirs = (const char *const *)found.dirs,
-                                      .stdlib_dir_count = found.count,
-                                      .warnings_are_errors = warnings_are_errors};
-        tn_diagnostics_clear(&opened->compilation.diagnostics);
-        status = tn_compile_text(opened->path, (const char *)bytes, size, &options, &opened->compilation);
-    } else {
-        refuse(opened, &error);
-    }
-    tn_stdlib_dirs_clear(&found);
+    tn_diagnostics_clear(&opened->compilation.diagnostics);
+    tn_status status = tn_compile_text(notation, input, options, &opened->compilation);
     if (status != TN_OK)
         return status;
     opened->compiled = true;
     status = tn_module_load(opened->compilation.module, opened->compilation.module_size, NULL, &opened->module, &error);
     return status == TN_OK ? TN_OK : refuse(opened, &error);
+}
+
+/* Compiles what lies in a file, or would: that it uses files itself is to be expected. */
+static tn_status compile_file(tn_opened *opened, const char *text, size_t size, bool warnings_are_errors)
+{
+    tn_stdlib_dirs dirs;
+    tn_files files;
+    tn_error error;
+    char *identity = tn_file_identity(opened->path);
+    tn_status status = tn_stdlib_dirs_find(&dirs, &error);
+    tn_files_begin(&files, &dirs);
+    if (status == TN_OK && identity) {
+        tn_input input = {text, size, opened->path, identity, NULL};
+        tn_compile_options options = {tn_files_resolver(&files), warnings_are_errors};
+        status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
+    } else {
+        tn_fail_memory(&error);
+        status = refuse(opened, &error);
+    }
+    tn_files_clear(&files);
+    tn_stdlib_dirs_clear(&dirs);
+    free(identity);
+    return status;
+}
+
+tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
+                       const tn_compile_options *options, tn_opened *opened)
+{
+    tn_input input = {.text = text, .size = size, .name = name};
+    start(name, opened);
+    return compile(notation, &input, options, opened);
 }
 
 /* A module brings its sources along: findings then show the same lines as when it was compiled. */
@@ -64,7 +89,7 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
 {
     start(path, opened);
     return tn_module_has_magic(bytes, size) ? load(opened, bytes, size)
-                                            : compile(opened, bytes, size, warnings_are_errors);
+                                            : compile_file(opened, (const char *)bytes, size, warnings_are_errors);
 }
 
 /* Reads the file that the path names, or the one of the standard library. */
@@ -100,16 +125,15 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
     return status;
 }
 
-const char *tn_opened_help(const tn_opened *opened, const char *otherwise)
+tn_help_text tn_opened_help(const tn_opened *opened, const char *otherwise)
 {
-    const tn_module *module = opened->module;
-    if (module->SETTING_count)
-        return "it is a study to be evolved: `tartan evolve` and `tartan breed` take it";
-    if (module->GRAMMAR_count)
-        return "it is a grammar that genomes are mapped through: `tartan map` takes it";
-    if (module->GROWTH_count)
-        return "it says how a surface grows: `tartan grow` takes it";
-    return otherwise;
+    const tn_notation *notation = tn_notation_of_module(opened->module);
+    tn_help_text help;
+    if (notation == &tn_notations[0])
+        snprintf(help.text, sizeof help.text, "%s", otherwise);
+    else
+        tn_notation_help(notation, help.text, sizeof help.text);
+    return help;
 }
 
 const char *tn_first_error(const tn_opened *opened)

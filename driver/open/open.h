@@ -22,13 +22,22 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
-/* The same from bytes in memory; `path` is what diagnostics call it. */
+/* The same from bytes in memory, which would lie at `path`: that says the notation, and where relative imports start.
+ */
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
+/* Compiles a text that is no file's, and makes its module ready to run. `name` is what diagnostics call it. */
+tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
+                       const tn_compile_options *options, tn_opened *opened);
+
 /* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
  * holds nothing of another kind than plan rules. */
-const char *tn_opened_help(const tn_opened *opened, const char *otherwise);
+typedef struct tn_help_text {
+    char text[320];
+} tn_help_text;
+
+tn_help_text tn_opened_help(const tn_opened *opened, const char *otherwise);
 
 /* What is wrong in a file that could not be opened, the first of it, in a sentence. */
 const char *tn_first_error(const tn_opened *opened);

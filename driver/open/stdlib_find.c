@@ -6,13 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "compiler/common/import.h"
+#include "compiler/notation.h"
 #include "driver/open/stdlib_dirs.h"
 #include "runtime/base/nearest.h"
 
 #define NAMES_MAX 512u /* considered for a suggestion */
-
-static const char *const extensions[] = {".plan", ".hemls", ".bnf", ".study"};
-#define EXTENSION_COUNT (sizeof extensions / sizeof *extensions)
 
 bool tn_stdlib_may_mean(const char *name)
 {
@@ -51,8 +50,8 @@ tn_status tn_stdlib_find(const char *name, tn_stdlib_file *found, tn_error *erro
     *found = (tn_stdlib_file){0};
     tn_status status = tn_stdlib_dirs_find(&dirs, error);
     for (size_t d = 0; d < dirs.count && status == TN_OK; d++)
-        for (size_t e = 0; e < EXTENSION_COUNT && status == TN_OK && !found->path; e++)
-            status = try_file(dirs.dirs[d], name, extensions[e], found, error);
+        for (size_t n = 0; n < tn_notation_count && status == TN_OK && !found->path; n++)
+            status = try_file(dirs.dirs[d], name, tn_notations[n].extension, found, error);
     tn_stdlib_dirs_clear(&dirs);
     return status;
 }
@@ -64,15 +63,20 @@ typedef struct names {
     size_t count;
 } names;
 
+/* "genr8.bnf": without the extension of a notation. */
+static size_t name_length(const char *path)
+{
+    bool is_rules = tn_notation_of(path, "", 0) != NULL;
+    return strlen(path) - (is_rules ? strlen(tn_path_extension(path)) : 0);
+}
+
 static void list_folder(const char *path, names *list)
 {
     DIR *folder = opendir(path);
     for (const struct dirent *entry; folder && list->count < NAMES_MAX && (entry = readdir(folder));) {
-        const char *dot = strrchr(entry->d_name, '.');
-        for (size_t e = 0; dot && dot > entry->d_name && e < EXTENSION_COUNT; e++)
-            if (strcmp(dot, extensions[e]) == 0 &&
-                (list->items[list->count] = strndup(entry->d_name, (size_t)(dot - entry->d_name))))
-                list->count++;
+        size_t length = name_length(entry->d_name);
+        if (length > 0 && entry->d_name[length] && (list->items[list->count] = strndup(entry->d_name, length)))
+            list->count++;
     }
     if (folder)
         closedir(folder);
@@ -81,16 +85,6 @@ static void list_folder(const char *path, names *list)
 static int compare_names(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-/* "genr8.bnf": the name that it would have there. */
-static size_t name_length(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    for (size_t e = 0; dot && e < EXTENSION_COUNT; e++)
-        if (strcmp(dot, extensions[e]) == 0)
-            return (size_t)(dot - path);
-    return strlen(path);
 }
 
 static void suggest(const char *name, const names *list, tn_error *error)

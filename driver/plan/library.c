@@ -89,7 +89,8 @@ static tn_status pick_only(tn_opened *opened, const names *all, uint32_t *index)
         tn_diagnostic *none = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has no library", opened->path);
         tn_help(diagnostics, none, "%s",
                 tn_opened_help(opened, "a library says which plans are made and which are pruned: library NAME { trays "
-                                       "4..9 prune RULE }"));
+                                       "4..9 prune RULE }")
+                    .text);
     } else {
         char text[240];
         join(from, text, sizeof text);
@@ -190,7 +191,7 @@ tn_status tn_schema_choose(tn_opened *opened, const char *name, uint32_t *index,
         tn_diagnostic *none = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
                                              "%s has no schema that says what a tray is", opened->path);
         tn_help(diagnostics, none, "%s",
-                tn_opened_help(opened, "write `use \"lahave\"` at its top, or declare a `schema` of your own"));
+                tn_opened_help(opened, "write `use \"lahave\"` at its top, or declare a `schema` of your own").text);
         return TN_INVALID;
     }
     tn_diagnostic *unclear = tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,

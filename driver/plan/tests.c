@@ -319,7 +319,7 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *c
     if (!program) { /* of a notation without tests */
         tn_diagnostic *none =
             tn_report_bare(list, TN_ERROR, E_NO_TESTS, "%s is no .plan file, and only those hold tests", opened->path);
-        tn_help(list, none, "%s", tn_opened_help(opened, "test the rules that it is about"));
+        tn_help(list, none, "%s", tn_opened_help(opened, "test the rules that it is about").text);
         return TN_INVALID;
     }
     size_t failed = counts->failed;

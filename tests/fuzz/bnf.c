@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/compile.h"
 #include "runtime/base/random.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/tree.h"
 #include "runtime/grammar/analysis.h"
 #include "runtime/load.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/compile_file.h"
 
 enum { CODONS = 40, STEPS = 4000, ITEMS = 20000, LONGEST = 120 };
 
@@ -89,9 +89,9 @@ static void map(const tn_grammar *grammar, uint64_t seed)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     uint64_t seed = size ? data[0] : 0;
-    tn_compile_options options = {0};
+    library_folders options = {0};
     tn_compilation compilation;
-    tn_status status = tn_compile_text("fuzz.bnf", (const char *)data, size, &options, &compilation);
+    tn_status status = compile_text("fuzz.bnf", (const char *)data, size, &options, &compilation);
     if (status == TN_OK) {
         tn_module *module;
         tn_grammar *grammar;

@@ -7,13 +7,13 @@
 #include "compiler/format.h"
 #include "tests/fuzz/fuzz.h"
 
-static void fail(const char *what, tn_notation notation)
+static void fail(const char *what, const tn_notation *notation)
 {
-    fprintf(stderr, "%s: %s\n", tn_notation_name(notation), what);
+    fprintf(stderr, "%s: %s\n", notation->name, what);
     abort();
 }
 
-static char *format(tn_notation notation, const char *text, size_t size, size_t *formatted_size)
+static char *format(const tn_notation *notation, const char *text, size_t size, size_t *formatted_size)
 {
     tn_sources sources = {0};
     tn_diagnostics diagnostics;
@@ -31,7 +31,8 @@ static char *format(tn_notation notation, const char *text, size_t size, size_t 
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    for (tn_notation notation = 0; notation < TN_NOTATION_COUNT; notation++) {
+    for (size_t n = 0; n < tn_notation_count; n++) {
+        const tn_notation *notation = &tn_notations[n];
         size_t once_size, twice_size;
         char *once = format(notation, (const char *)data, size, &once_size);
         if (!once)

@@ -23,7 +23,7 @@ static const tn_schema *lahave(void)
     tn_error error;
     if (schema)
         return schema;
-    if (compile_file(TARTAN_SOURCE_DIR "/stdlib/lahave.plan", &(tn_compile_options){0}, &compilation) != TN_OK ||
+    if (compile_file(TARTAN_SOURCE_DIR "/stdlib/lahave.plan", &(library_folders){0}, &compilation) != TN_OK ||
         tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error) != TN_OK ||
         tn_schema_new(module, 0, 0, &schema, &error) != TN_OK)
         stop("stdlib/lahave.plan does not compile");

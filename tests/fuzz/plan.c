@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <strings.h>
 
-#include "compiler/compile.h"
 #include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/compile_file.h"
 
 /* Imports by name reach the stdlib; by path they could reach anything on this machine. A text in quotes shortly after a
  * `use`, with a slash or a dot in it, is taken for a path. */
@@ -43,9 +43,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (imports_by_path(data, size))
         return 0;
     static const char *const dirs[] = {TARTAN_SOURCE_DIR "/stdlib"};
-    tn_compile_options options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
+    library_folders options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
     tn_compilation compilation;
-    tn_status status = tn_compile_text("fuzz.plan", (const char *)data, size, &options, &compilation);
+    tn_status status = compile_text("fuzz.plan", (const char *)data, size, &options, &compilation);
     show(&compilation, false);
     show(&compilation, true);
     if (status == TN_OK) {

@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-#include "compiler/compile.h"
 #include "runtime/load.h"
 #include "tests/fuzz/grow.h"
+#include "tests/support/compile_file.h"
 
 /* Files of the standard library may be named; paths could reach anything on this machine. */
 static inline bool names_a_path(const uint8_t *data, size_t size)
@@ -48,11 +48,11 @@ static inline void fuzz_load(const tn_compilation *compilation)
 static inline void fuzz_growth_text(const char *path, const uint8_t *data, size_t size)
 {
     static const char *const dirs[] = {TARTAN_SOURCE_DIR "/stdlib"};
-    tn_compile_options options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
+    library_folders options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
     tn_compilation compilation;
     if (names_a_path(data, size))
         return;
-    tn_status status = tn_compile_text(path, (const char *)data, size, &options, &compilation);
+    tn_status status = compile_text(path, (const char *)data, size, &options, &compilation);
     fuzz_show(&compilation, false);
     fuzz_show(&compilation, true);
     if (status == TN_OK) {

@@ -12,20 +12,14 @@
 #include <cmocka.h>
 
 #include "compiler/common/layout.h"
-#include "compiler/compile.h"
 #include "compiler/format.h"
 #include "runtime/base/file.h"
 #include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "runtime/module/records.h"
+#include "tests/support/compile_file.h"
 
 static const char *const stdlib_dirs[] = {TARTAN_SOURCE_DIR "/stdlib"};
-
-static tn_notation notation_of(const char *path)
-{
-    tn_notation notation = tn_notation_of(path);
-    return notation == TN_NOTATION_COUNT ? TN_NOTATION_PLAN : notation;
-}
 
 /* NULL where it has errors. */
 static char *formatted(const char *path, const char *text, size_t size)
@@ -35,7 +29,8 @@ static char *formatted(const char *path, const char *text, size_t size)
     char *result;
     size_t result_size;
     tn_diagnostics_init(&diagnostics, &sources);
-    tn_status status = tn_format_text(&diagnostics, notation_of(path), path, text, size, &result, &result_size);
+    tn_status status =
+        tn_format_text(&diagnostics, tn_notation_or_first(path, text, size), path, text, size, &result, &result_size);
     assert_true(status == TN_OK || status == TN_INVALID || status == TN_LIMIT);
     assert_int_equal(status == TN_OK, result != NULL);
     assert_int_equal(status == TN_OK, diagnostics.error_count == 0);
@@ -48,11 +43,11 @@ static char *formatted(const char *path, const char *text, size_t size)
 
 static tn_module *compiled(const char *path, const char *text, size_t size)
 {
-    tn_compile_options options = {.stdlib_dirs = stdlib_dirs, .stdlib_dir_count = 1};
+    library_folders options = {.stdlib_dirs = stdlib_dirs, .stdlib_dir_count = 1};
     tn_compilation compilation;
     tn_module *module = NULL;
     tn_error error;
-    if (tn_compile_text(path, text, size, &options, &compilation) == TN_OK)
+    if (compile_text(path, text, size, &options, &compilation) == TN_OK)
         assert_int_equal(tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error), TN_OK);
     tn_compilation_clear(&compilation);
     return module;
@@ -176,11 +171,9 @@ static void test_rule_files(void **state)
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
         char path[4096];
         snprintf(path, sizeof path, TARTAN_SOURCE_DIR "/%s", folders[i]);
-        for (tn_notation notation = 0; notation < TN_NOTATION_COUNT; notation++) {
-            char extension[16];
-            snprintf(extension, sizeof extension, ".%s", tn_notation_name(notation));
-            check_folder(path, extension, NULL);
-        }
+        for (size_t n = 0; n < tn_notation_count; n++)
+            if (tn_notation_is_main(&tn_notations[n]))
+                check_folder(path, tn_notations[n].extension, NULL);
     }
     assert_true(formatted_files > 120);
     assert_true(compiled_files > 50);

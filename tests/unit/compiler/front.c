@@ -7,9 +7,9 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/load.h"
 #include "runtime/plan/match/vm.h"
+#include "tests/support/compile_file.h"
 #include "tests/support/test_rule.h"
 
 enum { RULES = 12, PLANS = 12, LONGEST = 7 };
@@ -60,7 +60,7 @@ static void compile_and_compare(test_random *random, const test_schema *schema, 
     size_t size;
     char *text = write_file(schema, rules, &size);
     tn_compilation compilation;
-    tn_status status = tn_compile_text("random.plan", text, size, &(tn_compile_options){0}, &compilation);
+    tn_status status = compile_text("random.plan", text, size, &(library_folders){0}, &compilation);
     if (status != TN_OK) {
         tn_diagnostics_show(&compilation.diagnostics, &(tn_show_options){0}, stderr);
         fail_msg("a random rule does not compile");

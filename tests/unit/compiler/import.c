@@ -61,7 +61,7 @@ static tn_status compile_main(tn_compilation *compilation)
     snprintf(lib2, sizeof lib2, "%s/lib2", folder);
     snprintf(path, sizeof path, "%s/top/main.plan", folder);
     const char *dirs[] = {lib, lib2};
-    tn_compile_options options = {.stdlib_dirs = dirs, .stdlib_dir_count = 2};
+    library_folders options = {.stdlib_dirs = dirs, .stdlib_dir_count = 2};
     return compile_file(path, &options, compilation);
 }
 
@@ -162,7 +162,7 @@ static void from_memory(void **state)
     snprintf(path, sizeof path, "%s/top/not-there.plan", folder);
     static const char text[] = "use \"near.plan\"\nrule a = tray(4')\n";
     tn_compilation c;
-    assert_int_equal(tn_compile_text(path, text, strlen(text), &(tn_compile_options){0}, &c), TN_OK);
+    assert_int_equal(compile_text(path, text, strlen(text), &(library_folders){0}, &c), TN_OK);
     tn_compilation_clear(&c);
 }
 

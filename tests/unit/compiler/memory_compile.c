@@ -9,14 +9,14 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/load.h"
 #include "runtime/module/module.h"
 #include "runtime/plan/match/rules.h"
+#include "tests/support/compile_file.h"
 #include "tests/support/failing_memory.h"
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
-static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+static const library_folders options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
 
 static const char *const good = "use \"lahave\"\n"
                                 "rule a \"a rule\" = neighbour(tray(4'), optional(many(tray(8'))), tray(12'))\n"
@@ -37,7 +37,7 @@ static const char *const bad = "use \"nowhere\"\n"
 static bool compile(const char *path, const char *text)
 {
     tn_compilation compilation;
-    tn_status status = tn_compile_text(path, text, strlen(text), &options, &compilation);
+    tn_status status = compile_text(path, text, strlen(text), &options, &compilation);
     assert_int_equal(status == TN_OK, compilation.module != NULL);
     char *shown = NULL;
     size_t size;
@@ -127,7 +127,7 @@ static void match_with_failures(tn_engine engine)
 {
     tn_compilation compilation;
     tn_module *module;
-    assert_int_equal(tn_compile_text("a.plan", good, strlen(good), &options, &compilation), TN_OK);
+    assert_int_equal(compile_text("a.plan", good, strlen(good), &options, &compilation), TN_OK);
     assert_int_equal(tn_module_load(compilation.module, compilation.module_size, NULL, &module, NULL), TN_OK);
     uint64_t wanted = 0;
     assert_int_equal(match(module, engine, &wanted), TN_OK);

@@ -10,10 +10,10 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/geometry/outline.h"
 #include "runtime/growth/faults.h"
 #include "runtime/load.h"
+#include "tests/support/compile_file.h"
 
 typedef struct grown {
     tn_compilation compilation;
@@ -25,14 +25,14 @@ typedef struct grown {
 
 static void grow(grown *g, const char *text, uint32_t steps, int threads)
 {
-    tn_compile_options options = {0};
+    library_folders options = {0};
     tn_growth_options how = tn_growth_options_default();
     tn_error error = {0};
     memset(g, 0, sizeof *g);
     how.threads = threads;
     for (int k = 0; k < 3; k++)
         how.scale[k] = 1;
-    assert_int_equal(tn_compile_text("t.hemls", text, strlen(text), &options, &g->compilation), TN_OK);
+    assert_int_equal(compile_text("t.hemls", text, strlen(text), &options, &g->compilation), TN_OK);
     assert_int_equal(tn_module_load(g->compilation.module, g->compilation.module_size, NULL, &g->module, &error),
                      TN_OK);
     assert_int_equal(tn_growth_system_read(g->module, &g->system, &error), TN_OK);

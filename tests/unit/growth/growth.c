@@ -11,12 +11,12 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 #include "runtime/load.h"
+#include "tests/support/compile_file.h"
 
 typedef struct grown {
     tn_compilation compilation;
@@ -30,10 +30,10 @@ static const char *const dirs[] = {TARTAN_SOURCE_DIR "/stdlib"};
 
 static void plant_text(grown *g, const char *path, const char *text)
 {
-    tn_compile_options options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
+    library_folders options = {.stdlib_dirs = dirs, .stdlib_dir_count = 1};
     tn_error error = {0};
     memset(g, 0, sizeof *g);
-    if (tn_compile_text(path, text, strlen(text), &options, &g->compilation) != TN_OK)
+    if (compile_text(path, text, strlen(text), &options, &g->compilation) != TN_OK)
         fail_msg("%s", g->compilation.diagnostics.count ? g->compilation.diagnostics.items[0].message : "no module");
     tn_status status = tn_module_load(g->compilation.module, g->compilation.module_size, NULL, &g->module, &error);
     if (status == TN_OK)

@@ -9,15 +9,15 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "runtime/base/numeric.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
 #include "runtime/module/builder.h"
 #include "runtime/number/measure.h"
+#include "tests/support/compile_file.h"
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
-static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+static const library_folders options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
 static const tn_fitness
     flat = {.size = 8, .smoothness = 0, .subdivisions = 0.5, .symmetry = 1, .vertices = 9, .edges = 12, .faces = 4},
     hilly = {.size = 8,
@@ -36,7 +36,7 @@ static tn_module *compile(const char *text)
     tn_module *module;
     tn_error error;
     tn_diagnostics_init(&c.diagnostics, &c.sources);
-    assert_int_equal(tn_compile_text("t.study", text, strlen(text), &options, &c), TN_OK);
+    assert_int_equal(compile_text("t.study", text, strlen(text), &options, &c), TN_OK);
     assert_int_equal(tn_module_load(c.module, c.module_size, NULL, &module, &error), TN_OK);
     tn_compilation_clear(&c);
     return module;
@@ -122,7 +122,7 @@ static void test_changed_code(void **state)
     static const char text[] = "rules \"square\"\nfitness x = max(undulation / 2.5, - size) - 1";
     tn_compilation c;
     tn_diagnostics_init(&c.diagnostics, &c.sources);
-    assert_int_equal(tn_compile_text("t.study", text, strlen(text), &options, &c), TN_OK);
+    assert_int_equal(compile_text("t.study", text, strlen(text), &options, &c), TN_OK);
     tn_module *module;
     tn_error error;
     assert_int_equal(tn_module_load(c.module, c.module_size, NULL, &module, &error), TN_OK);

@@ -15,7 +15,7 @@
 #include "tests/support/compile_file.h"
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
-static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+static const library_folders options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
 static const char *const files[] = {TARTAN_SOURCE_DIR "/stdlib/lahave.plan", TARTAN_SOURCE_DIR "/stdlib/terrace.plan",
                                     TARTAN_SOURCE_DIR "/stdlib/lahave-houses.plan",
                                     TARTAN_SOURCE_DIR "/tests/plan/semantics.plan",

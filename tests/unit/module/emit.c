@@ -8,10 +8,10 @@
 
 #include <cmocka.h>
 
-#include "compiler/compile.h"
 #include "compiler/plan/program.h"
 #include "runtime/load.h"
 #include "runtime/module/code.h"
+#include "tests/support/compile_file.h"
 
 #define SCHEMA                                                                                                         \
     "schema s {\n"                                                                                                     \
@@ -30,9 +30,9 @@ typedef struct compiled {
 static compiled compile_sized(const char *text, size_t size)
 {
     compiled c = {0};
-    tn_compile_options options = {0};
+    library_folders options = {0};
     tn_error error;
-    tn_status status = tn_compile_text("test.plan", text, size, &options, &c.compilation);
+    tn_status status = compile_text("test.plan", text, size, &options, &c.compilation);
     if (c.compilation.diagnostics.count > 0 && status != TN_OK)
         print_message("%s\n", c.compilation.diagnostics.items[0].message);
     assert_int_equal(status, TN_OK);

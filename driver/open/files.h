@@ -1,0 +1,38 @@
+/* The resolver of the commands: what a `use` means where texts are files.
+ *
+ * A path with a folder or an extension is relative to the file that uses it. A bare name is looked for in the standard
+ * library's folders. What was found is kept, so that a run which compiles thousands of texts finds and reads each file
+ * once; who wants to see changes on the disk begins anew.
+ */
+#ifndef TARTAN_DRIVER_OPEN_FILES_H
+#define TARTAN_DRIVER_OPEN_FILES_H
+
+#include <pthread.h>
+
+#include "compiler/common/resolver.h"
+#include "driver/open/stdlib_dirs.h"
+
+/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the
+ * disk counts. */
+typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
+
+typedef struct tn_files {
+    const tn_stdlib_dirs *dirs; /* borrowed */
+    tn_overlay *overlay;        /* or NULL */
+    void *overlay_context;
+    pthread_mutex_t lock;
+    struct tn_file *found; /* since it was begun; owned, with the texts */
+} tn_files;
+
+/* The folders stay the caller's, and there until the end. Clear it in any case. */
+void tn_files_begin(tn_files *files, const tn_stdlib_dirs *dirs);
+void tn_files_clear(tn_files *files);
+
+/* May be used by several threads at once. What it gives is valid until the files are cleared. */
+tn_resolver tn_files_resolver(tn_files *files);
+
+/* The file's real path, or a copy of the path itself where the file system knows of no such file. The caller frees it;
+ * NULL where out of memory. */
+char *tn_file_identity(const char *path);
+
+#endif

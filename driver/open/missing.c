@@ -1,0 +1,123 @@
+/* Says of a `use` that leads to no file which one was likely meant. */
+#include "driver/open/missing.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "runtime/base/nearest.h"
+
+/* ---- paths */
+
+bool tn_path_is_bare(const char *path)
+{
+    return path[0] != '\0' && !strpbrk(path, "/.");
+}
+
+bool tn_path_exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+static char *join(const char *folder, size_t folder_size, const char *name, const char *extension)
+{
+    size_t size = folder_size + strlen(name) + strlen(extension) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%.*s%s%s%s", (int)folder_size, folder,
+                 folder_size > 0 && folder[folder_size - 1] != '/' ? "/" : "", name, extension);
+    return path;
+}
+
+char *tn_path_join(const char *folder, const char *name, const char *extension)
+{
+    return join(folder, strlen(folder), name, extension);
+}
+
+char *tn_path_beside(const char *user, const char *path, const char *extension)
+{
+    const char *slash = path[0] == '/' ? NULL : strrchr(user, '/');
+    return join(user, slash ? (size_t)(slash - user) + 1 : 0, path, extension);
+}
+
+/* ---- what was meant */
+
+enum { ROOM = 512 };
+
+typedef struct names {
+    char *items[ROOM];
+    size_t count;
+} names;
+
+static int compare_texts(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Adds the file names in a folder that end in the extension, sorted; without the extension where `bare`. */
+static void list_folder(const char *folder, const char *extension, bool bare, names *list)
+{
+    DIR *directory = opendir(folder);
+    size_t first = list->count, extension_size = strlen(extension);
+    for (struct dirent *entry; directory && list->count < ROOM && (entry = readdir(directory));) {
+        size_t size = strlen(entry->d_name);
+        if (size <= extension_size || strcmp(entry->d_name + size - extension_size, extension) != 0)
+            continue;
+        char *name = strndup(entry->d_name, bare ? size - extension_size : size);
+        if (name)
+            list->items[list->count++] = name;
+    }
+    if (directory)
+        closedir(directory);
+    qsort(list->items + first, list->count - first, sizeof *list->items, compare_texts);
+}
+
+/* The names that could have been meant. */
+static void list_names(const tn_stdlib_dirs *dirs, const tn_request *request, bool bare, names *list)
+{
+    for (size_t i = 0; bare && i < dirs->count; i++)
+        list_folder(dirs->dirs[i], request->extension, true, list);
+    char *path = bare ? NULL : tn_path_beside(request->user, request->path, "");
+    if (!path)
+        return;
+    char *slash = strrchr(path, '/');
+    if (slash)
+        slash[1] = '\0';
+    list_folder(slash ? path : ".", request->extension, false, list);
+    free(path);
+}
+
+static void suggest(const tn_request *request, const char *near, char *meant, tn_error *error)
+{
+    const char *last = strrchr(request->path, '/');
+    int folder = last ? (int)(last - request->path) + 1 : 0;
+    tn_error_help(error, "did you mean `%.*s%s`?", folder, request->path, near);
+    if ((size_t)snprintf(meant, TN_MEANT_SIZE, "%.*s%s", folder, request->path, near) >= TN_MEANT_SIZE)
+        meant[0] = '\0';
+}
+
+tn_status tn_missing(const tn_stdlib_dirs *dirs, const tn_request *request, char *meant, tn_error *error)
+{
+    bool bare = tn_path_is_bare(request->path);
+    const char *path = request->path, *extension = request->extension, *last = strrchr(path, '/');
+    names list = {.count = 0};
+    tn_status status = tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND,
+                               bare ? "the standard library has no `%.400s`" : "there is no file `%.400s`", path);
+    list_names(dirs, request, bare, &list);
+    const char *near = tn_nearest(last ? last + 1 : path, (const char *const *)list.items, list.count);
+    char *neighbour = bare ? tn_path_beside(request->user, path, extension) : NULL;
+    if (neighbour && tn_path_exists(neighbour))
+        tn_error_help(error, "for the file beside this one write `use \"%.200s%s\"`", path, extension);
+    else if (near)
+        suggest(request, near, meant, error);
+    else if (bare)
+        tn_error_help(error, "for a file of yours write its extension too: `use \"%.200s%s\"`", path, extension);
+    else
+        tn_error_help(error, "the path starts at the folder of the file that names it");
+    free(neighbour);
+    for (size_t i = 0; i < list.count; i++)
+        free(list.items[i]);
+    return status;
+}
