@@ -100,10 +100,10 @@ const tn_notation *tn_notation_of_language(const char *language, const char *tex
 
 const tn_notation *tn_notation_of_module(const tn_module *module)
 {
-    for (size_t i = 1; i < tn_notation_count; i++)
+    for (size_t i = 0; i < tn_notation_count; i++)
         if (tn_notations[i].front->made(module))
             return &tn_notations[i];
-    return &tn_notations[0];
+    return NULL;
 }
 
 /* ---- what it is for */

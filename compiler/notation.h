@@ -26,7 +26,9 @@ const tn_notation *tn_notation_or_first(const char *path, const char *text, size
  * NULL where there is none. */
 const tn_notation *tn_notation_of_language(const char *language, const char *text, size_t size);
 
-/* The notation of a module's rules: of the first row after the first one that says it made it; else the first. */
+/* The notation that a module was compiled from: the first row whose front end made it. NULL where there is nothing in
+ * it.
+ */
 const tn_notation *tn_notation_of_module(const tn_module *module);
 
 /* Is it the first of those with its extension? There is one for every extension. */

@@ -54,13 +54,6 @@ static bool check_options(tn_job *job)
     return false;
 }
 
-static bool is_empty(const tn_module *module)
-{
-    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count + module->GROWTH_count +
-               module->GRAMMAR_count ==
-           0;
-}
-
 static void check(tn_job *job, const char *path)
 {
     const tn_settings *settings = job->settings;
@@ -71,7 +64,7 @@ static void check(tn_job *job, const char *path)
         tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
     else if (module->GRAMMAR_count)
         report_grammar(job);
-    else if (is_empty(module))
+    else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
     else if (!settings->no_analysis)
         analyse(job);

@@ -129,7 +129,7 @@ tn_help_text tn_opened_help(const tn_opened *opened, const char *otherwise)
 {
     const tn_notation *notation = tn_notation_of_module(opened->module);
     tn_help_text help;
-    if (notation == &tn_notations[0])
+    if (!notation || notation == &tn_notations[0])
         snprintf(help.text, sizeof help.text, "%s", otherwise);
     else
         tn_notation_help(notation, help.text, sizeof help.text);

@@ -4,7 +4,7 @@
 const vscode = require('vscode');
 const {LanguageClient} = require('vscode-languageclient/node');
 
-const languages = ['plan', 'hemls', 'study', 'bnf'];
+const languages = require('./package.json').contributes.languages.map((language) => language.id);
 let client;
 
 function newClient() {

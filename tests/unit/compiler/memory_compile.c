@@ -95,6 +95,38 @@ static void test_other_notations(void **state)
     compile_with_failures("d.study", "evolution { grammar \"words\"; match \"hello\"; popultion 20 }\n", false);
 }
 
+/* ---- from memory alone */
+
+static tn_status resolve(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    static const char text[] = "schema s { width = 4' | 8' }\nrule low = tray(4')\n";
+    (void)context, (void)meant;
+    if (strcmp(request->path, "base") != 0)
+        return tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "there is no `%s`", request->path);
+    *found = (tn_input){.text = text, .size = sizeof text - 1, .name = "base", .recorded = "<base>"};
+    return TN_OK;
+}
+
+static void test_resolved_source(void **state)
+{
+    static const char *const texts[] = {"use \"base\"\nrule a = not low\n", "use \"base\"\nuse \"bsae\"\n"};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        tn_input input = {.text = texts[i], .size = strlen(texts[i]), .name = "a text"};
+        tn_compile_options how = {.resolver = {resolve, NULL}};
+        bool failing = true;
+        for (size_t number = 0; failing; number++) {
+            tn_compilation compilation;
+            fail_allocation(number, true);
+            tn_status status = tn_compile_text(TN_NOTATION(plan), &input, &how, &compilation);
+            failing = stop_failing() > number;
+            assert_int_equal(status, failing ? TN_MEMORY : i == 0 ? TN_OK : TN_INVALID);
+            assert_int_equal(status == TN_OK, compilation.module != NULL);
+            tn_compilation_clear(&compilation);
+        }
+    }
+}
+
 /* ---- running */
 
 static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits)
@@ -166,9 +198,9 @@ static void test_automata(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_source),     cmocka_unit_test(test_bad_source),
-        cmocka_unit_test(test_other_notations), cmocka_unit_test(test_reference_engine),
-        cmocka_unit_test(test_automata),
+        cmocka_unit_test(test_good_source),      cmocka_unit_test(test_bad_source),
+        cmocka_unit_test(test_other_notations),  cmocka_unit_test(test_resolved_source),
+        cmocka_unit_test(test_reference_engine), cmocka_unit_test(test_automata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

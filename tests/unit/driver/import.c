@@ -1,4 +1,4 @@
-/* `use`: which file a path means, that each is read once, and what is recorded of it. */
+/* `use` of files: which file a path means, that each is read once, and what is recorded of it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -166,6 +166,38 @@ static void from_memory(void **state)
     tn_compilation_clear(&c);
 }
 
+/* What was found stays as it was read, until one begins anew. */
+static void texts_are_kept(void **state)
+{
+    (void)state;
+    char lib[100], user[100];
+    snprintf(lib, sizeof lib, "%s/lib", folder);
+    snprintf(user, sizeof user, "%s/top/main.plan", folder);
+    char *dirs[] = {lib};
+    tn_stdlib_dirs found = {dirs, 1};
+    for (int round = 0; round < 2; round++) {
+        tn_files files;
+        tn_input first, second;
+        char meant[TN_MEANT_SIZE] = "";
+        tn_error error;
+        tn_files_begin(&files, &found);
+        tn_resolver resolver = tn_files_resolver(&files);
+        tn_request request = {"kept", ".plan", user};
+        put("lib/kept.plan", round ? "# later\n" : "# early\n");
+        assert_int_equal(resolver.resolve(resolver.context, &request, &first, meant, &error), TN_OK);
+        put("lib/kept.plan", "# changed\n");
+        assert_int_equal(resolver.resolve(resolver.context, &request, &second, meant, &error), TN_OK);
+        assert_ptr_equal(first.text, second.text);
+        assert_memory_equal(first.text, round ? "# later\n" : "# early\n", 8);
+        assert_string_equal(first.recorded, "<stdlib>/kept.plan");
+        request.path = "ketp";
+        assert_int_equal(resolver.resolve(resolver.context, &request, &second, meant, &error), TN_INVALID);
+        assert_string_equal(meant, "kept");
+        assert_string_equal(error.help, "did you mean `kept`?");
+        tn_files_clear(&files);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +207,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(circles, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(too_many_files, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(from_memory, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(texts_are_kept, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
