@@ -5,6 +5,9 @@
 #include "compiler/bnf/ast.h"
 #include "compiler/common/format_tokens.h"
 
+/* Lays out a .bnf file. */
+void tn_format_bnf(tn_format *format);
+
 /* Leaves out the white space around alternatives of the dialect ge; in genr8 there are no such texts. */
 void tn_format_bnf_trim(const tn_source *source, tn_tokens *tokens);
 

@@ -86,10 +86,4 @@ void tn_format_fill(tn_format *format, size_t first, size_t last, tn_format_spli
 /* Puts the comments before token i on lines of their own, with the empty lines between; `blank`: at least one. */
 void tn_format_gap(tn_format *format, size_t i, size_t indent, bool blank);
 
-/* Lay out a file of each notation. */
-void tn_format_plan(tn_format *format);
-void tn_format_hemls(tn_format *format);
-void tn_format_study(tn_format *format);
-void tn_format_bnf(tn_format *format);
-
 #endif

@@ -1,5 +1,5 @@
 /* Laying out .hemls files: a line a line; the successors of a rule one below the other, their arrows lined up. */
-#include "compiler/common/format_tokens.h"
+#include "compiler/hemls/hemls.h"
 
 static size_t gap_before(const tn_format *format, size_t i)
 {

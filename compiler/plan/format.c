@@ -2,7 +2,7 @@
  * neighbouring lines, with no empty line or comment between them. */
 #include <string.h>
 
-#include "compiler/common/format_tokens.h"
+#include "compiler/plan/format_clauses.h"
 
 enum {
     BODY = 2,         /* indents */

@@ -6,6 +6,9 @@
 #include "compiler/common/format_tokens.h"
 #include "compiler/plan/ast.h"
 
+/* Lays out a .plan file. */
+void tn_format_plan(tn_format *format);
+
 /* After the file was laid out: gives the tokens that name clauses of this file's libraries by their lines the names
  * that these have now, in `tokens`, from which the file can be laid out again. True where one changed. */
 bool tn_format_clause_names(tn_arena *arena, const tn_source *source, const tn_ast_file *tree, const tn_format *format,

@@ -1,5 +1,5 @@
-/* Lists what a .study file has: statements by their word, a boundary and a fitness term by two; of an evolution block its
- * settings. */
+/* Lists what a .study file has: statements by their word, a boundary and a fitness term by two; of an evolution block
+ * its settings. */
 #include "compiler/study/study.h"
 
 static size_t block_end(const tn_listing *listing, size_t i)

@@ -146,6 +146,9 @@ uint32_t tn_study_term(const char *name);
 
 void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study);
 
+/* Lays out a .study file, with an evolution block or without. */
+void tn_format_study(tn_format *format);
+
 /* Lists the statements of a study, and of an evolution block its settings. */
 void tn_study_list(tn_listing *listing);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "compiler/compile.h"
-#include "runtime/module/disasm.h"
+#include "runtime/load.h"
 #include "tests/fuzz/fuzz.h"
 
 static void fail(const char *what)

@@ -181,14 +181,13 @@ static void test_rule_files(void **state)
 
 static void test_fuzzed_files(void **state)
 {
-    static const char *const folders[][2] = {
-        {"plan", "x.plan"}, {"hemls", "x.hemls"}, {"study", "x.study"}, {"evolution", "x.study"}, {"bnf", "x.bnf"}};
     (void)state;
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        char path[4096];
+    for (size_t i = 0; i < tn_notation_count; i++) {
+        char path[4096], name[32];
         size_t before = formatted_files;
-        snprintf(path, sizeof path, TARTAN_SOURCE_DIR "/tests/fuzz/corpus/%s", folders[i][0]);
-        check_folder(path, "", folders[i][1]);
+        snprintf(path, sizeof path, TARTAN_SOURCE_DIR "/tests/fuzz/corpus/%s", tn_notations[i].name);
+        snprintf(name, sizeof name, "x%s", tn_notations[i].extension);
+        check_folder(path, "", name);
         assert_true(formatted_files > before);
     }
 }

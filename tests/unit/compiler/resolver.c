@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "compiler/compile.h"
+#include "runtime/load.h"
 
 #define SCHEMA "schema s { width = 4' | 8' }\n"
 
