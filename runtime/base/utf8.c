@@ -25,11 +25,23 @@ uint32_t tn_utf8_read(const char *text, size_t left, size_t *size)
     return character;
 }
 
+/* Are the next eight bytes all of ASCII? Most of most texts is. */
+static bool is_plain(const char *text)
+{
+    uint64_t bytes;
+    memcpy(&bytes, text, sizeof bytes);
+    return (bytes & 0x8080808080808080u) == 0;
+}
+
 bool tn_is_utf8(const char *text, size_t size)
 {
-    for (size_t i = 0, step; i < size; i += step)
+    for (size_t i = 0, step; i < size; i += step) {
+        step = 8;
+        if (size - i >= step && is_plain(text + i))
+            continue;
         if (tn_utf8_read(text + i, size - i, &step) == TN_REPLACEMENT && step == 1)
             return false;
+    }
     return true;
 }
 

@@ -33,6 +33,8 @@ typedef struct tn_engine {
     tn_status (*verify_function)(const tn_checker *checker, uint32_t function);
     /* All code of one of its sections that has CODE, in order: by tn_code_enter, tn_code_next, tn_code_leave. */
     tn_status (*verify_code)(tn_checker *checker, tn_section section);
+    /* Whatever needs all code to have been found right: what its functions are made of as a whole. */
+    tn_status (*verify_after)(const tn_checker *checker);
 
     /* Lists its tables, and (after the functions) what has code of its own. An engine with neither has its records
      * listed field by field. */

@@ -16,12 +16,7 @@ const tn_opcode_info *tn_opcode_describe(uint8_t opcode)
 }
 
 const tn_function_kind_info tn_function_kinds[TN_FUNCTION_KIND_COUNT] = {
-#define FUNCTION_KIND(NAME, CODE, WORD) {WORD, TN_CODE_##CODE},
-#include "runtime/module/opcodes.def"
-};
-
-const tn_opcode tn_code_last[TN_CODE_KIND_COUNT] = {
-#define CODE_KIND(NAME, LAST) TN_OP_##LAST,
+#define FUNCTION_KIND(NAME, CODE, LAST, WORD) {WORD, TN_CODE_##CODE, TN_OP_##LAST},
 #include "runtime/module/opcodes.def"
 };
 

@@ -12,13 +12,13 @@ typedef enum tn_operands {
 } tn_operands;
 
 typedef enum tn_code_kind {
-#define CODE_KIND(NAME, LAST) TN_CODE_##NAME,
+#define CODE_KIND(NAME) TN_CODE_##NAME,
 #include "runtime/module/opcodes.def"
     TN_CODE_KIND_COUNT
 } tn_code_kind;
 
 typedef enum tn_function_kind {
-#define FUNCTION_KIND(NAME, CODE, WORD) TN_FUNCTION_##NAME,
+#define FUNCTION_KIND(NAME, CODE, LAST, WORD) TN_FUNCTION_##NAME,
 #include "runtime/module/opcodes.def"
     TN_FUNCTION_KIND_COUNT
 } tn_function_kind;
@@ -42,12 +42,10 @@ typedef struct tn_opcode_info {
 typedef struct tn_function_kind_info {
     const char *word;
     tn_code_kind code;
+    tn_opcode last; /* the one instruction that such a function ends with */
 } tn_function_kind_info;
 
 extern const tn_function_kind_info tn_function_kinds[TN_FUNCTION_KIND_COUNT];
-
-/* The one instruction that code of each kind ends with. */
-extern const tn_opcode tn_code_last[TN_CODE_KIND_COUNT];
 
 /* NULL for a byte that is no opcode. */
 const tn_opcode_info *tn_opcode_describe(uint8_t opcode);

@@ -101,12 +101,13 @@ static tn_status check_stack(tn_checker *checker, uint32_t stack_max, tn_opcode 
     return TN_OK;
 }
 
-static tn_status check_body(tn_checker *checker, const tn_function_record *function, tn_code_kind code)
+static tn_status check_body(tn_checker *checker, const tn_function_record *function)
 {
+    const tn_function_kind_info *kind = &tn_function_kinds[function->kind];
     while (checker->offset < checker->end) {
         tn_instruction instruction;
-        tn_status status = tn_code_next(checker, code, &instruction);
-        bool last = status == TN_OK && instruction.opcode == tn_code_last[code];
+        tn_status status = tn_code_next(checker, kind->code, &instruction);
+        bool last = status == TN_OK && instruction.opcode == kind->last;
         if (status == TN_OK)
             status = check_stack(checker, function->stack_max, instruction.opcode, last);
         if (status == TN_OK)
@@ -118,7 +119,7 @@ static tn_status check_body(tn_checker *checker, const tn_function_record *funct
         if (last)
             return TN_OK;
     }
-    return tn_refuse(checker, "the function does not end with %s", tn_opcode_describe(tn_code_last[code])->name);
+    return tn_refuse(checker, "the function does not end with %s", tn_opcode_describe(kind->last)->name);
 }
 
 static tn_status check_function(tn_checker *checker, uint32_t index)
@@ -138,7 +139,7 @@ static tn_status check_function(tn_checker *checker, uint32_t index)
         return TN_LIMIT;
     }
     status = engine->verify_function ? engine->verify_function(checker, index) : TN_OK;
-    return status == TN_OK ? check_body(checker, function, code) : status;
+    return status == TN_OK ? check_body(checker, function) : status;
 }
 
 static tn_status check_functions(tn_checker *checker)
@@ -185,5 +186,8 @@ tn_status tn_verify_code(tn_checker *checker)
         return tn_refuse(checker, "it has code that belongs to no function or production");
     if (checker->map != module->MAP_count)
         return tn_refuse(checker, "the source map names places past the code");
-    return TN_OK;
+    for (size_t i = 0; i < checker->engines->count && status == TN_OK; i++)
+        if (checker->engines->items[i]->verify_after)
+            status = checker->engines->items[i]->verify_after(checker);
+    return status;
 }

@@ -128,27 +128,36 @@ static tn_status check_references(const tn_column *column, bool or_none)
     return TN_OK;
 }
 
+static tn_status refuse_rest(const tn_column *column)
+{
+    char title[TN_TITLE_MAX], owner[TN_TITLE_MAX];
+    tn_section_title(column->member->section, title);
+    tn_section_title(column->section, owner);
+    return tn_refuse(column->checker, "it has %s records that belong to no %s record", title, owner);
+}
+
+static tn_status refuse_run(const tn_column *column, size_t index)
+{
+    char title[TN_TITLE_MAX];
+    tn_section_title(column->member->section, title);
+    return refuse(column, index, "its run of %s records does not follow the one before", title);
+}
+
 /* Each record's run begins where that of the record before ends, and the last ends with the section. */
 static tn_status check_runs(const tn_column *column)
 {
     const tn_member *first = column->member, *counted = first + 1;
-    tn_column counts = *column;
-    counts.member = counted;
-    tn_status status = check_wholes(&counts);
-    if (status != TN_OK)
-        return status;
     size_t total = column->checker->module->tables[first->section].count, end = 0;
-    char title[TN_TITLE_MAX], owner[TN_TITLE_MAX];
-    tn_section_title(first->section, title);
-    tn_section_title(column->section, owner);
     for (size_t i = 0; i < column->count; i++) {
         uint32_t count = value_at(column, i, counted);
+        if (count < counted->low || count > counted->high)
+            return refuse(column, i, "%s is %u; %u to %u are possible", counted->name, count, (unsigned)counted->low,
+                          (unsigned)counted->high);
         if (value_at(column, i, first) != end || count > total - end)
-            return refuse(column, i, "its run of %s records does not follow the one before", title);
+            return refuse_run(column, i);
         end += count;
     }
-    return end == total ? TN_OK
-                        : tn_refuse(column->checker, "it has %s records that belong to no %s record", title, owner);
+    return end == total ? TN_OK : refuse_rest(column);
 }
 
 static tn_status check_slices(const tn_column *column)
