@@ -223,13 +223,10 @@ static void pair_up(const tn_library_diff *d, size_t *const pair[2])
 static tn_status count_out(const tn_library_diff *d, tn_diff_part part, int side, size_t i, mpz_t count,
                            tn_error *error)
 {
-    tn_sparse *out = NULL;
+    tn_bounds bounds = tn_bounds_make(d->max_states);
     tn_dfa_operation operation = clause(d, side, i)->kind == TN_CLAUSE_PRUNE ? TN_DFA_AND : TN_DFA_MINUS;
-    tn_status status = combine(d, d->parts[part], d->clauses[side][i], operation, &out, error);
-    if (status == TN_OK)
-        status = tn_count_range(out, d->classes, d->libraries[part]->min, d->libraries[part]->max, count, error);
-    tn_sparse_free(out);
-    return status;
+    return tn_count_both(d->parts[part], d->clauses[side][i], operation, d->classes, d->libraries[part]->min,
+                         d->libraries[part]->max, "comparison", &bounds, count, error);
 }
 
 static tn_changed_clause *add_change(tn_library_diff *d, tn_clause_change change)

@@ -52,13 +52,10 @@ static tn_status count_both(const tn_library *library, const tn_classes *classes
                             const tn_dfa *rule, mpz_t matched, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    tn_sparse *both = NULL;
-    tn_status status = tn_sparse_combine(plans, rule, TN_DFA_AND, "library", &bounds, &both, error);
-    if (status == TN_OK)
-        status = tn_count_range(both, classes, library->min, library->max, matched, error);
-    else if (status == TN_LIMIT)
+    tn_status status =
+        tn_count_both(plans, rule, TN_DFA_AND, classes, library->min, library->max, "library", &bounds, matched, error);
+    if (status == TN_LIMIT)
         mpz_set_si(matched, -1);
-    tn_sparse_free(both);
     return status == TN_LIMIT ? TN_OK : status;
 }
 

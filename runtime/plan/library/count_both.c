@@ -1,0 +1,358 @@
+/* Counts the plans that two automata agree about, without making the product of the two.
+ *
+ * Plans are followed tray by tray from the start: after each tray there is a number of plans for every pair of states
+ * that some plan of that length leads to. A pair's transitions are worked out when the first plan comes to it, all
+ * those to one pair as one. Pairs from which an automaton accepts nothing within the length that is left are not
+ * entered: the first plan that comes to a pair is the shortest, so what is too late for it is too late for all.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/library/count.h"
+
+#define TABLE_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB, of which only the pages used take memory */
+#define NEVER UINT32_MAX
+#define NO_ROW SIZE_MAX
+
+typedef struct tn_both_edge {
+    uint32_t target;
+    mp_limb_t weight; /* trays that lead there */
+} tn_both_edge;
+
+/* A pair of states that plans lead to. */
+typedef struct tn_both_pair {
+    uint32_t p, q;
+    uint32_t away;     /* trays until both may accept, at least; 0: both do */
+    uint32_t queued;   /* 1 + the last length for which the pair was listed */
+    size_t first, end; /* its edges; first NO_ROW: not worked out */
+} tn_both_pair;
+
+/* The plans of one length. */
+typedef struct tn_both_front {
+    uint32_t *listed; /* pairs that any lead to */
+    uint32_t count;
+    mp_limb_t *value; /* [pairs][limbs]; zero but for pairs listed */
+} tn_both_front;
+
+typedef struct tn_both {
+    const tn_sparse *a;
+    const tn_dfa *b;
+    bool agree; /* b must accept (otherwise: must not) */
+    uint32_t max;
+    size_t limbs;
+    tn_splits splits;
+    uint64_t *weights; /* [splits.columns] */
+    uint32_t *away_a;  /* [states]: trays to acceptance, or NEVER */
+    uint32_t *away_b;
+    uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
+    tn_numbering numbers;
+    tn_both_pair *pairs;
+    uint32_t count, capacity;
+    tn_both_edge *edges;
+    size_t edge_count, edge_capacity;
+    tn_both_front fronts[2];
+} tn_both;
+
+/* ---- how far away acceptance is */
+
+static bool nearer_a(const tn_both *both, uint32_t state, uint32_t trays)
+{
+    const tn_sparse *a = both->a;
+    for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
+        if (both->away_a[a->target[e]] < trays)
+            return true;
+    return false;
+}
+
+static bool nearer_b(const tn_both *both, uint32_t state, uint32_t trays)
+{
+    const uint32_t *row = both->b->delta + (size_t)state * both->b->columns;
+    for (uint32_t c = 0; c < both->b->columns; c++)
+        if (both->away_b[row[c]] < trays)
+            return true;
+    return false;
+}
+
+/* Settles, tray by tray, the states that are so many trays away. */
+static void find_away(const tn_both *both, uint32_t *away, uint32_t states,
+                      bool (*nearer)(const tn_both *, uint32_t, uint32_t))
+{
+    bool any = true;
+    for (uint32_t trays = 1; any && trays <= both->max; trays++) {
+        any = false;
+        for (uint32_t s = 0; s < states; s++) {
+            if (away[s] != NEVER || !nearer(both, s, trays))
+                continue;
+            away[s] = trays;
+            any = true;
+        }
+    }
+}
+
+static tn_status look_ahead(tn_both *both, tn_error *error)
+{
+    both->away_a = malloc(((size_t)both->a->states + 1) * sizeof *both->away_a);
+    both->away_b = malloc(((size_t)both->b->states + 1) * sizeof *both->away_b);
+    if (!both->away_a || !both->away_b)
+        return tn_fail_memory(error);
+    for (uint32_t s = 0; s < both->a->states; s++)
+        both->away_a[s] = both->a->accept[s] ? 0 : NEVER;
+    for (uint32_t s = 0; s < both->b->states; s++)
+        both->away_b[s] = (both->b->accept[s] != 0) == both->agree ? 0 : NEVER;
+    find_away(both, both->away_a, both->a->states, nearer_a);
+    find_away(both, both->away_b, both->b->states, nearer_b);
+    return TN_OK;
+}
+
+/* ---- pairs */
+
+static bool grow(tn_both *both)
+{
+    if (both->count < both->capacity)
+        return true;
+    uint32_t capacity = both->capacity * 2 + 256;
+    tn_both_pair *pairs = realloc(both->pairs, capacity * sizeof *pairs);
+    both->pairs = pairs ? pairs : both->pairs;
+    for (int f = 0; f < 2; f++) {
+        tn_both_front *front = &both->fronts[f];
+        uint32_t *listed = realloc(front->listed, capacity * sizeof *listed);
+        front->listed = listed ? listed : front->listed;
+        mp_limb_t *value = realloc(front->value, capacity * both->limbs * sizeof *value);
+        front->value = value ? value : front->value;
+        if (!listed || !value)
+            return false;
+        memset(value + both->capacity * both->limbs, 0, (capacity - both->capacity) * both->limbs * sizeof *value);
+    }
+    if (!pairs)
+        return false;
+    both->capacity = capacity;
+    return true;
+}
+
+/* The pair's number; UINT32_MAX where out of memory. */
+static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
+{
+    uint32_t *slot = both->table ? &both->table[(size_t)p * both->b->states + q] : NULL;
+    uint32_t found = slot ? *slot - 1 : tn_number(&both->numbers, (uint64_t)p << 32 | q);
+    if (slot ? *slot != 0 : found < both->count || found == UINT32_MAX)
+        return found;
+    if (!grow(both))
+        return UINT32_MAX;
+    both->pairs[both->count] = (tn_both_pair){.p = p, .q = q, .away = away, .first = NO_ROW};
+    if (slot)
+        *slot = both->count + 1;
+    return both->count++;
+}
+
+static bool reserve_edges(tn_both *both)
+{
+    if (both->edge_count + both->splits.columns <= both->edge_capacity)
+        return true;
+    size_t capacity = both->edge_capacity * 2 + both->splits.columns + 1024;
+    tn_both_edge *larger = realloc(both->edges, capacity * sizeof *larger);
+    if (!larger)
+        return false;
+    both->edges = larger;
+    both->edge_capacity = capacity;
+    return true;
+}
+
+/* Adds trays to the edge to a pair. Columns to one pair mostly lie side by side: what is looked for is near the end. */
+static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weight)
+{
+    for (size_t e = both->edge_count; e > first; e--)
+        if (both->edges[e - 1].target == target) {
+            both->edges[e - 1].weight += weight;
+            return;
+        }
+    both->edges[both->edge_count++] = (tn_both_edge){target, weight};
+}
+
+/* Works out the edges of a pair that plans of `length` trays lead to. */
+static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
+{
+    const tn_sparse *a = both->a;
+    uint32_t p = both->pairs[pair].p, left = both->max - length - 1;
+    const uint32_t *row = both->b->delta + (size_t)both->pairs[pair].q * both->b->columns;
+    if (!reserve_edges(both))
+        return false;
+    size_t first = both->edge_count;
+    for (size_t e = a->first[p]; e < a->first[p + 1]; e++) {
+        uint32_t to = a->target[e], away_a = both->away_a[to];
+        if (away_a > left)
+            continue;
+        for (size_t i = both->splits.first[a->label[e]]; i < both->splits.first[a->label[e] + 1]; i++) {
+            const tn_split *split = &both->splits.splits[i];
+            uint32_t away = both->away_b[row[split->other]];
+            if (away > left || both->weights[split->label] == 0)
+                continue;
+            uint32_t target = number(both, to, row[split->other], away > away_a ? away : away_a);
+            if (target == UINT32_MAX)
+                return false;
+            add_edge(both, first, target, both->weights[split->label]);
+        }
+    }
+    both->pairs[pair].first = first;
+    both->pairs[pair].end = both->edge_count;
+    return true;
+}
+
+/* ---- counting */
+
+/* Adds the plans of `length` trays that both accept. */
+static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_t count)
+{
+    for (uint32_t i = 0; i < front->count; i++) {
+        uint32_t pair = front->listed[i];
+        mpz_t value;
+        if (both->pairs[pair].away > 0)
+            continue;
+        mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
+        mpz_add(count, count, value);
+    }
+}
+
+/* Moves the plans of one pair, of `length` trays, on by a tray. */
+static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
+{
+    tn_both_front *to = &both->fronts[!from];
+    mp_limb_t *value = both->fronts[from].value + pair * both->limbs;
+    for (size_t e = both->pairs[pair].first; e < both->pairs[pair].end; e++) {
+        tn_both_pair *target = &both->pairs[both->edges[e].target];
+        if (target->away > both->max - length - 1)
+            continue;
+        if (target->queued != length + 2) {
+            target->queued = length + 2;
+            to->listed[to->count++] = both->edges[e].target;
+        }
+        tn_limbs_add(to->value + both->edges[e].target * both->limbs, value, both->limbs, both->edges[e].weight);
+    }
+    memset(value, 0, both->limbs * sizeof *value);
+}
+
+/* Trays that lead from a pair to one where both accept. */
+static uint64_t last_trays(const tn_both *both, uint32_t pair)
+{
+    const tn_sparse *a = both->a;
+    const uint32_t *row = both->b->delta + (size_t)both->pairs[pair].q * both->b->columns;
+    uint32_t p = both->pairs[pair].p;
+    uint64_t trays = 0;
+    for (size_t e = a->first[p]; e < a->first[p + 1]; e++) {
+        if (both->away_a[a->target[e]] > 0)
+            continue;
+        for (size_t i = both->splits.first[a->label[e]]; i < both->splits.first[a->label[e] + 1]; i++)
+            if (both->away_b[row[both->splits.splits[i].other]] == 0)
+                trays += both->weights[both->splits.splits[i].label];
+    }
+    return trays;
+}
+
+/* Adds the longest plans: those of the front, which are one tray shorter, by what their last tray may be. Where most
+ * plans are so long, most pairs are only ever met here, and no edges of theirs are needed. */
+static void count_last(const tn_both *both, const tn_both_front *front, mpz_t count)
+{
+    for (uint32_t i = 0; i < front->count; i++) {
+        uint32_t pair = front->listed[i];
+        mpz_t value;
+        mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
+        mpz_addmul_ui(count, value, last_trays(both, pair));
+    }
+}
+
+static tn_status step(tn_both *both, uint32_t length, int from, const char *what, tn_bounds *bounds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    both->fronts[!from].count = 0;
+    for (uint32_t i = 0; status == TN_OK && i < both->fronts[from].count; i++) {
+        uint32_t pair = both->fronts[from].listed[i];
+        size_t before = both->edge_count;
+        if (both->pairs[pair].first == NO_ROW && !make_row(both, pair, length))
+            return tn_fail_memory(error);
+        move_on(both, pair, length, from);
+        status = tn_bounds_check(bounds, what, both->count, 1, both->edge_count - before + 1, error);
+        if (status == TN_OK && both->edge_count > bounds->max_transitions)
+            status = tn_bounds_check(bounds, what, both->count, UINT32_MAX, 0, error);
+    }
+    return status;
+}
+
+static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
+{
+    uint64_t all = (uint64_t)both->a->states * both->b->states;
+    if (both->a->states == 0 || both->away_a[0] > both->max || both->away_b[0] > both->max)
+        return TN_OK;
+    if (all <= TABLE_ENTRIES_MAX && !(both->table = calloc(all, sizeof *both->table)))
+        return tn_fail_memory(error);
+    if (number(both, 0, 0, both->away_a[0] > both->away_b[0] ? both->away_a[0] : both->away_b[0]) == UINT32_MAX)
+        return tn_fail_memory(error);
+    both->fronts[0].value[0] = 1;
+    both->fronts[0].listed[both->fronts[0].count++] = 0;
+    for (uint32_t length = 0;; length++) {
+        int from = (int)(length & 1);
+        if (length >= min)
+            count_accepted(both, &both->fronts[from], count);
+        if (length == both->max)
+            return TN_OK;
+        if (length + 1 == both->max) {
+            count_last(both, &both->fronts[from], count);
+            return TN_OK;
+        }
+        tn_status status = step(both, length, from, what, bounds, error);
+        if (status != TN_OK)
+            return status;
+    }
+}
+
+static void both_clear(tn_both *both)
+{
+    tn_splits_clear(&both->splits);
+    free(both->weights);
+    free(both->away_a);
+    free(both->away_b);
+    free(both->table);
+    tn_numbering_clear(&both->numbers);
+    free(both->pairs);
+    free(both->edges);
+    for (int f = 0; f < 2; f++) {
+        free(both->fronts[f].listed);
+        free(both->fronts[f].value);
+    }
+}
+
+/* Counts of so many limbs: from the product. */
+static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation,
+                               const tn_classes *classes, uint32_t min, uint32_t max, const char *what,
+                               tn_bounds *bounds, mpz_t count, tn_error *error)
+{
+    tn_sparse *product = NULL;
+    tn_status status = tn_sparse_combine(a, b, operation, what, bounds, &product, error);
+    if (status == TN_OK)
+        status = tn_count_range(product, classes, min, max, count, error);
+    tn_sparse_free(product);
+    return status;
+}
+
+tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const tn_classes *classes,
+                        uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
+{
+    tn_both both = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
+    mpz_set_ui(count, 0);
+    if (min > max)
+        return TN_OK;
+    tn_status status = tn_splits_make(&both.splits, a, b) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_column_weights(classes, both.splits.column, both.splits.columns, &both.weights, error);
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(both.weights, both.splits.columns, max) : 0;
+    both.limbs = (size_t)limbs;
+    if (status == TN_OK && limbs > TN_FORWARD_LIMBS_MAX) {
+        both_clear(&both);
+        return count_product(a, b, operation, classes, min, max, what, bounds, count, error);
+    }
+    if (status == TN_OK)
+        status = look_ahead(&both, error);
+    if (status == TN_OK)
+        status = walk(&both, min, what, bounds, count, error);
+    both_clear(&both);
+    return status;
+}
