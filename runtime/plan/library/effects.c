@@ -7,6 +7,7 @@
  * that counts and makes nothing. The clauses are independent of one another and go over the threads.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/library/sequence.h"
@@ -186,6 +187,100 @@ static tn_status find_effects(const tn_library *library, tn_effect *effects, tn_
     return status == TN_OK ? try_only(library, true, UINT64_MAX, effects, error) : status;
 }
 
+/* ---- counts kept from before */
+
+#define NUMBER_BYTES 64u /* of a count that is kept */
+
+/* What is kept of a library's clauses: of each, two counts. */
+typedef struct tn_kept_counts {
+    uint8_t out[NUMBER_BYTES], only[NUMBER_BYTES]; /* the lowest byte first */
+} tn_kept_counts;
+
+/* All that the counts depend on. */
+static tn_status make_key(const tn_library *library, tn_memory_key *key, tn_error *error)
+{
+    enum { NUMBERS = 6 };
+    const tn_classes *classes = library->classes;
+    size_t count = library->applied_count, numbers = NUMBERS + classes->count;
+    uint64_t *subject = malloc(numbers * sizeof *subject);
+    tn_memory_part *parts = malloc((count + 1) * sizeof *parts);
+    if (subject && parts) {
+        const uint64_t first[NUMBERS] = {
+            'e', library->min, library->max, library->max_joint, library->max_eager, library->max_states};
+        memcpy(subject, first, sizeof first);
+        for (uint32_t c = 0; c < classes->count; c++)
+            subject[NUMBERS + c] = classes->size[c];
+        for (size_t i = 0; i < count; i++)
+            parts[i] = (tn_memory_part){library->clauses[library->applied[i]],
+                                        (uint32_t)tn_library_clause(library, library->applied[i])->kind};
+        *key = tn_memory_key_make(subject, numbers, parts, count);
+    }
+    bool made = subject && parts;
+    free(subject);
+    free(parts);
+    return made ? TN_OK : tn_fail_memory(error);
+}
+
+static bool write_number(const mpz_t number, uint8_t *bytes)
+{
+    if (mpz_sgn(number) < 0 || mpz_sizeinbase(number, 2) > (size_t)8 * NUMBER_BYTES)
+        return false;
+    mpz_export(bytes, NULL, -1, 1, 0, 0, number);
+    return true;
+}
+
+/* Keeps the counts, where all clauses are counted. */
+static void keep_counts(const tn_library *library, tn_memory_key key, const tn_effect *effects)
+{
+    size_t count = library->applied_count;
+    tn_kept_counts *kept = calloc(count + 1, sizeof *kept);
+    bool all = kept != NULL;
+    for (size_t i = 0; all && i < count; i++) {
+        const tn_effect *effect = &effects[library->applied[i]];
+        all = effect->status == TN_OK && write_number(effect->out, kept[i].out) &&
+              write_number(effect->only, kept[i].only);
+    }
+    if (all)
+        tn_plan_memory_keep(library->memory, key, kept, count * sizeof *kept);
+    free(kept);
+}
+
+/* Fills in counts that were kept; *found: were they? */
+static tn_status recall_counts(const tn_library *library, tn_memory_key key, tn_effect *effects, bool *found,
+                               tn_error *error)
+{
+    size_t count = library->applied_count;
+    tn_kept_counts *kept = malloc((count + 1) * sizeof *kept);
+    if (!kept)
+        return tn_fail_memory(error);
+    *found = tn_plan_memory_find(library->memory, key, kept, count * sizeof *kept);
+    for (size_t i = 0; *found && i < count; i++) {
+        tn_effect *effect = &effects[library->applied[i]];
+        mpz_import(effect->out, NUMBER_BYTES, -1, 1, 0, 0, kept[i].out);
+        mpz_import(effect->only, NUMBER_BYTES, -1, 1, 0, 0, kept[i].only);
+        effect->status = TN_OK;
+    }
+    free(kept);
+    return TN_OK;
+}
+
+static tn_status recall_or_find(const tn_library *library, tn_effect *effects, tn_error *error)
+{
+    tn_memory_key key;
+    bool found = false;
+    if (!library->memory)
+        return find_effects(library, effects, error);
+    tn_status status = make_key(library, &key, error);
+    if (status == TN_OK)
+        status = recall_counts(library, key, effects, &found, error);
+    if (status != TN_OK || found)
+        return status;
+    status = find_effects(library, effects, error);
+    if (status == TN_OK)
+        keep_counts(library, key, effects);
+    return status;
+}
+
 static tn_status add_effects(const tn_library *library, tn_error *error)
 {
     size_t count = library->record->clause_count;
@@ -196,7 +291,7 @@ static tn_status add_effects(const tn_library *library, tn_error *error)
         mpz_inits(effects[i].out, effects[i].only, NULL);
         effects[i].status = TN_LIMIT; /* not counted yet */
     }
-    tn_status status = find_effects(library, effects, error);
+    tn_status status = recall_or_find(library, effects, error);
     if (status == TN_OK)
         library->late->effects = effects;
     else

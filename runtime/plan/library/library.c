@@ -295,6 +295,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
     library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
+    library->memory = options->memory;
     tn_status status = set_lengths(library, options, error);
     if (status == TN_OK)
         status = add_late(library, error);
@@ -387,6 +388,11 @@ uint32_t tn_library_states(const tn_library *library)
     const tn_sparse *live = library->live;
     bool dead = live->first[live->states] < (size_t)live->states * live->columns;
     return live->states + (dead || live->states == 0);
+}
+
+const tn_library_record *tn_library_record_of(const tn_library *library)
+{
+    return library->record;
 }
 
 bool tn_library_within(const tn_library *library)

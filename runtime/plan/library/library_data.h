@@ -49,12 +49,13 @@ struct tn_library {
     tn_bounds bounds;     /* of combining the clauses */
     uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
     uint64_t max_eager;
-    mpz_t *generated;      /* [max + 1]: by length */
-    uint32_t *tray_column; /* [trays]: column of `kept` */
-    tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
-    tn_row *rows;          /* [max + 1]: kept plans by trays to come */
-    double *nearly;        /* [max + 1][states]: the rows, nearly (tn_nearly) */
-    uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
+    tn_plan_memory *memory; /* or NULL */
+    mpz_t *generated;       /* [max + 1]: by length */
+    uint32_t *tray_column;  /* [trays]: column of `kept` */
+    tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
+    tn_row *rows;           /* [max + 1]: kept plans by trays to come */
+    double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
+    uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
     mpz_t *before;       /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
     uint32_t stride;     /* trays between the marks of `passed` */
