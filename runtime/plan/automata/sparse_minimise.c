@@ -216,7 +216,7 @@ static bool merge_columns(tn_sparse *sparse)
     return true;
 }
 
-static tn_status copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
+tn_status tn_sparse_copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
 {
     size_t edges = sparse->first[sparse->states];
     tn_sparse *made = tn_sparse_new(sparse->letters, sparse->columns, sparse->states, edges);
@@ -257,7 +257,7 @@ static tn_status find_cycle(const tn_sparse *sparse, bool *acyclic, tn_error *er
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
 {
     if (sparse->folded)
-        return copy(sparse, out, error);
+        return tn_sparse_copy(sparse, out, error);
     tn_sparse_refiner refiner = {.sparse = sparse};
     tn_sparse *made = NULL;
     tn_status status = refiner_make(&refiner, error);

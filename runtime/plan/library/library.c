@@ -165,7 +165,7 @@ static tn_status try_clause(const tn_library *library, const tn_sparse *base, si
         return TN_OK;
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_minimise(base, &trial, error); /* a copy */
+    tn_status status = tn_sparse_copy(base, &trial, error);
     if (status == TN_OK)
         status = tn_library_apply(library, library->clauses[clause], tn_library_keeping(library, clause), &bounds,
                                   &trial, error);
@@ -227,7 +227,7 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
         status = tn_library_order(library, library->generator, library->applied + required,
                                   library->applied_count - required, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
+        status = tn_sparse_copy(library->generator, &library->live, error);
     for (size_t i = required; status == TN_OK && i < library->applied_count; i++)
         status = apply_clause(library, library->applied[i], &library->live, error);
     return status;
@@ -328,9 +328,9 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
     library->max = max;
     tn_status status = add_late(library, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(sparse, &library->generator, error); /* a copy */
+        status = tn_sparse_copy(sparse, &library->generator, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(sparse, &library->live, error); /* a copy */
+        status = tn_sparse_copy(sparse, &library->live, error);
     if (status == TN_OK)
         status = tn_sparse_fill(library->live, &library->kept, error);
     if (status == TN_OK)

@@ -119,6 +119,11 @@ tn_status tn_library_order(const tn_library *library, const tn_sparse *base, siz
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
                         tn_library **library, tn_error *error);
 
+/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map: the
+ * library's tray for each of theirs, or NULL where trays are the same. */
+tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
+                              const tn_tray *map, tn_sparse **out, tn_error *error);
+
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);

@@ -49,7 +49,7 @@ tn_status tn_sequence_save(tn_sequence *sequence, size_t to, tn_bounds *bounds, 
         edges += sequence->after[i]->first[sequence->after[i]->states];
     while (status == TN_OK && sequence->saved < to && edges <= SAVED_EDGES) {
         tn_sparse *next = NULL;
-        status = tn_sparse_minimise(sequence->after[sequence->saved], &next, error); /* a copy */
+        status = tn_sparse_copy(sequence->after[sequence->saved], &next, error);
         if (status == TN_OK && next->states > 0)
             status = apply_one(sequence, sequence->saved, bounds, &next, error);
         if (status != TN_OK) {
@@ -119,7 +119,7 @@ tn_status tn_sequence_before(const tn_sequence *sequence, size_t number, tn_boun
                              tn_error *error)
 {
     size_t from = number < sequence->saved ? number : sequence->saved;
-    tn_status status = tn_sparse_minimise(sequence->after[from], base, error); /* a copy */
+    tn_status status = tn_sparse_copy(sequence->after[from], base, error);
     for (size_t i = from; status == TN_OK && i < number && (*base)->states > 0; i++)
         status = apply_one(sequence, i, bounds, base, error);
     return status;
