@@ -10,6 +10,14 @@
 
 #define JOINT_STATES 1000000u /* of the automata of several clauses together, unless more are asked for */
 
+#define DIFFERENCES_KEPT 64u
+
+/* How many plans of the base a difference of decisions is about: many parts of a rule make the same difference. */
+typedef struct tn_difference {
+    tn_dfa *plans;
+    mpz_t count;
+} tn_difference;
+
 struct tn_coverage {
     const tn_schema *schema;
     tn_classes *classes;
@@ -21,6 +29,8 @@ struct tn_coverage {
     bool *changed;            /* [count]: is the clause another one without the part? */
     bool *base_of;            /* [count]: the clauses that the base leaves out */
     tn_sparse *base;          /* of all other clauses; NULL: not made */
+    tn_difference differences[DIFFERENCES_KEPT]; /* of this base */
+    size_t difference_count;
     tn_sequence sequence;     /* of all clauses, requirements first */
     size_t *place;            /* [count]: of each clause in the sequence */
     bool sequenced;           /* is it made? */
@@ -101,6 +111,15 @@ tn_status tn_coverage_new(const tn_schema *schema, const tn_coverage_clause *cla
     return status;
 }
 
+static void forget_differences(tn_coverage *c)
+{
+    while (c->difference_count > 0) {
+        tn_difference *last = &c->differences[--c->difference_count];
+        tn_dfa_free(last->plans);
+        mpz_clear(last->count);
+    }
+}
+
 void tn_coverage_free(tn_coverage *c)
 {
     if (!c)
@@ -113,6 +132,7 @@ void tn_coverage_free(tn_coverage *c)
         if (c->reaches)
             free(c->reaches[i]);
     }
+    forget_differences(c);
     tn_sequence_clear(&c->sequence);
     free(c->reaches);
     free(c->place);
@@ -212,6 +232,7 @@ static tn_status make_base(tn_coverage *c, tn_error *error)
 {
     if (c->base && memcmp(c->base_of, c->changed, c->count * sizeof *c->changed) == 0)
         return TN_OK;
+    forget_differences(c);
     tn_sparse_free(c->base);
     c->base = NULL;
     tn_status status = c->sequenced ? TN_OK : make_sequence(c, error);
@@ -249,17 +270,34 @@ static tn_status keep(const tn_coverage *c, tn_dfa *const *automata, bool requir
     return status;
 }
 
-/* flips += plans of the base that are in `a` and not in `b`. */
-static tn_status count_less(const tn_coverage *c, tn_dfa *a, const tn_dfa *b, mpz_t flips, tn_error *error)
+/* How many plans of the base `plans` accepts. */
+static tn_status count_of_base(tn_coverage *c, tn_dfa *plans, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = joint_bounds(c);
+    for (size_t i = 0; i < c->difference_count; i++)
+        if (tn_dfa_equal(c->differences[i].plans, plans)) {
+            mpz_set(count, c->differences[i].count);
+            return TN_OK;
+        }
+    tn_status status =
+        tn_count_both(c->base, plans, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, count, error);
+    if (status == TN_OK && c->difference_count < DIFFERENCES_KEPT) {
+        tn_difference *kept = &c->differences[c->difference_count++];
+        kept->plans = tn_dfa_share(plans);
+        mpz_init_set(kept->count, count);
+    }
+    return status;
+}
+
+/* flips += plans of the base that are in `a` and not in `b`. */
+static tn_status count_less(tn_coverage *c, tn_dfa *a, const tn_dfa *b, mpz_t flips, tn_error *error)
+{
     tn_dfa *less = tn_dfa_share(a);
     mpz_t count;
     mpz_init(count);
     tn_status status = join(c, &less, b, TN_DFA_MINUS, error);
     if (status == TN_OK)
-        status =
-            tn_count_both(c->base, less, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, count, error);
+        status = count_of_base(c, less, count, error);
     if (status == TN_OK)
         mpz_add(flips, flips, count);
     tn_dfa_free(less);

@@ -14,11 +14,18 @@
 #define TABLE_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB, of which only the pages used take memory */
 #define NEVER UINT32_MAX
 #define NO_ROW SIZE_MAX
+#define NEAR 4 /* steps or edges back that are looked at for one to the same place */
 
 typedef struct tn_both_edge {
     uint32_t target;
     mp_limb_t weight; /* trays that lead there */
 } tn_both_edge;
+
+/* Where trays lead from a state of the first automaton, told apart by what the second one tells apart. */
+typedef struct tn_both_step {
+    uint32_t target, column; /* of a, and of b */
+    uint64_t weight;         /* trays */
+} tn_both_step;
 
 /* A pair of states that plans lead to. */
 typedef struct tn_both_pair {
@@ -49,6 +56,9 @@ typedef struct tn_both {
     tn_numbering numbers;
     tn_both_pair *pairs;
     uint32_t count, capacity;
+    size_t *steps_first, *steps_end; /* [states of a]: steps_first NO_ROW: not worked out */
+    tn_both_step *steps;
+    size_t step_count, step_capacity;
     tn_both_edge *edges;
     size_t edge_count, edge_capacity;
     tn_both_front fronts[2];
@@ -105,6 +115,62 @@ static tn_status look_ahead(tn_both *both, tn_error *error)
     return TN_OK;
 }
 
+/* ---- steps of the first automaton */
+
+static tn_status make_steps(tn_both *both, tn_error *error)
+{
+    both->steps_first = malloc(((size_t)both->a->states + 1) * sizeof *both->steps_first);
+    both->steps_end = malloc(((size_t)both->a->states + 1) * sizeof *both->steps_end);
+    for (uint32_t s = 0; both->steps_first && s < both->a->states; s++)
+        both->steps_first[s] = NO_ROW;
+    return both->steps_first && both->steps_end ? TN_OK : tn_fail_memory(error);
+}
+
+static bool reserve_steps(tn_both *both)
+{
+    if (both->step_count + both->splits.columns <= both->step_capacity)
+        return true;
+    size_t capacity = both->step_capacity * 2 + both->splits.columns + 1024;
+    tn_both_step *larger = realloc(both->steps, capacity * sizeof *larger);
+    if (!larger)
+        return false;
+    both->steps = larger;
+    both->step_capacity = capacity;
+    return true;
+}
+
+/* Adds trays to a state's steps. What leads to one place by one column mostly lies side by side; what does not makes
+ * two steps of one, which changes nothing but time. */
+static void add_step(tn_both *both, size_t first, uint32_t target, uint32_t column, uint64_t weight)
+{
+    size_t count = both->step_count;
+    if (weight == 0)
+        return;
+    for (size_t i = count; i > first && count - i < NEAR; i--)
+        if (both->steps[i - 1].target == target && both->steps[i - 1].column == column) {
+            both->steps[i - 1].weight += weight;
+            return;
+        }
+    both->steps[both->step_count++] = (tn_both_step){target, column, weight};
+}
+
+/* Works out the steps of a state of a, at the first pair that has it. */
+static bool find_steps(tn_both *both, uint32_t state)
+{
+    const tn_sparse *a = both->a;
+    const tn_splits *splits = &both->splits;
+    if (both->steps_first[state] != NO_ROW)
+        return true;
+    if (!reserve_steps(both))
+        return false;
+    size_t first = both->steps_first[state] = both->step_count;
+    for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
+        for (size_t i = splits->first[a->label[e]]; i < splits->first[a->label[e] + 1]; i++)
+            add_step(both, first, a->target[e], splits->splits[i].other, both->weights[splits->splits[i].label]);
+    both->steps_end[state] = both->step_count;
+    return true;
+}
+
 /* ---- pairs */
 
 static bool grow(tn_both *both)
@@ -158,10 +224,10 @@ static bool reserve_edges(tn_both *both)
     return true;
 }
 
-/* Adds trays to the edge to a pair. Columns to one pair mostly lie side by side: what is looked for is near the end. */
+/* Adds trays to the edge to a pair: as add_step. */
 static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weight)
 {
-    for (size_t e = both->edge_count; e > first; e--)
+    for (size_t e = both->edge_count; e > first && both->edge_count - e < NEAR; e--)
         if (both->edges[e - 1].target == target) {
             both->edges[e - 1].weight += weight;
             return;
@@ -172,26 +238,20 @@ static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weig
 /* Works out the edges of a pair that plans of `length` trays lead to. */
 static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
 {
-    const tn_sparse *a = both->a;
     uint32_t p = both->pairs[pair].p, left = both->max - length - 1;
     const uint32_t *row = both->b->delta + (size_t)both->pairs[pair].q * both->b->columns;
-    if (!reserve_edges(both))
+    if (!reserve_edges(both) || !find_steps(both, p))
         return false;
     size_t first = both->edge_count;
-    for (size_t e = a->first[p]; e < a->first[p + 1]; e++) {
-        uint32_t to = a->target[e], away_a = both->away_a[to];
-        if (away_a > left)
+    for (size_t i = both->steps_first[p]; i < both->steps_end[p]; i++) {
+        const tn_both_step *step = &both->steps[i];
+        uint32_t away_a = both->away_a[step->target], away_b = both->away_b[row[step->column]];
+        if (away_a > left || away_b > left)
             continue;
-        for (size_t i = both->splits.first[a->label[e]]; i < both->splits.first[a->label[e] + 1]; i++) {
-            const tn_split *split = &both->splits.splits[i];
-            uint32_t away = both->away_b[row[split->other]];
-            if (away > left || both->weights[split->label] == 0)
-                continue;
-            uint32_t target = number(both, to, row[split->other], away > away_a ? away : away_a);
-            if (target == UINT32_MAX)
-                return false;
-            add_edge(both, first, target, both->weights[split->label]);
-        }
+        uint32_t target = number(both, step->target, row[step->column], away_b > away_a ? away_b : away_a);
+        if (target == UINT32_MAX)
+            return false;
+        add_edge(both, first, target, step->weight);
     }
     both->pairs[pair].first = first;
     both->pairs[pair].end = both->edge_count;
@@ -232,32 +292,29 @@ static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
 }
 
 /* Trays that lead from a pair to one where both accept. */
-static uint64_t last_trays(const tn_both *both, uint32_t pair)
+static uint64_t last_trays(const tn_both *both, uint32_t p, uint32_t q)
 {
-    const tn_sparse *a = both->a;
-    const uint32_t *row = both->b->delta + (size_t)both->pairs[pair].q * both->b->columns;
-    uint32_t p = both->pairs[pair].p;
+    const uint32_t *row = both->b->delta + (size_t)q * both->b->columns;
     uint64_t trays = 0;
-    for (size_t e = a->first[p]; e < a->first[p + 1]; e++) {
-        if (both->away_a[a->target[e]] > 0)
-            continue;
-        for (size_t i = both->splits.first[a->label[e]]; i < both->splits.first[a->label[e] + 1]; i++)
-            if (both->away_b[row[both->splits.splits[i].other]] == 0)
-                trays += both->weights[both->splits.splits[i].label];
-    }
+    for (size_t i = both->steps_first[p]; i < both->steps_end[p]; i++)
+        if (both->away_a[both->steps[i].target] == 0 && both->away_b[row[both->steps[i].column]] == 0)
+            trays += both->steps[i].weight;
     return trays;
 }
 
 /* Adds the longest plans: those of the front, which are one tray shorter, by what their last tray may be. Where most
  * plans are so long, most pairs are only ever met here, and no edges of theirs are needed. */
-static void count_last(const tn_both *both, const tn_both_front *front, mpz_t count)
+static tn_status count_last(tn_both *both, const tn_both_front *front, mpz_t count, tn_error *error)
 {
     for (uint32_t i = 0; i < front->count; i++) {
         uint32_t pair = front->listed[i];
         mpz_t value;
+        if (!find_steps(both, both->pairs[pair].p))
+            return tn_fail_memory(error);
         mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
-        mpz_addmul_ui(count, value, last_trays(both, pair));
+        mpz_addmul_ui(count, value, last_trays(both, both->pairs[pair].p, both->pairs[pair].q));
     }
+    return TN_OK;
 }
 
 static tn_status step(tn_both *both, uint32_t length, int from, const char *what, tn_bounds *bounds, tn_error *error)
@@ -294,10 +351,8 @@ static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *
             count_accepted(both, &both->fronts[from], count);
         if (length == both->max)
             return TN_OK;
-        if (length + 1 == both->max) {
-            count_last(both, &both->fronts[from], count);
-            return TN_OK;
-        }
+        if (length + 1 == both->max)
+            return count_last(both, &both->fronts[from], count, error);
         tn_status status = step(both, length, from, what, bounds, error);
         if (status != TN_OK)
             return status;
@@ -312,6 +367,9 @@ static void both_clear(tn_both *both)
     free(both->away_b);
     free(both->table);
     tn_numbering_clear(&both->numbers);
+    free(both->steps_first);
+    free(both->steps_end);
+    free(both->steps);
     free(both->pairs);
     free(both->edges);
     for (int f = 0; f < 2; f++) {
@@ -338,7 +396,7 @@ tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation op
 {
     tn_both both = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
     mpz_set_ui(count, 0);
-    if (min > max)
+    if (min > max || (b->states == 1 && (b->accept[0] != 0) != both.agree))
         return TN_OK;
     tn_status status = tn_splits_make(&both.splits, a, b) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
@@ -351,6 +409,8 @@ tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation op
     }
     if (status == TN_OK)
         status = look_ahead(&both, error);
+    if (status == TN_OK)
+        status = make_steps(&both, error);
     if (status == TN_OK)
         status = walk(&both, min, what, bounds, count, error);
     both_clear(&both);
