@@ -391,28 +391,38 @@ static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_opera
     return status;
 }
 
+/* Counts pair by pair. */
+static tn_status count_pairs(tn_both *both, const tn_classes *classes, uint32_t min, const char *what,
+                             tn_bounds *bounds, bool *fits, mpz_t count, tn_error *error)
+{
+    tn_status status = tn_splits_make(&both->splits, both->a, both->b) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_column_weights(classes, both->splits.column, both->splits.columns, &both->weights, error);
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(both->weights, both->splits.columns, both->max) : 0;
+    *fits = limbs <= TN_FORWARD_LIMBS_MAX;
+    if (status != TN_OK || !*fits)
+        return status;
+    both->limbs = (size_t)limbs;
+    status = look_ahead(both, error);
+    if (status == TN_OK)
+        status = make_steps(both, error);
+    return status == TN_OK ? walk(both, min, what, bounds, count, error) : status;
+}
+
+/* Pairs that pass the bounds may still make an automaton within them, where that is folded as it is made. */
 tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const tn_classes *classes,
                         uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
 {
     tn_both both = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
+    tn_bounds own = *bounds;
+    bool fits = true;
     mpz_set_ui(count, 0);
     if (min > max || (b->states == 1 && (b->accept[0] != 0) != both.agree))
         return TN_OK;
-    tn_status status = tn_splits_make(&both.splits, a, b) ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_column_weights(classes, both.splits.column, both.splits.columns, &both.weights, error);
-    uint64_t limbs = status == TN_OK ? tn_count_limbs(both.weights, both.splits.columns, max) : 0;
-    both.limbs = (size_t)limbs;
-    if (status == TN_OK && limbs > TN_FORWARD_LIMBS_MAX) {
-        both_clear(&both);
-        return count_product(a, b, operation, classes, min, max, what, bounds, count, error);
-    }
-    if (status == TN_OK)
-        status = look_ahead(&both, error);
-    if (status == TN_OK)
-        status = make_steps(&both, error);
-    if (status == TN_OK)
-        status = walk(&both, min, what, bounds, count, error);
+    tn_status status = count_pairs(&both, classes, min, what, &own, &fits, count, error);
     both_clear(&both);
+    if ((status == TN_OK && !fits) || (status == TN_LIMIT && a->folded))
+        return count_product(a, b, operation, classes, min, max, what, bounds, count, error);
+    *bounds = own;
     return status;
 }
