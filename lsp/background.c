@@ -23,6 +23,7 @@ struct tn_background {
     copy *copies; /* the document's own first */
     size_t copy_count;
     const tn_stdlib_dirs *stdlib; /* the workspace's, which does not change */
+    tn_plan_memory *memory;       /* the workspace's, which threads share */
     int wake;
     atomic_bool stop, ended;
     tn_analysis *analysis;
@@ -52,8 +53,9 @@ static void look_at_module(tn_background *b, tn_opened *opened)
         tn_grammar_report(opened, false, &error);
         return;
     }
-    if (tn_plan_analyse(opened, 0, &analyses) == TN_OK)
-        b->facts = tn_facts_new(opened->module, &analyses);
+    const tn_plan_analysis_options options = {.memory = b->memory};
+    if (tn_plan_analyse(opened, &options, &analyses) == TN_OK)
+        b->facts = tn_facts_new(opened->module, &analyses, b->memory);
     tn_plan_analyses_free(&analyses);
 }
 
@@ -135,6 +137,7 @@ tn_background *tn_background_start(const tn_workspace *workspace, const tn_docum
     if (!b)
         return NULL;
     b->stdlib = &workspace->stdlib;
+    b->memory = workspace->memory;
     b->wake = wake;
     if (copy_documents(b, workspace, document) && start_thread(b))
         return b;

@@ -62,11 +62,11 @@ static void count_library(tn_facts *facts, const tn_module *module, const tn_lib
     mpz_clears(out, only, NULL);
 }
 
-static void count_module(tn_facts *facts, const tn_module *module)
+static void count_module(tn_facts *facts, const tn_module *module, tn_plan_memory *memory)
 {
     for (size_t i = 0; i < module->LIBRARY_count; i++) {
         const tn_library_record *record = &module->LIBRARY_records[i];
-        tn_library_options options = {.max_states = STATES_MAX, .max_table = TABLE_MAX};
+        tn_library_options options = {.max_states = STATES_MAX, .max_table = TABLE_MAX, .memory = memory};
         tn_schema *schema = NULL;
         tn_library *library = NULL;
         tn_error error;
@@ -98,7 +98,7 @@ static bool take_matrix(tn_rule_matrix *matrix, const tn_module *module, const t
     return true;
 }
 
-tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses)
+tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses, tn_plan_memory *memory)
 {
     tn_facts *facts = calloc(1, sizeof *facts);
     if (!facts)
@@ -108,7 +108,7 @@ tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses
     for (size_t i = 0; good && i < analyses->count; i++)
         good = take_matrix(&facts->matrices[facts->matrix_count++], module, analyses->items[i]);
     if (good) {
-        count_module(facts, module);
+        count_module(facts, module, memory);
         return facts;
     }
     tn_facts_free(facts);

@@ -27,8 +27,8 @@ typedef struct tn_facts {
 } tn_facts;
 
 /* Counts the libraries of a module, and takes over the relations that were found. What does not fit into the limits is
- * left out. NULL where out of memory. */
-tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses);
+ * left out. memory: where counts are found and kept, or NULL. NULL where out of memory. */
+tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses, tn_plan_memory *memory);
 void tn_facts_free(tn_facts *facts);
 
 /* What there is to say about a rule, clause or library, as Markdown; NULL where there is nothing. The caller frees it.

@@ -9,7 +9,7 @@
 
 tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error)
 {
-    *workspace = (tn_workspace){0};
+    *workspace = (tn_workspace){.memory = tn_plan_memory_new(0)}; /* without it all is only found again */
     return tn_stdlib_dirs_find(&workspace->stdlib, error);
 }
 
@@ -42,6 +42,8 @@ void tn_workspace_clear(tn_workspace *workspace)
     workspace->roots = NULL;
     workspace->root_count = 0;
     tn_stdlib_dirs_clear(&workspace->stdlib);
+    tn_plan_memory_free(workspace->memory);
+    workspace->memory = NULL;
 }
 
 tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri)

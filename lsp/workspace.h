@@ -3,6 +3,7 @@
 #define TARTAN_LSP_WORKSPACE_H
 
 #include "lsp/analysis.h"
+#include "runtime/plan/library/memory.h"
 
 typedef struct tn_document {
     struct tn_document *next;
@@ -21,6 +22,7 @@ typedef struct tn_workspace {
     char **roots; /* the folders that the editor has open */
     size_t root_count;
     tn_stdlib_dirs stdlib;
+    tn_plan_memory *memory; /* what was found out about libraries before; NULL where out of memory */
 } tn_workspace;
 
 tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error);

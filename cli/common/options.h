@@ -73,6 +73,8 @@ typedef struct tn_settings {
     const char *output, *dropped;
     bool json, mirror, resume, check, diff;
     bool no_analysis, relations, examples; /* of check */
+    bool with_tests, with_counts;
+    const char *before; /* check --diff: the file before an edit */
     int notation;                          /* 0: what the file's name says; otherwise one more than a tn_notation */
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/library_job.h"
+#include "cli/plan/answers.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 
@@ -247,7 +247,7 @@ static void write_json(const counts *c, FILE *out)
     mpz_clear(pruned);
 }
 
-static void count(tn_job *job, const tn_ready_library *ready)
+void tn_job_count(tn_job *job, const tn_ready_library *ready)
 {
     const tn_settings *settings = job->settings;
     counts c;
@@ -275,7 +275,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_ready_library ready;
     tn_job_begin(&job, settings);
     if (tn_job_library(&job, settings->operands.items[0], &ready))
-        count(&job, &ready);
+        tn_job_count(&job, &ready);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/plan/answers.h"
 #include "cli/plan/diff_report.h"
-#include "cli/plan/library_job.h"
 #include "driver/open/digits.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/plan/picture/draw.h"
@@ -121,7 +121,8 @@ static void deliver(tn_job *job, tn_diff_report *report)
     tn_job_close(job, &output, status == TN_OK);
 }
 
-static void compare(tn_job *job, const tn_ready_library *before, const tn_ready_library *after)
+void tn_job_compare(tn_job *job, const char *const paths[2], const tn_ready_library *before,
+                    const tn_ready_library *after)
 {
     const tn_settings *settings = job->settings;
     tn_library_diff *diff;
@@ -133,7 +134,7 @@ static void compare(tn_job *job, const tn_ready_library *before, const tn_ready_
         return;
     }
     tn_diff_report report = {.diff = diff,
-                             .paths = {settings->operands.items[0], settings->operands.items[1]},
+                             .paths = {paths[0], paths[1]},
                              .modules = {before->schema->module, after->schema->module},
                              .records = {before->record, after->record}};
     deliver(job, &report);
@@ -161,7 +162,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&jobs[1], settings);
     if (check_options(&jobs[0]) && tn_job_library(&jobs[0], settings->operands.items[0], &before) &&
         tn_job_library(&jobs[1], settings->operands.items[1], &after))
-        compare(&jobs[1], &before, &after);
+        tn_job_compare(&jobs[1], settings->operands.items, &before, &after);
     tn_library_close(&before);
     tn_library_close(&after);
     int first = tn_job_end(&jobs[0]), second = tn_job_end(&jobs[1]);

@@ -2,9 +2,8 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/library_job.h"
+#include "cli/plan/answers.h"
 #include "driver/plan/coverage.h"
-#include "driver/plan/tests.h"
 
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
@@ -12,7 +11,7 @@ typedef struct test_report {
     tn_buffer files; /* JSON: of each file */
 } test_report;
 
-static void write_text(const tn_test_counts *counts, FILE *out)
+void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
 {
     fprintf(out, "%zu passed, %zu failed", counts->passed, counts->failed);
     if (counts->todo)
@@ -37,7 +36,7 @@ static void write_report(tn_job *job, const test_report *report)
     if (job->settings->json)
         write_json(report, output.stream);
     else
-        write_text(&report->counts, output.stream);
+        tn_test_counts_write(&report->counts, output.stream);
     tn_job_commit(job, &output);
 }
 

@@ -1,7 +1,7 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
-#include "cli/plan/library_job.h"
+#include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
 #include "driver/breed/grammar_report.h"
 
@@ -26,15 +26,75 @@ static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
     tn_job_close(job, &output, status == TN_OK);
 }
 
-static void analyse(tn_job *job)
+/* library: the one that is counted too, or NULL. */
+static void analyse(tn_job *job, const tn_library *library)
 {
     const tn_settings *settings = job->settings;
+    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->max_states.value, .library = library};
     tn_plan_analyses analyses;
-    tn_status status = tn_plan_analyse(&job->opened, (uint32_t)settings->max_states.value, &analyses);
+    tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
     if (status == TN_OK && settings->relations)
         write_relations(job, &analyses);
     tn_plan_analyses_free(&analyses);
+}
+
+/* ---- other questions about the same file */
+
+static void run_tests(tn_job *job)
+{
+    tn_test_counts counts = {0};
+    tn_output output;
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)job->settings->max_states.value, &counts));
+    tn_job_show(job);
+    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
+        return;
+    tn_test_counts_write(&counts, output.stream);
+    tn_job_commit(job, &output);
+}
+
+/* The file before an edit is open at the same time, with diagnostics of its own. */
+static void compare(tn_job *job, const tn_ready_library *after)
+{
+    const tn_settings *settings = job->settings;
+    const char *const paths[2] = {settings->before, settings->operands.items[0]};
+    tn_job old;
+    tn_ready_library before = {0};
+    tn_job_begin(&old, settings);
+    if (tn_job_library(&old, settings->before, &before))
+        tn_job_compare(job, paths, &before, after);
+    tn_library_close(&before);
+    int code = tn_job_end(&old);
+    job->exit_code = code > job->exit_code ? code : job->exit_code;
+}
+
+/* Makes the library that is counted or compared, so that checking can take from it what it needs of it. */
+static bool make_library(tn_job *job, tn_ready_library *ready)
+{
+    const tn_settings *settings = job->settings;
+    const tn_library_options options = {.max_states = (uint32_t)settings->max_states.value};
+    *ready = (tn_ready_library){0};
+    if (!settings->with_counts && !settings->before)
+        return true;
+    tn_status status = tn_library_ready(&job->opened, settings->library, &options, ready);
+    tn_job_status(job, status);
+    return status == TN_OK;
+}
+
+static void answer(tn_job *job)
+{
+    const tn_settings *settings = job->settings;
+    tn_ready_library ready;
+    bool made = make_library(job, &ready);
+    if (!settings->no_analysis)
+        analyse(job, settings->with_counts ? ready.library : NULL);
+    if (settings->with_tests)
+        run_tests(job);
+    if (made && settings->with_counts)
+        tn_job_count(job, &ready);
+    if (made && settings->before)
+        compare(job, &ready);
+    tn_library_close(&ready);
 }
 
 static bool check_options(tn_job *job)
@@ -44,6 +104,12 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "--relations is part of the analysis that --no-analysis leaves out");
     else if (settings->relations && settings->operands.count > 1)
         tn_job_usage(job, "--relations takes one FILE");
+    else if ((settings->with_counts || settings->before) && settings->operands.count > 1)
+        tn_job_usage(job, "%s takes one FILE", settings->with_counts ? "--count" : "--diff");
+    else if (settings->library && !settings->with_counts && !settings->before)
+        tn_job_usage(job, "--library is about --count and --diff: give one of them too");
+    else if (settings->relations && (settings->with_tests || settings->with_counts || settings->before))
+        tn_job_usage(job, "--relations is asked alone, without --test, --count and --diff");
     else if (!settings->relations && (settings->examples || settings->json || settings->output))
         tn_job_usage(job, "%s is about --relations: give that too",
                      settings->examples ? "--examples"
@@ -66,8 +132,8 @@ static void check(tn_job *job, const char *path)
         report_grammar(job);
     else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
-    else if (!settings->no_analysis)
-        analyse(job);
+    else
+        answer(job);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -93,6 +159,10 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "with --relations: write to FILE"),
     FLAG("figures", 0, figures,
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
+    FLAG("test", 0, with_tests, "also run the file's tests, as `tartan test` does"),
+    FLAG("count", 0, with_counts, "also count the library's plans, as `tartan count` does"),
+    TEXT("diff", 0, "OLD", before, "also compare the library with the one of OLD, as `tartan diff OLD FILE` does"),
+    OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
     OPTION_THREADS,
@@ -101,7 +171,8 @@ static const tn_option options[] = {
 const tn_command tn_command_check = {
     .name = "check",
     .summary = "say what is wrong with rule files",
-    .usage = "FILE... [--no-analysis] [--figures]\nFILE --relations [--examples] [--json]",
+    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE [--test] [--count] [--diff OLD] [--library "
+             "NAME]\nFILE --relations [--examples] [--json]",
     .description =
         "Compiles each rule file and all that it uses, and shows every error and warning with its place and a "
         "suggestion. Then says what the file's rules and libraries mean where that is surely not meant: a rule that "
@@ -109,8 +180,14 @@ const tn_command tn_command_check = {
         "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
         "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
         "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end.",
-    .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples",
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. "
+        "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
+        "testing, "
+        "counting and comparing have in common is worked out once, so that after an edit this is faster than one "
+        "command after another. The answers are those of the other commands.",
+    .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples\n$ tartan check "
+               "houses.plan --test --count "
+               "--diff old.plan",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .operands = "at least one FILE",

@@ -318,15 +318,15 @@ static bool is_concerned(const tn_module *module, uint32_t schema)
     return false;
 }
 
-static tn_status analyse_schema(tn_opened *opened, uint32_t index, uint32_t max_states, tn_plan_analyses *analyses,
-                                tn_error *error)
+static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan_analysis_options *options,
+                                tn_plan_analyses *analyses, tn_error *error)
 {
     size_t at = analyses->count;
     tn_status status = tn_schema_new(opened->module, index, 0, &analyses->schemas[at], error);
     if (status != TN_OK)
         return status;
     analyses->count++;
-    status = tn_plan_analysis_new(analyses->schemas[at], max_states, &analyses->items[at], error);
+    status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
         teller t = {opened, opened->module, analyses->schemas[at], tn_plan_analysis_get(analyses->items[at], i)};
         status = tell(&t);
@@ -336,7 +336,7 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, uint32_t max_
     return status;
 }
 
-tn_status tn_plan_analyse(tn_opened *opened, uint32_t max_states, tn_plan_analyses *analyses)
+tn_status tn_plan_analyse(tn_opened *opened, const tn_plan_analysis_options *options, tn_plan_analyses *analyses)
 {
     const tn_module *module = opened->module;
     tn_error error;
@@ -345,7 +345,7 @@ tn_status tn_plan_analyse(tn_opened *opened, uint32_t max_states, tn_plan_analys
     tn_status status = analyses->schemas && analyses->items ? TN_OK : tn_fail_memory(&error);
     for (uint32_t s = 0; status == TN_OK && s < module->SCHEMA_count; s++)
         if (is_concerned(module, s))
-            status = analyse_schema(opened, s, max_states, analyses, &error);
+            status = analyse_schema(opened, s, options, analyses, &error);
     if (status != TN_OK)
         tn_finding_error(opened, &error);
     return status;

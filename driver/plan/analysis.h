@@ -17,8 +17,8 @@ typedef struct tn_plan_analyses {
 } tn_plan_analyses;
 
 /* Analyses a rule file and adds what is found to its diagnostics; of a module, which says nothing of what its author
- * allows, only the relations are found. max_states as in tn_plan_analysis_new. On failure the diagnostics say why. */
-tn_status tn_plan_analyse(tn_opened *opened, uint32_t max_states, tn_plan_analyses *analyses);
+ * allows, only the relations are found. options as in tn_plan_analysis_new. On failure the diagnostics say why. */
+tn_status tn_plan_analyse(tn_opened *opened, const tn_plan_analysis_options *options, tn_plan_analyses *analyses);
 void tn_plan_analyses_free(tn_plan_analyses *analyses);
 
 #endif

@@ -17,6 +17,21 @@ golden werror "tartan check --werror $scratch/odd.plan"
 golden no_analysis "tartan check --werror --no-analysis $scratch/odd.plan"
 golden no_relations_without_analysis 'tartan check sheds.plan --relations --no-analysis'
 golden examples_without_relations 'tartan check sheds.plan --examples'
+golden several_files "tartan check sheds.plan rows.plan --count"
+golden library_alone "tartan check sheds.plan --library rows"
+golden relations_and_count "tartan check sheds.plan --relations --count"
+
+# Several questions in one run are answered as each by itself is, in that order.
+sed "s/n in 1..3)/n in 1..2)/" "$here/../../stdlib/lahave-houses.plan" >"$scratch/edited.plan"
+"$TARTAN" check "$scratch/edited.plan" --test --count --diff lahave-houses >"$scratch/together" 2>"$scratch/together.said" || true
+for question in "check $scratch/edited.plan" "test $scratch/edited.plan" "count $scratch/edited.plan" "diff lahave-houses $scratch/edited.plan"; do
+    # shellcheck disable=SC2086
+    "$TARTAN" $question || true
+done >"$scratch/apart" 2>"$scratch/apart.said"
+cmp -s "$scratch/together" "$scratch/apart" || fail 'several questions at once have other answers'
+cmp -s "$scratch/together.said" "$scratch/apart.said" || fail 'several questions at once say something else'
+grep -q 'only by it' "$scratch/together" || fail 'nothing was counted'
+
 golden relations_of_two 'tartan check sheds.plan rows.plan --relations'
 
 # A module says nothing of what its author allows: it has relations, but no warnings.

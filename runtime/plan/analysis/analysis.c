@@ -265,8 +265,12 @@ static tn_status prepare(tn_plan_analysis *analysis, tn_error *error)
     return status == TN_OK ? lower_rules(analysis, error) : status;
 }
 
-tn_status tn_plan_analysis_new(const tn_schema *schema, uint32_t max_states, tn_plan_analysis **out, tn_error *error)
+tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_options *options, tn_plan_analysis **out,
+                               tn_error *error)
 {
+    static const tn_plan_analysis_options defaults = {0};
+    options = options ? options : &defaults;
+    uint32_t max_states = options->max_states;
     tn_plan_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)
         return tn_fail_memory(error);
@@ -274,6 +278,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, uint32_t max_states, tn_
     analysis->schema_index = (uint32_t)(schema->record - schema->module->SCHEMA_records);
     analysis->max_states = max_states ? max_states : TN_STATES_DEFAULT;
     analysis->max_joint = max_states ? max_states : JOINT_STATES_DEFAULT;
+    analysis->library = options->library;
+    analysis->memory = options->memory;
     tn_status status = prepare(analysis, error);
     if (status == TN_OK)
         status = tn_plan_analysis_rules(analysis, error);
@@ -281,6 +287,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, uint32_t max_states, tn_
         status = tn_plan_analysis_parts(analysis, error);
     if (status == TN_OK)
         status = tn_plan_analysis_libraries(analysis, error);
+    analysis->library = NULL;
+    analysis->memory = NULL;
     if (status != TN_OK) {
         tn_plan_analysis_free(analysis);
         return status;

@@ -10,7 +10,7 @@
 #ifndef TARTAN_PLAN_ANALYSIS_ANALYSIS_H
 #define TARTAN_PLAN_ANALYSIS_ANALYSIS_H
 
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/library/library.h"
 
 typedef enum tn_found {
     TN_FOUND_NEVER,      /* `rule` matches no plan */
@@ -50,10 +50,18 @@ typedef struct tn_plan_analysis_finding {
 
 typedef struct tn_plan_analysis tn_plan_analysis;
 
-/* Analyses the rules and libraries of one schema of a module. max_states: of any intermediate automaton, and
- * tuples of a search (0: TN_STATES_DEFAULT, and a million where a search is about a whole library). */
-tn_status tn_plan_analysis_new(const tn_schema *schema, uint32_t max_states, tn_plan_analysis **analysis,
-                               tn_error *error);
+typedef struct tn_plan_analysis_options {
+    uint32_t max_states;       /* of any intermediate automaton, and tuples of a search; 0: TN_STATES_DEFAULT, and a
+                                  million where a search is about a whole library */
+    const tn_library *library; /* one of the module with its own lengths that is being counted anyway: which of its
+                                  clauses are needed is then taken from the counts; or NULL */
+    tn_plan_memory *memory;    /* where answers are found and kept; or NULL */
+} tn_plan_analysis_options;
+
+/* Analyses the rules and libraries of one schema of a module. options: NULL are the defaults; borrowed until the
+ * analysis is made. */
+tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_options *options,
+                               tn_plan_analysis **analysis, tn_error *error);
 void tn_plan_analysis_free(tn_plan_analysis *analysis);
 
 size_t tn_plan_analysis_count(const tn_plan_analysis *analysis);

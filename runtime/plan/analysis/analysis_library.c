@@ -322,13 +322,106 @@ static tn_status try_rest(const work *w, verdict *verdicts, tn_error *error)
     return status;
 }
 
+/* ---- verdicts found before */
+
+/* What is kept of a library: whether finding its verdicts failed, and else for each clause whether it is needed. */
+typedef struct kept_verdicts {
+    tn_status status; /* TN_OK or TN_LIMIT */
+    tn_error error;   /* of TN_LIMIT */
+    uint8_t needed[];
+} kept_verdicts;
+
+static size_t kept_size(const work *w)
+{
+    return sizeof(kept_verdicts) + w->count;
+}
+
+/* All that the verdicts depend on. */
+static tn_memory_key make_key(const work *w, tn_memory_part *parts)
+{
+    const uint64_t subject[] = {'v', shortest(w, true), longest(w, true), w->analysis->max_states,
+                                w->analysis->max_joint};
+    for (size_t i = 0; i < w->count; i++)
+        parts[i] = (tn_memory_part){w->dfas[i], (uint32_t)w->parts[i].accepts | (uint32_t)is_own(w, i) << 1};
+    return tn_memory_key_make(subject, sizeof subject / sizeof *subject, parts, w->count);
+}
+
+static tn_status find_verdicts(const work *w, verdict *verdicts, tn_error *error)
+{
+    try_each(w, verdicts);
+    return try_rest(w, verdicts, error);
+}
+
+static void keep_verdicts(const work *w, tn_memory_key key, kept_verdicts *kept, const verdict *verdicts,
+                          tn_status status, const tn_error *why)
+{
+    memset(kept, 0, kept_size(w));
+    kept->status = status;
+    if (status == TN_LIMIT)
+        kept->error = *why;
+    bool all = status == TN_OK || (status == TN_LIMIT && why->code_offset == TN_NO_OFFSET);
+    for (size_t i = 0; all && i < w->count; i++) {
+        kept->needed[i] = verdicts[i].needed;
+        all = status == TN_LIMIT || verdicts[i].status == TN_OK;
+    }
+    if (all)
+        tn_plan_memory_keep(w->analysis->memory, key, kept, kept_size(w));
+}
+
+static tn_status recall_verdicts(const work *w, verdict *verdicts, tn_error *error)
+{
+    tn_error why = {.code_offset = TN_NO_OFFSET};
+    kept_verdicts *kept = malloc(kept_size(w));
+    tn_memory_part *parts = malloc((w->count + 1) * sizeof *parts);
+    tn_status status = kept && parts ? TN_OK : tn_fail_memory(&why);
+    if (status == TN_OK) {
+        tn_memory_key key = make_key(w, parts);
+        if (tn_plan_memory_find(w->analysis->memory, key, kept, kept_size(w))) {
+            status = kept->status;
+            why = kept->error;
+            for (size_t i = 0; i < w->count; i++)
+                verdicts[i] = (verdict){.status = TN_OK, .needed = kept->needed[i]};
+        } else {
+            status = find_verdicts(w, verdicts, &why);
+            keep_verdicts(w, key, kept, verdicts, status, &why);
+        }
+    }
+    free(kept);
+    free(parts);
+    if (status != TN_OK && error)
+        *error = why;
+    return status;
+}
+
+/* Takes the verdicts from the counts of a library that is counted anyway: a clause is needed where it alone keeps out
+ * some plan. *known: are all clauses counted? */
+static tn_status count_verdicts(const work *w, verdict *verdicts, bool *known, tn_error *error)
+{
+    const tn_library *library = w->analysis->library;
+    tn_status status = TN_OK;
+    mpz_t out, only;
+    *known = library && tn_library_record_of(library) == w->record && tn_library_min(library) == shortest(w, true) &&
+             tn_library_max(library) == longest(w, true);
+    mpz_inits(out, only, NULL);
+    for (uint32_t i = 0; *known && status == TN_OK && i < w->count; i++) {
+        uint32_t states;
+        status = tn_library_effect(library, i, out, only, &states, error);
+        verdicts[i] = (verdict){.status = TN_OK, .needed = !is_own(w, i) || mpz_sgn(only) > 0};
+        *known = status == TN_OK;
+    }
+    mpz_clears(out, only, NULL);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 static tn_status find_idle(const work *w, tn_error *error)
 {
+    bool known;
     verdict *verdicts = calloc(w->count, sizeof *verdicts);
     if (!verdicts)
         return tn_fail_memory(error);
-    try_each(w, verdicts);
-    tn_status status = try_rest(w, verdicts, error);
+    tn_status status = count_verdicts(w, verdicts, &known, error);
+    if (status == TN_OK && !known)
+        status = w->analysis->memory ? recall_verdicts(w, verdicts, error) : find_verdicts(w, verdicts, error);
     for (size_t i = 0; status == TN_OK && i < w->count; i++) {
         status = verdicts[i].status;
         if (status == TN_OK && !verdicts[i].needed)

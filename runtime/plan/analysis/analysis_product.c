@@ -32,7 +32,7 @@ static tn_status everything(const tn_plan_analysis *analysis, uint32_t min, uint
 /* Is any plan left, of so many trays at least? */
 static bool leaves(const tn_sparse *plans, uint32_t min)
 {
-    return plans->states > 0 && (plans->first[1] > 0 || (min == 0 && plans->accept[0]) || plans->folded);
+    return plans->states > 0 && (plans->first[1] > 0 || (min == 0 && plans->accept[0]));
 }
 
 static tn_status copy(const tn_sparse *plans, tn_sparse **out, tn_error *error)

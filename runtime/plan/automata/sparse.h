@@ -56,6 +56,8 @@ static inline tn_status tn_sparse_combine(const tn_sparse *a, const tn_dfa *b, t
     return (a->folded ? tn_sparse_fold : tn_sparse_product)(a, b, operation, what, bounds, out, error);
 }
 
+tn_status tn_sparse_copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error);
+
 /* The same language with the fewest states, columns merged (sparse_minimise.c). Of what is folded: a copy. */
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error);
 

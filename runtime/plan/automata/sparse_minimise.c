@@ -216,7 +216,7 @@ static bool merge_columns(tn_sparse *sparse)
     return true;
 }
 
-static tn_status copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
+tn_status tn_sparse_copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
 {
     size_t edges = sparse->first[sparse->states];
     tn_sparse *made = tn_sparse_new(sparse->letters, sparse->columns, sparse->states, edges);
@@ -232,10 +232,32 @@ static tn_status copy(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
     return TN_OK;
 }
 
+/* Has it no cycle? Counts, state by state, the edges into it that have been passed (Kahn: Topological sorting of large
+ * networks, 1962). *acyclic is the answer. */
+static tn_status find_cycle(const tn_sparse *sparse, bool *acyclic, tn_error *error)
+{
+    uint32_t n = sparse->states, count = 0;
+    uint32_t *into = calloc((size_t)n + 1, sizeof *into), *order = malloc(((size_t)n + 1) * sizeof *order);
+    bool made = into && order;
+    for (size_t e = 0; made && e < sparse->first[n]; e++)
+        into[sparse->target[e]]++;
+    for (uint32_t s = 0; made && s < n; s++)
+        if (into[s] == 0)
+            order[count++] = s;
+    for (uint32_t i = 0; made && i < count; i++)
+        for (size_t e = sparse->first[order[i]]; e < sparse->first[order[i] + 1]; e++)
+            if (--into[sparse->target[e]] == 0)
+                order[count++] = sparse->target[e];
+    *acyclic = count == n;
+    free(into);
+    free(order);
+    return made ? TN_OK : tn_fail_memory(error);
+}
+
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
 {
     if (sparse->folded)
-        return copy(sparse, out, error);
+        return tn_sparse_copy(sparse, out, error);
     tn_sparse_refiner refiner = {.sparse = sparse};
     tn_sparse *made = NULL;
     tn_status status = refiner_make(&refiner, error);
@@ -255,6 +277,8 @@ tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error 
         status = tn_fail_memory(error);
     }
     refiner_clear(&refiner);
+    if (status == TN_OK)
+        status = find_cycle(made, &made->folded, error);
     *out = made;
     return status;
 }

@@ -3,9 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-__extension__ typedef unsigned __int128 wide_limb; /* a product of limbs, which have 64 bits here */
-_Static_assert(sizeof(mp_limb_t) == 8, "counts are kept in limbs of 64 bits");
-
 tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
                             tn_error *error)
 {
@@ -149,21 +146,6 @@ tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error)
     return status;
 }
 
-/* sum += counts * weight, and the limb carried out. GMP's own is faster from a few limbs on; most libraries have fewer.
- */
-static mp_limb_t add_times(mp_limb_t *sum, const mp_limb_t *count, size_t limbs, mp_limb_t weight)
-{
-    if (limbs > 3)
-        return mpn_addmul_1(sum, count, (mp_size_t)limbs, weight);
-    mp_limb_t carry = 0;
-    for (size_t i = 0; i < limbs; i++) {
-        wide_limb all = (wide_limb)count[i] * weight + sum[i] + carry;
-        sum[i] = (mp_limb_t)all;
-        carry = (mp_limb_t)(all >> 64);
-    }
-    return carry;
-}
-
 /* A sum of counts of one row, each times a number of trays that add up to less than 2^32, needs one limb more at most.
  */
 tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error)
@@ -175,7 +157,7 @@ tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn
     for (uint32_t s = 0; s < edges->states; s++) {
         mp_limb_t *sum = next->value + (size_t)s * next->limbs;
         for (size_t e = edges->first[s]; e < edges->first[s + 1]; e++)
-            sum[limbs] += add_times(sum, tn_row_at(row, edges->target[e]), limbs, edges->weight[e]);
+            sum[limbs] += tn_limbs_add(sum, tn_row_at(row, edges->target[e]), limbs, edges->weight[e]);
     }
     row_shrink(edges, next);
     return TN_OK;
@@ -189,8 +171,6 @@ void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count)
 }
 
 /* ---- counts */
-
-#define FORWARD_LIMBS_MAX 4
 
 /* How many plans of the length reached lead to each state; only to those `active` there are any. */
 typedef struct tn_front {
@@ -225,7 +205,7 @@ static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t 
                 continue;
             if (mpn_zero_p(sum, (mp_size_t)limbs))
                 to->active[to->count++] = sparse->target[e];
-            add_times(sum, value, limbs, weights[sparse->label[e]]);
+            tn_limbs_add(sum, value, limbs, weights[sparse->label[e]]);
         }
         memset(value, 0, limbs * sizeof *value);
     }
@@ -263,8 +243,7 @@ static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights,
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* Limbs that hold the number of all plans of `max` trays. */
-static uint64_t limbs_of_all(const uint64_t *weights, uint32_t columns, uint32_t max)
+uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max)
 {
     uint64_t trays = 0, bits = 1;
     for (uint32_t c = 0; c < columns; c++)
@@ -303,8 +282,8 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, u
 {
     uint64_t *weights = NULL;
     tn_status status = tn_column_weights(classes, sparse->column, sparse->columns, &weights, error);
-    uint64_t limbs = status == TN_OK ? limbs_of_all(weights, sparse->columns, max) : 0;
-    if (status == TN_OK && sparse->folded && limbs <= FORWARD_LIMBS_MAX)
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(weights, sparse->columns, max) : 0;
+    if (status == TN_OK && sparse->folded && limbs <= TN_FORWARD_LIMBS_MAX)
         status = count_forward(sparse, weights, limbs, max, counts, error);
     else if (status == TN_OK)
         status = count_backward(sparse, weights, max, counts, error);

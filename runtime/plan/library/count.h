@@ -59,6 +59,34 @@ static inline const mp_limb_t *tn_row_at(const tn_row *row, uint32_t state)
 /* count += times * the row's count at a state. */
 void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count);
 
+/* ---- counts of limbs, for the files that count */
+
+__extension__ typedef unsigned __int128 tn_wide_limb; /* a product of limbs, which have 64 bits here */
+_Static_assert(sizeof(mp_limb_t) == 8, "counts are kept in limbs of 64 bits");
+
+/* Counts of more limbs than these are added up from the end of the plans (tn_row), not from their beginning. */
+#define TN_FORWARD_LIMBS_MAX 4
+
+/* sum += count * weight; returns the limb carried out. GMP's own is faster from a few limbs on; most libraries have
+ * fewer. */
+static inline mp_limb_t tn_limbs_add(mp_limb_t *sum, const mp_limb_t *count, size_t limbs, mp_limb_t weight)
+{
+    if (limbs > 3)
+        return mpn_addmul_1(sum, count, (mp_size_t)limbs, weight);
+    mp_limb_t carry = 0;
+    for (size_t i = 0; i < limbs; i++) {
+        tn_wide_limb all = (tn_wide_limb)count[i] * weight + sum[i] + carry;
+        sum[i] = (mp_limb_t)all;
+        carry = (mp_limb_t)(all >> 64);
+    }
+    return carry;
+}
+
+/* Limbs that hold the number of all plans of `max` trays; weights: trays of each column. */
+uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max);
+
+/* ---- counts of plans */
+
 /* How many plans of each of the lengths 0..max the automaton accepts: counts is an initialised array of max + 1. */
 tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
                            tn_error *error);
@@ -66,5 +94,10 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, u
 /* How many plans of the lengths min..max. */
 tn_status tn_count_range(const tn_sparse *sparse, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
                          tn_error *error);
+
+/* How many plans of the lengths min..max `a` accepts and b accepts too (TN_DFA_AND) or does not (TN_DFA_MINUS): without
+ * making their product (count_both.c). The bounds are of the pairs of states met; `what` names the product. */
+tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const tn_classes *classes,
+                        uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error);
 
 #endif

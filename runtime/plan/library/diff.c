@@ -112,37 +112,24 @@ static tn_status combine(const tn_library_diff *d, const tn_sparse *a, const tn_
                          tn_sparse **out, tn_error *error)
 {
     tn_bounds bounds = tn_bounds_make(d->max_states);
-    tn_sparse *product = NULL;
-    tn_status status = tn_sparse_product(a, b, operation, "comparison", &bounds, &product, error);
-    if (status == TN_OK)
-        status = tn_sparse_minimise(product, out, error);
-    tn_sparse_free(product);
-    return status;
+    tn_status status = tn_sparse_copy(a, out, error);
+    return status == TN_OK ? tn_sparse_apply(out, b, operation, "comparison", &bounds, error) : status;
 }
 
 /* A side's plans, of its own lengths only where the two sides' differ. */
 static tn_status side_plans(const tn_library_diff *d, int side, tn_sparse **sparse, tn_dfa **complete, tn_error *error)
 {
-    tn_dfa *joint = NULL, *lengths = NULL;
-    tn_sparse *all = NULL;
-    tn_status status = reletter(d, side, d->sides[side]->kept, &joint, error);
-    if (status == TN_OK)
-        status = tn_sparse_make(joint, 0, &all, error);
-    if (status == TN_OK && same_lengths(d)) {
-        *sparse = all;
-        *complete = joint;
-        return TN_OK;
-    }
-    if (status == TN_OK)
+    tn_dfa *lengths = NULL;
+    tn_bounds bounds = tn_bounds_make(d->max_states);
+    tn_status status =
+        tn_library_reletter(d->sides[side], d->sides[side]->live, d->classes, side ? d->map : NULL, sparse, error);
+    if (status == TN_OK && !same_lengths(d)) {
         status = of_lengths(d, d->sides[side]->min, d->sides[side]->max, &lengths, error);
-    if (status == TN_OK)
-        status = combine(d, all, lengths, TN_DFA_AND, sparse, error);
-    if (status == TN_OK)
-        status = tn_sparse_complete(*sparse, complete, error);
-    tn_sparse_free(all);
-    tn_dfa_free(joint);
+        if (status == TN_OK)
+            status = tn_sparse_apply(sparse, lengths, TN_DFA_AND, "comparison", &bounds, error);
+    }
     tn_dfa_free(lengths);
-    return status;
+    return status == TN_OK ? tn_sparse_fill(*sparse, complete, error) : status;
 }
 
 static tn_status make_library(tn_library_diff *d, tn_diff_part part, tn_error *error)
@@ -223,13 +210,10 @@ static void pair_up(const tn_library_diff *d, size_t *const pair[2])
 static tn_status count_out(const tn_library_diff *d, tn_diff_part part, int side, size_t i, mpz_t count,
                            tn_error *error)
 {
-    tn_sparse *out = NULL;
+    tn_bounds bounds = tn_bounds_make(d->max_states);
     tn_dfa_operation operation = clause(d, side, i)->kind == TN_CLAUSE_PRUNE ? TN_DFA_AND : TN_DFA_MINUS;
-    tn_status status = combine(d, d->parts[part], d->clauses[side][i], operation, &out, error);
-    if (status == TN_OK)
-        status = tn_count_range(out, d->classes, d->libraries[part]->min, d->libraries[part]->max, count, error);
-    tn_sparse_free(out);
-    return status;
+    return tn_count_both(d->parts[part], d->clauses[side][i], operation, d->classes, d->libraries[part]->min,
+                         d->libraries[part]->max, "comparison", &bounds, count, error);
 }
 
 static tn_changed_clause *add_change(tn_library_diff *d, tn_clause_change change)

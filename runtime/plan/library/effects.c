@@ -2,22 +2,21 @@
  *
  * Only clause i, applied as number i, keeps out what the clauses before it keep, it does not, and those after it keep.
  * So each count starts from an automaton that is needed anyway, and goes on with other plans than the library's: an
- * automaton of its own a clause. Most are soon smaller, and of hundreds of prunes most run empty early. The last clause
- * is met in a product that is counted and never minimised. The clauses are independent of one another and go over the
- * threads.
+ * automaton of its own a clause. Most are soon smaller, and of hundreds of prunes most run empty early. What the
+ * clauses after it keep is combined beforehand where that is small (sequence.h), and the last of it is met in a walk
+ * that counts and makes nothing. The clauses are independent of one another and go over the threads.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/plan/library/library_data.h"
-
-#define SAVED_EDGES (UINT64_C(1) << 24) /* of the automata kept for starting from: 128 MB */
+#include "runtime/plan/library/sequence.h"
 
 typedef struct tn_counting_alone {
     const tn_library *library;
-    size_t *order;     /* [applied_count]: the clauses as they are applied here */
-    tn_bounds bounds;  /* of each automaton's making */
-    size_t saved;      /* automata kept */
-    tn_sparse **after; /* [saved + 1]: the plans that the first clauses keep */
+    size_t *order;        /* [applied_count]: the clauses as they are applied here */
+    tn_bounds bounds;     /* of each automaton's making */
+    tn_sequence sequence; /* of the clauses in that order */
     tn_effect *effects;
 } tn_counting_alone;
 
@@ -31,53 +30,19 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    tn_sparse *both = NULL;
-    tn_status status = tn_sparse_combine(base, clause, operation, "library", &bounds, &both, error);
-    if (status == TN_OK)
-        status = tn_count_range(both, library->classes, library->min, library->max, count, error);
-    tn_sparse_free(both);
-    return status;
+    return tn_count_both(base, clause, operation, library->classes, library->min, library->max, "library", &bounds,
+                         count, error);
 }
 
-static tn_status apply(const tn_library *library, size_t clause, tn_dfa_operation operation, tn_bounds *bounds,
-                       tn_sparse **base, tn_error *error)
-{
-    return tn_library_apply(library, library->clauses[clause], operation, bounds, base, error);
-}
-
-/* *base := what of it the clauses of these numbers keep. */
-static tn_status keep(const tn_counting_alone *counting, size_t from, size_t to, tn_bounds *bounds, tn_sparse **base,
-                      tn_error *error)
+static tn_status save(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
 {
     const tn_library *library = counting->library;
-    tn_status status = TN_OK;
-    for (size_t i = from; status == TN_OK && i < to && (*base)->states > 0; i++) {
+    for (size_t i = 0; i < library->applied_count; i++) {
         size_t clause = counting->order[i];
-        status = apply(library, clause, tn_library_keeping(library, clause), bounds, base, error);
+        counting->sequence.clauses[i] =
+            (tn_sequence_clause){library->clauses[clause], tn_library_keeping(library, clause)};
     }
-    return status;
-}
-
-/* Applies the clauses up to number `to` and keeps what the memory for that holds. */
-static tn_status save_starts(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
-{
-    tn_status status = TN_OK;
-    uint64_t edges = 0;
-    for (size_t i = 0; i <= counting->saved; i++)
-        edges += counting->after[i]->first[counting->after[i]->states];
-    while (status == TN_OK && counting->saved < to && edges <= SAVED_EDGES) {
-        tn_sparse *next = NULL;
-        status = tn_sparse_minimise(counting->after[counting->saved], &next, error); /* a copy */
-        if (status == TN_OK)
-            status = keep(counting, counting->saved, counting->saved + 1, bounds, &next, error);
-        if (status != TN_OK) {
-            tn_sparse_free(next);
-            break;
-        }
-        counting->after[++counting->saved] = next;
-        edges += next->first[next->states];
-    }
-    return status;
+    return tn_sequence_save(&counting->sequence, to, bounds, error);
 }
 
 /* Totals come first, since they bound the plans; what they leave tells how the other requirements are ordered. Prunes
@@ -85,11 +50,12 @@ static tn_status save_starts(tn_counting_alone *counting, size_t to, tn_bounds *
 static tn_status begin(tn_counting_alone *counting, bool within, tn_error *error)
 {
     const tn_library *library = counting->library;
+    tn_sequence *sequence = &counting->sequence;
     size_t count = library->applied_count, required = library->required_count, totals = 0, next = 0;
     tn_bounds bounds = counting->bounds;
-    counting->after = calloc(count + 1, sizeof *counting->after);
+    tn_sparse *all = NULL;
     counting->order = malloc((count + 1) * sizeof *counting->order);
-    if (!counting->after || !counting->order)
+    if (!counting->order)
         return tn_fail_memory(error);
     for (size_t i = 0; i < required; i++)
         if (tn_library_clause(library, library->applied[i])->kind == TN_CLAUSE_TOTAL)
@@ -98,34 +64,37 @@ static tn_status begin(tn_counting_alone *counting, bool within, tn_error *error
     for (size_t i = 0; i < count; i++)
         if (tn_library_clause(library, library->applied[i])->kind != TN_CLAUSE_TOTAL)
             counting->order[next++] = library->applied[i];
-    tn_status status = tn_library_everything(library, within, &counting->after[0], error);
-    if (status == TN_OK && count)
-        status = save_starts(counting, totals < count ? totals : count - 1, &bounds, error);
+    tn_status status = tn_library_everything(library, within, &all, error);
     if (status == TN_OK)
-        status = tn_library_order(library, counting->after[counting->saved], counting->order + totals,
+        status = tn_sequence_make(sequence, count, all, library->within ? "library, of its lengths alone," : "library",
+                                  error);
+    if (status == TN_OK && count)
+        status = save(counting, totals < count ? totals : count - 1, &bounds, error);
+    if (status == TN_OK)
+        status = tn_library_order(library, sequence->after[sequence->saved], counting->order + totals,
                                   required - totals, error);
-    return status == TN_OK && count ? save_starts(counting, count - 1, &bounds, error) : status;
+    if (status == TN_OK && count)
+        status = save(counting, count - 1, &bounds, error);
+    return status == TN_OK ? tn_sequence_make_runs(sequence, &counting->bounds, error) : status;
 }
 
 /* Of the clause applied as this number. */
 static tn_status count_only(const tn_counting_alone *counting, size_t number, mpz_t only, tn_error *error)
 {
     const tn_library *library = counting->library;
-    size_t last = library->applied_count - 1, from = number < counting->saved ? number : counting->saved;
-    size_t clause = counting->order[number], last_clause = counting->order[last];
-    tn_bounds bounds = counting->bounds;
+    const tn_sequence *sequence = &counting->sequence;
+    const tn_dfa *clause = sequence->clauses[number].dfa;
+    tn_dfa_operation operation = dropping(library, counting->order[number]);
+    tn_bounds bounds = counting->bounds, last = tn_library_bounds(library);
     tn_sparse *base = NULL;
-    tn_status status = tn_sparse_minimise(counting->after[from], &base, error); /* a copy */
-    if (status == TN_OK)
-        status = keep(counting, from, number, &bounds, &base, error);
-    if (status == TN_OK && number < last)
-        status = apply(library, clause, dropping(library, clause), &bounds, &base, error);
-    if (status == TN_OK && number < last)
-        status = keep(counting, number + 1, last, &bounds, &base, error);
-    if (status == TN_OK)
-        status = count_with(library, base, library->clauses[last_clause],
-                            number < last ? tn_library_keeping(library, last_clause) : dropping(library, clause), only,
-                            error);
+    tn_status status = tn_sequence_before(sequence, number, &bounds, &base, error);
+    if (status == TN_OK && number + 1 == sequence->count)
+        status = count_with(library, base, clause, operation, only, error);
+    else if (status == TN_OK)
+        status = tn_sparse_apply(&base, clause, operation, sequence->what, &bounds, error);
+    if (status == TN_OK && number + 1 < sequence->count)
+        status = tn_sequence_count(sequence, number + 1, library->classes, library->min, library->max, &bounds, &last,
+                                   &base, only, error);
     tn_sparse_free(base);
     return status;
 }
@@ -184,9 +153,7 @@ static tn_status try_only(const tn_library *library, bool within, uint64_t work,
     if (work < counting.bounds.max_work)
         counting.bounds.max_work = work;
     tn_status status = count_rest(&counting, within, error);
-    for (size_t i = 0; counting.after && i <= library->applied_count; i++)
-        tn_sparse_free(counting.after[i]);
-    free(counting.after);
+    tn_sequence_clear(&counting.sequence);
     free(counting.order);
     return status;
 }
@@ -220,6 +187,100 @@ static tn_status find_effects(const tn_library *library, tn_effect *effects, tn_
     return status == TN_OK ? try_only(library, true, UINT64_MAX, effects, error) : status;
 }
 
+/* ---- counts kept from before */
+
+#define NUMBER_BYTES 64u /* of a count that is kept */
+
+/* What is kept of a library's clauses: of each, two counts. */
+typedef struct tn_kept_counts {
+    uint8_t out[NUMBER_BYTES], only[NUMBER_BYTES]; /* the lowest byte first */
+} tn_kept_counts;
+
+/* All that the counts depend on. */
+static tn_status make_key(const tn_library *library, tn_memory_key *key, tn_error *error)
+{
+    enum { NUMBERS = 6 };
+    const tn_classes *classes = library->classes;
+    size_t count = library->applied_count, numbers = NUMBERS + classes->count;
+    uint64_t *subject = malloc(numbers * sizeof *subject);
+    tn_memory_part *parts = malloc((count + 1) * sizeof *parts);
+    if (subject && parts) {
+        const uint64_t first[NUMBERS] = {
+            'e', library->min, library->max, library->max_joint, library->max_eager, library->max_states};
+        memcpy(subject, first, sizeof first);
+        for (uint32_t c = 0; c < classes->count; c++)
+            subject[NUMBERS + c] = classes->size[c];
+        for (size_t i = 0; i < count; i++)
+            parts[i] = (tn_memory_part){library->clauses[library->applied[i]],
+                                        (uint32_t)tn_library_clause(library, library->applied[i])->kind};
+        *key = tn_memory_key_make(subject, numbers, parts, count);
+    }
+    bool made = subject && parts;
+    free(subject);
+    free(parts);
+    return made ? TN_OK : tn_fail_memory(error);
+}
+
+static bool write_number(const mpz_t number, uint8_t *bytes)
+{
+    if (mpz_sgn(number) < 0 || mpz_sizeinbase(number, 2) > (size_t)8 * NUMBER_BYTES)
+        return false;
+    mpz_export(bytes, NULL, -1, 1, 0, 0, number);
+    return true;
+}
+
+/* Keeps the counts, where all clauses are counted. */
+static void keep_counts(const tn_library *library, tn_memory_key key, const tn_effect *effects)
+{
+    size_t count = library->applied_count;
+    tn_kept_counts *kept = calloc(count + 1, sizeof *kept);
+    bool all = kept != NULL;
+    for (size_t i = 0; all && i < count; i++) {
+        const tn_effect *effect = &effects[library->applied[i]];
+        all = effect->status == TN_OK && write_number(effect->out, kept[i].out) &&
+              write_number(effect->only, kept[i].only);
+    }
+    if (all)
+        tn_plan_memory_keep(library->memory, key, kept, count * sizeof *kept);
+    free(kept);
+}
+
+/* Fills in counts that were kept; *found: were they? */
+static tn_status recall_counts(const tn_library *library, tn_memory_key key, tn_effect *effects, bool *found,
+                               tn_error *error)
+{
+    size_t count = library->applied_count;
+    tn_kept_counts *kept = malloc((count + 1) * sizeof *kept);
+    if (!kept)
+        return tn_fail_memory(error);
+    *found = tn_plan_memory_find(library->memory, key, kept, count * sizeof *kept);
+    for (size_t i = 0; *found && i < count; i++) {
+        tn_effect *effect = &effects[library->applied[i]];
+        mpz_import(effect->out, NUMBER_BYTES, -1, 1, 0, 0, kept[i].out);
+        mpz_import(effect->only, NUMBER_BYTES, -1, 1, 0, 0, kept[i].only);
+        effect->status = TN_OK;
+    }
+    free(kept);
+    return TN_OK;
+}
+
+static tn_status recall_or_find(const tn_library *library, tn_effect *effects, tn_error *error)
+{
+    tn_memory_key key;
+    bool found = false;
+    if (!library->memory)
+        return find_effects(library, effects, error);
+    tn_status status = make_key(library, &key, error);
+    if (status == TN_OK)
+        status = recall_counts(library, key, effects, &found, error);
+    if (status != TN_OK || found)
+        return status;
+    status = find_effects(library, effects, error);
+    if (status == TN_OK)
+        keep_counts(library, key, effects);
+    return status;
+}
+
 static tn_status add_effects(const tn_library *library, tn_error *error)
 {
     size_t count = library->record->clause_count;
@@ -230,7 +291,7 @@ static tn_status add_effects(const tn_library *library, tn_error *error)
         mpz_inits(effects[i].out, effects[i].only, NULL);
         effects[i].status = TN_LIMIT; /* not counted yet */
     }
-    tn_status status = find_effects(library, effects, error);
+    tn_status status = recall_or_find(library, effects, error);
     if (status == TN_OK)
         library->late->effects = effects;
     else

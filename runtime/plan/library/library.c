@@ -165,7 +165,7 @@ static tn_status try_clause(const tn_library *library, const tn_sparse *base, si
         return TN_OK;
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_minimise(base, &trial, error); /* a copy */
+    tn_status status = tn_sparse_copy(base, &trial, error);
     if (status == TN_OK)
         status = tn_library_apply(library, library->clauses[clause], tn_library_keeping(library, clause), &bounds,
                                   &trial, error);
@@ -227,7 +227,7 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
         status = tn_library_order(library, library->generator, library->applied + required,
                                   library->applied_count - required, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(library->generator, &library->live, error); /* a copy */
+        status = tn_sparse_copy(library->generator, &library->live, error);
     for (size_t i = required; status == TN_OK && i < library->applied_count; i++)
         status = apply_clause(library, library->applied[i], &library->live, error);
     return status;
@@ -295,6 +295,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
     library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
+    library->memory = options->memory;
     tn_status status = set_lengths(library, options, error);
     if (status == TN_OK)
         status = add_late(library, error);
@@ -327,9 +328,9 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
     library->max = max;
     tn_status status = add_late(library, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(sparse, &library->generator, error); /* a copy */
+        status = tn_sparse_copy(sparse, &library->generator, error);
     if (status == TN_OK)
-        status = tn_sparse_minimise(sparse, &library->live, error); /* a copy */
+        status = tn_sparse_copy(sparse, &library->live, error);
     if (status == TN_OK)
         status = tn_sparse_fill(library->live, &library->kept, error);
     if (status == TN_OK)
@@ -387,6 +388,11 @@ uint32_t tn_library_states(const tn_library *library)
     const tn_sparse *live = library->live;
     bool dead = live->first[live->states] < (size_t)live->states * live->columns;
     return live->states + (dead || live->states == 0);
+}
+
+const tn_library_record *tn_library_record_of(const tn_library *library)
+{
+    return library->record;
 }
 
 bool tn_library_within(const tn_library *library)

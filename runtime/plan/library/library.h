@@ -14,6 +14,7 @@
 
 #include <gmp.h>
 
+#include "runtime/plan/library/memory.h"
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_library tn_library;
@@ -24,10 +25,11 @@ typedef struct tn_library_options {
     bool all_generated;  /* leave pruning out: the plans are all that are generated */
     bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
-    uint32_t max_length; /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
-    uint64_t max_table;  /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
-    uint64_t max_eager;  /* steps that combining the clauses may take before it is tried within the lengths; 0:
-                            3,000,000 */
+    uint32_t max_length;    /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
+    uint64_t max_table;     /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
+    uint64_t max_eager;     /* steps that combining the clauses may take before it is tried within the lengths; 0:
+                               3,000,000 */
+    tn_plan_memory *memory; /* where counts of clauses are found and kept, borrowed; or NULL */
 } tn_library_options;
 
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */
@@ -42,6 +44,9 @@ bool tn_library_within(const tn_library *library);
 uint32_t tn_library_min(const tn_library *library);
 uint32_t tn_library_max(const tn_library *library);
 const tn_schema *tn_library_schema(const tn_library *library);
+
+/* Its LIBRARY record; NULL where it is not written anywhere. */
+const tn_library_record *tn_library_record_of(const tn_library *library);
 
 /* Hash of the meaning: schema, lengths, set of kept plans. Equal meaning, equal hash, on every machine, however the
  * rules are written and the automaton was built. */

@@ -49,12 +49,13 @@ struct tn_library {
     tn_bounds bounds;     /* of combining the clauses */
     uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
     uint64_t max_eager;
-    mpz_t *generated;      /* [max + 1]: by length */
-    uint32_t *tray_column; /* [trays]: column of `kept` */
-    tn_tray *run_end;      /* [trays]: the next tray of another column, or the number of trays */
-    tn_row *rows;          /* [max + 1]: kept plans by trays to come */
-    double *nearly;        /* [max + 1][states]: the rows, nearly (tn_nearly) */
-    uint64_t *alive;       /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
+    tn_plan_memory *memory; /* or NULL */
+    mpz_t *generated;       /* [max + 1]: by length */
+    uint32_t *tray_column;  /* [trays]: column of `kept` */
+    tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
+    tn_row *rows;           /* [max + 1]: kept plans by trays to come */
+    double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
+    uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
     mpz_t *before;       /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
     uint32_t stride;     /* trays between the marks of `passed` */
@@ -117,6 +118,11 @@ tn_status tn_library_order(const tn_library *library, const tn_sparse *base, siz
  * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
                         tn_library **library, tn_error *error);
+
+/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map: the
+ * library's tray for each of theirs, or NULL where trays are the same. */
+tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
+                              const tn_tray *map, tn_sparse **out, tn_error *error);
 
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);

@@ -25,12 +25,11 @@ static tn_status joint_classes(const tn_library *library, const uint32_t *functi
     return status;
 }
 
-/* A copy of one of the library's automata, over finer classes. */
-static tn_status refine(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes, tn_sparse **out,
-                        tn_error *error)
+tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
+                              const tn_tray *map, tn_sparse **out, tn_error *error)
 {
     tn_sparse *copy = NULL;
-    tn_status status = tn_sparse_minimise(sparse, &copy, error);
+    tn_status status = tn_sparse_copy(sparse, &copy, error);
     if (status != TN_OK)
         return status;
     uint32_t *column = malloc(((size_t)classes->count + 1) * sizeof *column);
@@ -38,8 +37,10 @@ static tn_status refine(const tn_library *library, const tn_sparse *sparse, cons
         tn_sparse_free(copy);
         return tn_fail_memory(error);
     }
-    for (uint32_t c = 0; c < classes->count; c++)
-        column[c] = copy->column[library->classes->of_tray[classes->representative[c]]];
+    for (uint32_t c = 0; c < classes->count; c++) {
+        tn_tray tray = classes->representative[c];
+        column[c] = copy->column[library->classes->of_tray[map ? map[tray] : tray]];
+    }
     free(copy->column);
     copy->column = column;
     copy->letters = classes->count;
@@ -52,13 +53,10 @@ static tn_status count_both(const tn_library *library, const tn_classes *classes
                             const tn_dfa *rule, mpz_t matched, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    tn_sparse *both = NULL;
-    tn_status status = tn_sparse_combine(plans, rule, TN_DFA_AND, "library", &bounds, &both, error);
-    if (status == TN_OK)
-        status = tn_count_range(both, classes, library->min, library->max, matched, error);
-    else if (status == TN_LIMIT)
+    tn_status status =
+        tn_count_both(plans, rule, TN_DFA_AND, classes, library->min, library->max, "library", &bounds, matched, error);
+    if (status == TN_LIMIT)
         mpz_set_si(matched, -1);
-    tn_sparse_free(both);
     return status == TN_LIMIT ? TN_OK : status;
 }
 
@@ -88,9 +86,9 @@ tn_status tn_library_matches(const tn_library *library, const uint32_t *function
     if (status == TN_OK)
         status = tn_lowering_new(classes, library->max_states, &lowering, error);
     if (status == TN_OK)
-        status = refine(library, library->generator, classes, &plans[0], error);
+        status = tn_library_reletter(library, library->generator, classes, NULL, &plans[0], error);
     if (status == TN_OK)
-        status = refine(library, library->live, classes, &plans[1], error);
+        status = tn_library_reletter(library, library->live, classes, NULL, &plans[1], error);
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = count_function(library, lowering, classes, plans, functions[i], matched + 2 * i, error);
     for (int i = 0; i < 2; i++)

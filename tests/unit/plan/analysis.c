@@ -88,7 +88,7 @@ static bool make(fixture *f, uint64_t seed)
     f->module = test_module(builder);
     f->schema = test_schema_open(f->module, 0);
     tn_error error;
-    test_ok(tn_plan_analysis_new(f->schema, 0, &f->analysis, &error), &error);
+    test_ok(tn_plan_analysis_new(f->schema, NULL, &f->analysis, &error), &error);
     for (size_t i = 0; i < tn_plan_analysis_count(f->analysis); i++)
         if (tn_plan_analysis_get(f->analysis, i)->found == TN_FOUND_NOT_ANALYSED)
             return false;

@@ -32,7 +32,7 @@ static void open_text(analysed *made, const char *text)
         fail_msg("%s\n%s", text, made->opened.compilation.diagnostics.items[0].message);
     test_ok(tn_schema_new(made->opened.module, 0, 0, &made->schema, &error), &error);
     test_ok(tn_plan_vm_new(made->schema, 0, &made->vm, &error), &error);
-    test_ok(tn_plan_analysis_new(made->schema, 0, &made->analysis, &error), &error);
+    test_ok(tn_plan_analysis_new(made->schema, NULL, &made->analysis, &error), &error);
 }
 
 static void close_text(analysed *made)

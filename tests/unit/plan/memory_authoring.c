@@ -181,7 +181,7 @@ static int open_rows(void **state)
     *state = rows;
     if (tn_open_bytes("rows.plan", (const uint8_t *)text, strlen(text), false, &rows->opened) != TN_OK ||
         tn_library_ready(&rows->opened, NULL, &options, &rows->ready) != TN_OK ||
-        tn_plan_analyse(&rows->opened, 0, &rows->analyses) != TN_OK ||
+        tn_plan_analyse(&rows->opened, NULL, &rows->analyses) != TN_OK ||
         tn_coverage_measure(&rows->opened, &coverage, &rows->covered) != TN_OK)
         fail_msg("%s", rows->opened.compilation.diagnostics.items[0].message);
     return 0;

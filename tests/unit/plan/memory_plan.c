@@ -117,7 +117,8 @@ static tn_status analyse(void *context, uint64_t *result, tn_error *error)
     const test_library *made = context;
     tn_plan_analysis *analysis = NULL;
     tn_shown_plan examples[3] = {{0}};
-    tn_status status = tn_plan_analysis_new(made->schema, 2000, &analysis, error);
+    tn_status status =
+        tn_plan_analysis_new(made->schema, &(tn_plan_analysis_options){.max_states = 2000}, &analysis, error);
     if (status == TN_OK && tn_plan_analysis_rule_count(analysis) > 1)
         status = tn_plan_analysis_examples(analysis, 0, 1, examples, error);
     for (size_t i = 0; status == TN_OK && i < tn_plan_analysis_rule_count(analysis); i++)
