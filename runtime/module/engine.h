@@ -34,6 +34,9 @@ typedef struct tn_engine {
     /* All code of one of its sections that has CODE, in order: by tn_code_enter, tn_code_next, tn_code_leave. */
     tn_status (*verify_code)(tn_checker *checker, tn_section section);
 
+    /* What functions, whose instructions have been verified one by one, must hold to as a whole. */
+    tn_status (*verify_whole)(const tn_checker *checker);
+
     /* Lists its tables, and (after the functions) what has code of its own. An engine with neither has its records
      * listed field by field. */
     void (*list)(tn_lister *lister);

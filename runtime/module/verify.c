@@ -78,6 +78,15 @@ static tn_status check_engines(const tn_checker *checker)
     return TN_OK;
 }
 
+static tn_status check_wholes(const tn_checker *checker)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < checker->engines->count && status == TN_OK; i++)
+        if (checker->engines->items[i]->verify_whole)
+            status = checker->engines->items[i]->verify_whole(checker);
+    return status;
+}
+
 tn_status tn_module_verify(const tn_module *module, const tn_engines *engines, const tn_module_limits *limits,
                            tn_error *error)
 {
@@ -93,6 +102,8 @@ tn_status tn_module_verify(const tn_module *module, const tn_engines *engines, c
         status = check_engines(&checker);
     if (status == TN_OK)
         status = tn_verify_code(&checker);
+    if (status == TN_OK)
+        status = check_wholes(&checker);
     free(checker.sizes);
     return status;
 }
