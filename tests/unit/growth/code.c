@@ -120,7 +120,7 @@ static void test_operands(void **state)
     expect(with_successor(CODE(EDGE_OF(2, 0), MOVE(LAND))), "function 1, code offset 29: there is no edge label 2");
     expect(with_successor(CODE(EDGE_OF(0, TN_AGE_CHANGE_COUNT), MOVE(LAND))), "4 says nothing of an age");
     expect(with_successor(CODE(BY(TURN, 360.5), EDGE_OF(0, 0), BY(TURN, -360.5), MOVE(LAND))), "beyond 360 degrees");
-    expect(with_successor(CODE(BY(ROLL, (double)NAN), EDGE_OF(0, 0), MOVE(LAND))), "beyond 360 degrees");
+    expect(with_successor(CODE(BY(ROLL, (double)NAN), EDGE_OF(0, 0), MOVE(LAND))), "a number that is not finite");
     expect(with_guard(CODE(TAKES(LABEL, 7), TAKES(REPLACE, 1), MOVE(PASS))), "there is no edge label 7");
     expect(with_guard(CODE(TAKES(LABEL, 0), TAKES(BEHIND, 2), TAKES(REPLACE, 1), MOVE(PASS))),
            "there is no edge label 2");
