@@ -287,6 +287,7 @@ static tn_status prepare(run_state *run, tn_error *error)
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;
+    run->study.options.interpret = run->settings->engine == TN_GROW_VM;
     run->study.options.threads = (int)run->settings->threads.value;
     run->study.options.memory_limit = memory_limit(run->settings);
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
@@ -364,6 +365,10 @@ static const tn_option options[] = {
     NUMBER("columns", 0, "N", columns, 1, 1000, "steps in a row of a sheet"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     TEXT("title", 0, "TEXT", title, "title of a picture (default: the study's)"),
+    CHOICE(
+        "engine", 0, "ENGINE", engine, "templates|vm",
+        "templates (the default) draws each successor once, before it grows; vm interprets the rules' code for every "
+        "edge: the same surface, more slowly"),
     OPTION_THREADS,
     OPTION_WERROR,
 };

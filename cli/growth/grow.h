@@ -8,6 +8,9 @@
 #include "runtime/growth/study.h"
 
 /* What -o writes; the order of --format's words. */
+/* --engine, in the order of its choices. */
+typedef enum tn_grow_engine { TN_GROW_TEMPLATES, TN_GROW_VM } tn_grow_engine;
+
 typedef enum tn_grow_format {
     TN_GROW_NONE,
     TN_GROW_OBJ,

@@ -1,4 +1,4 @@
-/* What a HEMLS file means: edges numbered, seed and predecessors understood, successors drawn, rules grouped. */
+/* Finds out what a HEMLS file means: numbers edges, reads seed and predecessors, checks successors, groups rules. */
 #include <string.h>
 
 #include "compiler/common/limits.h"
@@ -14,7 +14,7 @@ typedef struct check {
     uint32_t letter_count;
     const tn_hemls_line *seed, *angle, *branch_angle, *sync;
     tn_checked_rewrite *rules, *last_rule;
-    uint32_t rule_count, template_count;
+    uint32_t rule_count, successor_count;
     bool mixed; /* was reported */
 } check;
 
@@ -175,6 +175,7 @@ static void read_seed(check *c)
     size_t count = 0;
     for (const tn_hemls_symbol *s = line->symbols.first; s; s = s->next)
         count += s->kind == TN_HEMLS_EDGE;
+    c->growth->axiom_span = line->span;
     c->growth->axiom = TN_NEW_ARRAY(c->arena, uint32_t, count + 1);
     c->growth->axiom_reversed = TN_NEW_ARRAY(c->arena, bool, count + 1);
     if (!c->growth->axiom || !c->growth->axiom_reversed)
@@ -299,38 +300,35 @@ static bool read_predecessor(check *c, const tn_hemls_line *line, tn_checked_rew
 static void read_alternatives(check *c, const tn_hemls_line *line, tn_checked_rewrite *rule)
 {
     tn_checked_alternative **at = &rule->alternatives;
-    bool conditional = false;
     double weight = 0;
     const tn_hemls_choice *choice = NULL;
     for (const tn_hemls_alternative *a = line->alternatives.first; a; a = a->next) {
         tn_checked_alternative *one = TN_NEW(c->arena, tn_checked_alternative);
-        tn_checked_template *template = TN_NEW(c->arena, tn_checked_template);
-        if (!one || !template)
+        if (!one)
             return;
-        tn_hemls_draw(c->arena, c->diagnostics, &a->symbols, a->span, c->growth->angle, template);
-        for (uint32_t i = 0; i < template->segment_count; i++)
-            made(c, template->segments[i].number);
-        for (uint32_t i = 0; i < template->branch_count; i++)
-            made(c, template->branches[i].number);
-        one->template = template;
+        one->successor = (tn_checked_successor){.symbols = &a->symbols, .span = a->span};
+        tn_hemls_check_successor(c->arena, c->diagnostics, c->growth->angle, &one->successor);
+        for (const tn_hemls_symbol *s = a->symbols.first; s; s = s->next)
+            if (s->kind == TN_HEMLS_EDGE)
+                made(c, s->number);
         one->choice = a->choice;
         *at = one;
         at = &one->next;
         rule->alternative_count++;
-        c->template_count++;
-        conditional |= a->choice.comparison != TN_ALWAYS;
+        c->successor_count++;
+        rule->conditional |= a->choice.comparison != TN_ALWAYS;
         weight += a->choice.value;
         if (a->choice.weighted)
             choice = &a->choice;
     }
-    if (choice && !conditional && weight <= 0) {
+    if (choice && !rule->conditional && weight <= 0) {
         tn_diagnostic *d = tn_report(c->diagnostics, W_NEVER_FIRES, choice->span, "this rule is never applied");
         tn_help(c->diagnostics, d, "all its weights are 0: give one of them a larger one");
-    } else if (choice && (conditional || rule->alternative_count == 1)) {
+    } else if (choice && (rule->conditional || rule->alternative_count == 1)) {
         tn_diagnostic *d = tn_report(c->diagnostics, W_IGNORED_CHOICE, choice->span, "this weight has no effect");
         tn_help(c->diagnostics, d,
-                conditional ? "where a rule has conditions, the first that holds decides"
-                            : "weights choose between several `->` of one rule");
+                rule->conditional ? "where a rule has conditions, the first that holds decides"
+                                  : "weights choose between several `->` of one rule");
     }
 }
 
@@ -375,10 +373,7 @@ static bool always_applies(const tn_checked_rewrite *rule)
         if (rule->alternative_count == 1)
             return true;
     }
-    for (const tn_checked_alternative *a = rule->alternatives; a; a = a->next)
-        if (a->choice.comparison != TN_ALWAYS)
-            return false;
-    return weight > 0;
+    return !rule->conditional && weight > 0;
 }
 
 static void insert_rule(check *c, tn_checked_group *group, tn_checked_rewrite *rule)
@@ -485,7 +480,7 @@ tn_checked_growth *tn_check_hemls(tn_arena *arena, tn_diagnostics *diagnostics, 
     for (const tn_hemls_line *line = file->first; line; line = line->next)
         if (line->kind == TN_HEMLS_RULE)
             read_rule(&c, line);
-    if (c.template_count > TN_TEMPLATES_MAX)
+    if (c.successor_count > TN_TEMPLATES_MAX)
         tn_report(diagnostics, E_TOO_MANY, c.growth->span, "this file has more successors than the limit of %u",
                   TN_TEMPLATES_MAX);
     if (tn_arena_failed(arena) || diagnostics->error_count > errors || file->damaged)

@@ -1,5 +1,6 @@
-/* From a checked rewrite system to the records of a module. */
+/* Writes a checked rewrite system as code: its seed, each successor, and a guard for each rule. */
 #include "compiler/hemls/hemls.h"
+#include "runtime/base/bytes.h"
 
 static uint32_t label_index(const tn_checked_growth *growth, uint32_t number)
 {
@@ -9,74 +10,128 @@ static uint32_t label_index(const tn_checked_growth *growth, uint32_t number)
     return index;
 }
 
-static uint32_t emit_template(tn_builder *builder, const tn_checked_growth *growth, const tn_checked_template *template)
+/* ---- functions */
+
+/* One begins here, made of this stretch of the source. */
+static tn_function_record begin(tn_builder *builder, tn_function_kind kind, tn_span span)
 {
-    tn_template_record record = {.segment_first = (uint32_t)tn_builder_count(builder, TN_SECTION_SEGMENT),
-                                 .segment_count = template->segment_count,
-                                 .branch_first = (uint32_t)tn_builder_count(builder, TN_SECTION_BRANCH),
-                                 .branch_count = template->branch_count,
-                                 .file = template->span.file,
-                                 .begin = template->span.begin,
-                                 .end = template->span.end};
-    for (uint32_t i = 0; i < template->segment_count; i++) {
-        const tn_checked_segment *s = &template->segments[i];
-        tn_builder_add_SEGMENT(builder, &(tn_segment_record){label_index(growth, s->number), s->age, s->reversed,
-                                                             s->end[0], s->end[1], s->end[2]});
-    }
-    for (uint32_t i = 0; i < template->branch_count; i++) {
-        const tn_checked_branch *b = &template->branches[i];
-        tn_builder_add_BRANCH(builder,
-                              &(tn_branch_record){b->at, label_index(growth, b->number), b->age, b->side, b->reversed,
-                                                  b->turn, b->direction[0], b->direction[1], b->direction[2]});
-    }
-    return tn_builder_add_TEMPLATE(builder, &record);
+    uint32_t offset = tn_builder_offset(builder);
+    tn_builder_add_MAP(builder, &(tn_map_record){offset, span.file, span.begin, span.end});
+    return (tn_function_record){.kind = kind, .code_begin = offset};
 }
 
-static void emit_rule(tn_builder *builder, const tn_checked_growth *growth, const tn_checked_rewrite *rule)
+static uint32_t end(tn_builder *builder, tn_function_record *function, tn_opcode last)
 {
-    tn_rewrite_rule_record record = {.left = rule->left == TN_NO_LABEL ? TN_NO_LABEL : label_index(growth, rule->left),
-                                     .right =
-                                         rule->right == TN_NO_LABEL ? TN_NO_LABEL : label_index(growth, rule->right),
-                                     .alternative_first = (uint32_t)tn_builder_count(builder, TN_SECTION_ALTERNATIVE),
-                                     .alternative_count = rule->alternative_count,
-                                     .file = rule->span.file,
-                                     .begin = rule->span.begin,
-                                     .end = rule->span.end};
-    for (const tn_checked_alternative *a = rule->alternatives; a; a = a->next) {
-        bool conditional = a->choice.comparison != TN_ALWAYS;
-        tn_alternative_record one = {.template = emit_template(builder, growth, a->template),
-                                     .comparison = a->choice.comparison,
-                                     .bound = conditional ? a->choice.value : 0,
-                                     .weight = conditional ? 1 : a->choice.value};
-        tn_builder_add_ALTERNATIVE(builder, &one);
+    tn_builder_emit(builder, last, 0, 0);
+    function->code_end = tn_builder_offset(builder);
+    return tn_builder_add_FUNCTION(builder, function);
+}
+
+static void emit_number(tn_builder *builder, tn_opcode opcode, double number)
+{
+    tn_builder_emit(builder, opcode, (int64_t)tn_bits_of(number), 0);
+}
+
+static uint32_t emit_seed(tn_builder *builder, const tn_checked_growth *growth)
+{
+    tn_function_record function = begin(builder, TN_FUNCTION_SEED, growth->axiom_span);
+    for (uint32_t i = 0; i < growth->axiom_count; i++) {
+        if (growth->axiom_reversed[i])
+            tn_builder_emit(builder, TN_OP_FLIP, 0, 0);
+        tn_builder_emit(builder, TN_OP_DRAW, label_index(growth, growth->axiom[i]), TN_AGE_ZERO);
     }
-    tn_builder_add_REWRITE_RULE(builder, &record);
+    return end(builder, &function, TN_OP_LAND);
+}
+
+/* Two `~` on end are none. Turns are not put together: two by 60 degrees end in other last digits than one by 120. */
+static uint32_t emit_successor(tn_builder *builder, const tn_checked_growth *growth,
+                               const tn_checked_successor *successor)
+{
+    tn_function_record function = begin(builder, TN_FUNCTION_SUCCESSOR, successor->span);
+    function.stack_max = successor->depth;
+    for (const tn_hemls_symbol *s = successor->symbols->first; s; s = s->next) {
+        if (s->kind == TN_HEMLS_TILDE && s->next && s->next->kind == TN_HEMLS_TILDE) {
+            s = s->next;
+            continue;
+        }
+        tn_instruction move = tn_hemls_move(s, growth->angle);
+        if (move.opcode == TN_OP_DRAW)
+            move.first = label_index(growth, s->number);
+        tn_builder_emit(builder, move.opcode, move.first, move.second);
+    }
+    return end(builder, &function, TN_OP_LAND);
+}
+
+/* ---- guards */
+
+static double total_weight(const tn_checked_rewrite *rule)
+{
+    double total = 0;
+    for (const tn_checked_alternative *a = rule->alternatives; a; a = a->next)
+        total += a->choice.value;
+    return total;
+}
+
+static void emit_test(tn_builder *builder, const tn_checked_rewrite *rule, const tn_checked_alternative *a)
+{
+    static const tn_opcode ages[TN_COMPARISON_COUNT] = {
+        [TN_AGE_BELOW] = TN_OP_YOUNGER, [TN_AGE_ABOVE] = TN_OP_OLDER, [TN_AGE_EQUALS] = TN_OP_AGED};
+    if (a->choice.comparison != TN_ALWAYS)
+        emit_number(builder, ages[a->choice.comparison], a->choice.value);
+    else if (tn_rewrite_by_chance(rule) && a->next) /* the last takes what is left */
+        emit_number(builder, TN_OP_WEIGHT, a->choice.value);
+}
+
+/* Whether an alternative can be taken: where ages decide, those behind one without a condition never are. */
+static bool is_last(const tn_checked_rewrite *rule, const tn_checked_alternative *a)
+{
+    return !a->next || (!tn_rewrite_by_chance(rule) && a->choice.comparison == TN_ALWAYS);
+}
+
+static uint32_t emit_guard(tn_builder *builder, const tn_checked_growth *growth, tn_checked_rewrite *rule)
+{
+    for (tn_checked_alternative *a = rule->alternatives; a; a = is_last(rule, a) ? NULL : a->next)
+        a->function = emit_successor(builder, growth, &a->successor);
+    tn_function_record function = begin(builder, TN_FUNCTION_GUARD, rule->span);
+    for (uint32_t i = 0; i < rule->number_count; i++)
+        tn_builder_emit(builder, TN_OP_LABEL, label_index(growth, rule->numbers[i]), 0);
+    if (rule->left != TN_NO_LABEL)
+        tn_builder_emit(builder, TN_OP_BEHIND, label_index(growth, rule->left), 0);
+    if (rule->right != TN_NO_LABEL)
+        tn_builder_emit(builder, TN_OP_AHEAD, label_index(growth, rule->right), 0);
+    if (tn_rewrite_by_chance(rule))
+        emit_number(builder, TN_OP_CHANCE, total_weight(rule));
+    for (const tn_checked_alternative *a = rule->alternatives; a; a = is_last(rule, a) ? NULL : a->next) {
+        emit_test(builder, rule, a);
+        tn_builder_emit(builder, TN_OP_REPLACE, a->function, 0);
+    }
+    return end(builder, &function, TN_OP_PASS);
 }
 
 static void emit_group(tn_builder *builder, const tn_checked_growth *growth, const tn_checked_group *group)
 {
-    tn_rewrite_group_record record = {.label_first = (uint32_t)tn_builder_count(builder, TN_SECTION_GROUP_LABEL),
-                                      .label_count = group->rules->number_count,
-                                      .rule_first = (uint32_t)tn_builder_count(builder, TN_SECTION_REWRITE_RULE),
-                                      .rule_count = group->rule_count};
-    for (uint32_t i = 0; i < group->rules->number_count; i++)
-        tn_builder_add_GROUP_LABEL(builder, &(tn_group_label_record){label_index(growth, group->rules->numbers[i])});
-    for (const tn_checked_rewrite *rule = group->rules; rule; rule = rule->next_in_group)
-        emit_rule(builder, growth, rule);
-    tn_builder_add_REWRITE_GROUP(builder, &record);
+    uint32_t first = (uint32_t)tn_builder_count(builder, TN_SECTION_REWRITE_RULE);
+    for (tn_checked_rewrite *rule = group->rules; rule; rule = rule->next_in_group) {
+        tn_rewrite_rule_record record = {emit_guard(builder, growth, rule), rule->span.file, rule->span.begin,
+                                         rule->span.end};
+        tn_builder_add_REWRITE_RULE(builder, &record);
+    }
+    tn_builder_add_REWRITE_GROUP(builder, &(tn_rewrite_group_record){first, group->rule_count});
 }
 
 void tn_emit_growth(tn_builder *builder, const tn_checked_growth *growth)
 {
-    tn_builder_add_GROWTH(builder,
-                          &(tn_growth_record){tn_builder_string(builder, growth->name), growth->branch_angle,
-                                              growth->sync, growth->span.file, growth->span.begin, growth->span.end});
     for (const tn_checked_label *label = growth->labels; label; label = label->next)
         tn_builder_add_EDGE_LABEL(builder,
                                   &(tn_edge_label_record){tn_builder_string(builder, label->name), label->number});
-    for (uint32_t i = 0; i < growth->axiom_count; i++)
-        tn_builder_add_AXIOM(builder,
-                             &(tn_axiom_record){label_index(growth, growth->axiom[i]), growth->axiom_reversed[i]});
+    tn_growth_record record = {.name = tn_builder_string(builder, growth->name),
+                               .branch_angle = growth->branch_angle,
+                               .sync = growth->sync,
+                               .seed = emit_seed(builder, growth),
+                               .file = growth->span.file,
+                               .begin = growth->span.begin,
+                               .end = growth->span.end};
+    tn_builder_add_GROWTH(builder, &record);
     for (const tn_checked_group *group = growth->groups; group; group = group->next)
         emit_group(builder, growth, group);
 }

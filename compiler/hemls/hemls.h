@@ -14,6 +14,7 @@
 #include "compiler/common/token.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/module/builder.h"
+#include "runtime/module/code.h"
 
 /* ---- syntax */
 
@@ -152,31 +153,16 @@ void tn_format_hemls(tn_format *format);
 
 /* ---- meaning */
 
-typedef struct tn_checked_segment {
-    uint32_t label; /* index into the sorted labels, once all are known */
-    uint32_t number;
-    tn_age_change age;
-    bool reversed;
-    double end[3];
-} tn_checked_segment;
-
-typedef struct tn_checked_branch {
-    uint32_t at, number;
-    tn_age_change age;
-    tn_side side;
-    bool reversed;
-    double turn, direction[3];
-} tn_checked_branch;
-
-typedef struct tn_checked_template {
-    tn_checked_segment *segments;
-    tn_checked_branch *branches;
-    uint32_t segment_count, branch_count;
+/* What replaces an edge: symbols that are all moves of the turtle, which the turtle has nothing against. */
+typedef struct tn_checked_successor {
+    const tn_hemls_symbols *symbols;
     tn_span span;
-} tn_checked_template;
+    uint32_t depth; /* brackets that are open at once, at most */
+} tn_checked_successor;
 
 typedef struct tn_checked_alternative {
-    tn_checked_template *template;
+    tn_checked_successor successor;
+    uint32_t function; /* once it is emitted */
     tn_hemls_choice choice;
     struct tn_checked_alternative *next;
 } tn_checked_alternative;
@@ -187,6 +173,7 @@ typedef struct tn_checked_rewrite {
     uint32_t number_count;
     tn_checked_alternative *alternatives;
     uint32_t alternative_count;
+    bool conditional; /* some alternative asks for the age: the first that holds is taken */
     tn_span span;
     struct tn_checked_rewrite *next;
     struct tn_checked_rewrite *next_in_group; /* most specific first */
@@ -212,21 +199,32 @@ typedef struct tn_checked_growth {
     uint32_t *axiom;
     bool *axiom_reversed;
     uint32_t axiom_count;
+    tn_span axiom_span;
     tn_checked_group *groups;
     double angle, branch_angle;
     bool sync;
     tn_span span;
 } tn_checked_growth;
 
-/* Draws a successor once, with the turtle. Errors are reported; false then, or where out of memory. */
-bool tn_hemls_draw(tn_arena *arena, tn_diagnostics *diagnostics, const tn_hemls_symbols *symbols, tn_span span,
-                   double angle, tn_checked_template *template);
+/* Do weights choose between a rule's successors? */
+static inline bool tn_rewrite_by_chance(const tn_checked_rewrite *rule)
+{
+    return !rule->conditional && rule->alternative_count > 1;
+}
+
+/* The move of the turtle that a symbol of a successor is (an edge: without its label); PASS where it is none. */
+tn_instruction tn_hemls_move(const tn_hemls_symbol *symbol, double angle);
+
+/* Lets the turtle try the symbols of a successor, and finds its depth. Errors are reported; false then, or where out of
+ * memory. */
+bool tn_hemls_check_successor(tn_arena *arena, tn_diagnostics *diagnostics, double angle,
+                              tn_checked_successor *checked);
 
 /* Checks a file; NULL where there were errors (which are in the diagnostics) or no memory. */
 tn_checked_growth *tn_check_hemls(tn_arena *arena, tn_diagnostics *diagnostics, const tn_hemls_file *file,
                                   uint32_t source);
 
-/* Writes the system's records. */
+/* Writes the system's code and records. */
 void tn_emit_growth(tn_builder *builder, const tn_checked_growth *growth);
 
 #endif

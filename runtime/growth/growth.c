@@ -7,6 +7,7 @@
 
 #include "runtime/base/numeric.h"
 #include "runtime/growth/join/decide.h"
+#include "runtime/growth/pass/interpret.h"
 
 #define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
 
@@ -332,7 +333,7 @@ static tn_status finish_pass(tn_pass *pass, tn_error *error)
 
 static bool walks_vertices(const tn_growth *growth, uint32_t first, uint32_t last)
 {
-    if (growth->pending.count)
+    if (growth->pending.count || growth->options.interpret)
         return true;
     for (uint32_t g = first; g < last; g++) {
         const tn_growth_group *group = &growth->system->groups[g];
@@ -360,10 +361,10 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                     .branch_first = growth->branches};
     tn_status status = tn_pass_survey(&pass, error);
     if (status == TN_OK)
-        status = tn_pass_match(&pass, error);
+        status = growth->options.interpret ? tn_interpret_match(&pass, error) : tn_pass_match(&pass, error);
     bool explaining = growth->options.explain && pass.joins_last && growth->pending.count;
     if (status == TN_OK && (anything_to_do(&pass) || explaining)) {
-        status = tn_pass_rewrite(&pass, error);
+        status = growth->options.interpret ? tn_interpret_rewrite(&pass, error) : tn_pass_rewrite(&pass, error);
         if (status == TN_OK) {
             if (growth->options.explain)
                 explain_outside(&pass);

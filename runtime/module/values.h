@@ -55,7 +55,7 @@ typedef enum tn_clause_kind {
 
 /* ---- growth */
 
-#define TN_TEMPLATE_ITEMS_MAX 4096u /* segments, and branches, of one successor */
+#define TN_TEMPLATE_ITEMS_MAX 4096u /* edges, branches among them, of one successor; and its brackets */
 #define TN_CHAIN_MAX 64u            /* edges of a predecessor */
 #define TN_STEPS_MAX 100000u
 #define TN_COORDINATE_MAX 1e12 /* of anything in a rewrite system or an environment */

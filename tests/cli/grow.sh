@@ -219,6 +219,18 @@ diff -u expected stats
 run grow square.hemls -n 1 --explain -o x.obj
 grep -q '4 branches point out of the surface' stderr || fail '--explain does not say why'
 
+# Interpreting the rules' code makes the same surface, and says the same of it.
+for file in "$source"/stdlib/*.hemls "$source"/examples/*/*.hemls "$source"/examples/growing-surfaces/*.study; do
+    [ -e "$file" ] && ! grep -q '^boundary mesh' "$file" || continue # a mesh has to be grown first
+    for engine in templates vm; do
+        run grow "$file" -n 4 --engine="$engine" --groups --lines --stats json -o "$engine.ply" >"$engine.json"
+        mv stderr "$engine.txt"
+    done
+    cmp templates.ply vm.ply && cmp templates.json vm.json && cmp templates.txt vm.txt || fail "$file grows otherwise when interpreted"
+done
+"$TARTAN" disasm square.hemls >listing
+grep -q '^  ; square.hemls:[0-9]*: A -> A ' listing && grep -q '^ *[0-9]*  TURN        -90$' listing || fail 'the listing has no turtle moves beside the source'
+
 # Nineteen labels have nineteen colours, in the picture and its legend, which takes more than one row.
 printf 'A' >labels.hemls
 for letter in B C D E F G H I J K L M N O P Q R S; do printf ' + %s' "$letter" >>labels.hemls; done

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/growth/faults.h"
 #include "runtime/growth/picture/draw.h"
@@ -11,16 +12,16 @@
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 
-enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_TEMPLATES = 200 };
+enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_CODE = 6000 };
 
-/* Boundary meshes are files of this machine, and crowded templates take long: such modules are left alone. */
+/* Boundary meshes are files of this machine, and long successors take long: such modules are left alone. */
 static inline bool is_modest(const tn_module *module)
 {
     for (size_t i = 0; i < module->BOUNDARY_count; i++)
         if (module->BOUNDARY_records[i].kind == TN_BOUNDARY_MESH)
             return false;
-    return module->GROWTH_count == 1 && module->BRANCH_count <= GROW_TEMPLATES && module->AXIOM_count <= GROW_EDGES &&
-           module->FORCE_count <= GROW_EDGES && module->BOUNDARY_count <= GROW_EDGES;
+    return module->GROWTH_count == 1 && module->code_size <= GROW_CODE && module->FORCE_count <= GROW_EDGES &&
+           module->BOUNDARY_count <= GROW_EDGES;
 }
 
 /* What is done with a surface afterwards: faults are looked for, what is hidden in a picture is, a mesh is made. */
@@ -40,13 +41,14 @@ static inline void look_at(const tn_growth *growth)
     tn_mesh_clear(&mesh);
 }
 
-static inline void grow_some(tn_growth *growth)
+/* False where a limit ended it. */
+static inline bool grow_some(tn_growth *growth)
 {
     tn_error error;
     for (int i = 0; i < GROW_STEPS; i++) {
         tn_status status = tn_growth_step(growth, &error);
         if (status == TN_LIMIT)
-            return;
+            return false;
         tn_stats stats;
         if (status != TN_OK || tn_map_validate(tn_growth_map(growth), &error) != TN_OK) {
             fprintf(stderr, "growing breaks the map: %s\n", error.message);
@@ -57,6 +59,28 @@ static inline void grow_some(tn_growth *growth)
         tn_stats_clear(&stats);
     }
     look_at(growth);
+    return true;
+}
+
+/* Interpreting the rules' code makes the same surface. */
+static inline void grow_by_code(const tn_growth *growth, const tn_growth_system *system, const tn_study *study)
+{
+    tn_growth_options options = study->options;
+    tn_growth *other;
+    tn_error error;
+    options.interpret = true;
+    if (tn_growth_new(system, &study->environment, &options, &other, &error) != TN_OK)
+        abort();
+    for (uint32_t i = 0; i < tn_growth_steps(growth); i++)
+        if (tn_growth_step(other, &error) != TN_OK)
+            abort();
+    const tn_map *a = tn_growth_map(growth), *b = tn_growth_map(other);
+    if (a->vertex_count != b->vertex_count || a->edge_count != b->edge_count || a->face_count != b->face_count ||
+        memcmp(a->positions, b->positions, 3 * sizeof(double) * a->vertex_count) != 0) {
+        fprintf(stderr, "the ways of growing differ\n");
+        abort();
+    }
+    tn_growth_free(other);
 }
 
 static inline void grow_module(const tn_module *module)
@@ -75,8 +99,8 @@ static inline void grow_module(const tn_module *module)
     study.options.explain = true;
     if (status == TN_OK)
         status = tn_growth_new(system, &study.environment, &study.options, &growth, &error);
-    if (status == TN_OK)
-        grow_some(growth);
+    if (status == TN_OK && grow_some(growth))
+        grow_by_code(growth, system, &study);
     tn_growth_free(growth);
     tn_growth_system_free(system);
     tn_study_clear(&study);

@@ -19,65 +19,14 @@ static void write_label(FILE *out, const tn_module *module, uint32_t label)
     write_text(out, module, module->EDGE_LABEL_records[label].name);
 }
 
-static void write_edge(FILE *out, const tn_module *module, uint32_t label, uint32_t age, uint32_t reversed)
+/* The guards of one predecessor, in the order in which they are asked. */
+static void list_group(FILE *out, const tn_module *module, const tn_rewrite_group_record *group)
 {
-    static const char *const ages[] = {"", "_i", "_i+1", "_i-1"};
-    fputs(reversed ? "~" : "", out);
-    write_label(out, module, label);
-    fputs(ages[age], out);
-}
-
-static void list_template(FILE *out, const tn_module *module, uint32_t index)
-{
-    static const char *const sides[] = {"no side", "left", "right"};
-    const tn_template_record *template = &module->TEMPLATE_records[index];
-    for (uint32_t i = 0; i < template->segment_count; i++) {
-        const tn_segment_record *s = &module->SEGMENT_records[template->segment_first + i];
-        fputs("      edge ", out);
-        write_edge(out, module, s->label, s->age, s->reversed);
-        fprintf(out, " to (%.6g, %.6g, %.6g)\n", s->x, s->y, s->z);
-    }
-    for (uint32_t i = 0; i < template->branch_count; i++) {
-        const tn_branch_record *b = &module->BRANCH_records[template->branch_first + i];
-        fprintf(out, "      branch at %u, %s: ", b->at, sides[b->side]);
-        write_edge(out, module, b->label, b->age, b->reversed);
-        fprintf(out, " towards (%.6g, %.6g, %.6g)\n", b->x, b->y, b->z);
-    }
-}
-
-static void list_alternative(FILE *out, const tn_module *module, uint32_t index)
-{
-    static const char *const comparisons[] = {"", "<", ">", "="};
-    const tn_alternative_record *one = &module->ALTERNATIVE_records[index];
-    fprintf(out, "    -> template %u", one->template);
-    if (one->comparison != TN_ALWAYS)
-        fprintf(out, " if i %s %.15g", comparisons[one->comparison], one->bound);
-    else if (one->weight != 1)
-        fprintf(out, " weight %.15g", one->weight);
+    fputs("  rewrite by", out);
+    for (uint32_t r = 0; r < group->rule_count; r++)
+        fprintf(out, "%s function %u", r > 0 ? ", then" : "",
+                module->REWRITE_RULE_records[group->rule_first + r].guard);
     fputc('\n', out);
-    list_template(out, module, one->template);
-}
-
-static void list_rule(FILE *out, const tn_module *module, const tn_rewrite_group_record *group, uint32_t index)
-{
-    const tn_rewrite_rule_record *rule = &module->REWRITE_RULE_records[index];
-    fputs("  rewrite", out);
-    if (rule->left != TN_NO_LABEL) {
-        fputc(' ', out);
-        write_label(out, module, rule->left);
-        fputs(" <", out);
-    }
-    for (uint32_t i = 0; i < group->label_count; i++) {
-        fputc(' ', out);
-        write_label(out, module, module->GROUP_LABEL_records[group->label_first + i].label);
-    }
-    if (rule->right != TN_NO_LABEL) {
-        fputs(" > ", out);
-        write_label(out, module, rule->right);
-    }
-    fputc('\n', out);
-    for (uint32_t i = 0; i < rule->alternative_count; i++)
-        list_alternative(out, module, rule->alternative_first + i);
 }
 
 /* Records that are listed field by field. */
@@ -128,15 +77,9 @@ void tn_growth_list(tn_lister *lister)
         write_label(out, module, i);
         fprintf(out, "=%u", module->EDGE_LABEL_records[i].number);
     }
-    fputs("\n  seed", out);
-    for (size_t i = 0; i < module->AXIOM_count && !ferror(out); i++) {
-        fputc(' ', out);
-        write_edge(out, module, module->AXIOM_records[i].label, TN_AGE_ZERO, module->AXIOM_records[i].reversed);
-    }
-    fputc('\n', out);
+    fprintf(out, "\n  seed function %u\n", growth->seed);
     for (size_t g = 0; g < module->REWRITE_GROUP_count && !ferror(out); g++)
-        for (uint32_t r = 0; r < module->REWRITE_GROUP_records[g].rule_count; r++)
-            list_rule(out, module, &module->REWRITE_GROUP_records[g], module->REWRITE_GROUP_records[g].rule_first + r);
+        list_group(out, module, &module->REWRITE_GROUP_records[g]);
     if (module->STUDY_count)
         list_study(out, module);
     list_records(lister, TN_SECTION_FORCE);

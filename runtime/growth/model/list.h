@@ -4,8 +4,8 @@
 
 #include "runtime/module/lister.h"
 
-/* The rewrite system: labels, seed, each rule with its successors as the constant templates that they are, and the
- * study with its surroundings and goals. */
+/* The rewrite system: labels, the functions that are its seed and the guards of each predecessor, and the study with
+ * its surroundings and goals. */
 void tn_growth_list(tn_lister *lister);
 
 #endif

@@ -16,6 +16,7 @@ typedef struct tn_growth_options {
     bool fixed_perimeter;  /* vertices of the outline stay */
     bool facing;           /* branches join only where each points towards the other */
     bool mirror;           /* '+' turns right, as in files of Genr8 */
+    bool interpret;        /* run the rules' code for every edge (pass/interpret.h): the same surface, more slowly */
     bool explain;          /* count why branches did not join */
     uint64_t seed;         /* of weighted rules */
     uint64_t edge_limit;   /* most edges; 0: TN_EDGES_MAX */

@@ -10,6 +10,9 @@
 #define TN_AXIOM_MAX 100000u       /* edges of a seed */
 #define TN_SURROUNDINGS_MAX 10000u /* forces, and boundaries, of one environment */
 
+/* What becomes of an age, as a file writes it behind an edge's name. */
+extern const char *const tn_age_suffixes[TN_AGE_CHANGE_COUNT];
+
 /* What fitness expressions can ask for: the terms, and counts. */
 typedef enum tn_measured {
     TN_MEASURED_VERTICES = TN_FITNESS_TERM_COUNT,

@@ -1,8 +1,9 @@
 /* A HEMLS rewrite system, ready to grow: rules whose successors are constant templates.
  *
- * A successor is drawn once, by the compiler: the path's points and the branches' directions are coordinates in the
- * frame of the edge that it replaces (H along the edge, L to its left, U out of the surface), with the edge from
- * (0,0,0) to (1,0,0). Growing never moves a turtle.
+ * A module holds it as code: the moves of a turtle for each successor, a guard for each rule. Reading it runs the
+ * turtle once through each successor (turtle.h): the path's points and the branches' directions become coordinates in
+ * the frame of the edge that is replaced (H along the edge, L to its left, U out of the surface), with the edge from
+ * (0,0,0) to (1,0,0). Growing moves no turtle after that, unless the interpreter is asked for.
  *
  * The arrays of a tn_growth_system belong to whoever made it (tn_growth_system_read's are freed with
  * tn_growth_system_free). It is immutable and may be shared between threads.
@@ -51,7 +52,9 @@ typedef struct tn_growth_rule {
     uint32_t left, right; /* labels of the context at the edge's start and end, or TN_NO_LABEL */
     const tn_alternative *alternatives;
     uint32_t alternative_count;
-    bool conditional; /* some alternative has a comparison: the first that holds is taken; otherwise by weight */
+    bool conditional; /* the first alternative that holds is taken; otherwise one by weight */
+    double total;     /* of the weights; 0: the rule never applies */
+    uint32_t guard;   /* its function */
 } tn_growth_rule;
 
 /* Rules of one predecessor, most specific context first, then in the file's order. */
@@ -82,13 +85,19 @@ typedef struct tn_growth_system {
     uint32_t group_count;
     const tn_template *templates;
     uint32_t template_count;
-    double branch_angle; /* degrees */
-    bool sync;           /* join once, after all groups */
+    const uint32_t *successors; /* [template] its function, ascending */
+    uint32_t level_count;       /* brackets that are open at once, at most */
+    const tn_module *module;    /* whose code this is */
+    double branch_angle;        /* degrees */
+    bool sync;                  /* join once, after all groups */
 } tn_growth_system;
 
-/* The growth system of a verified module, in memory of its own that borrows the module's strings. TN_INVALID where the
- * module has none. */
+/* The growth system of a verified module, in memory of its own that borrows the module's strings and code. TN_INVALID
+ * where the module has none. The module has to outlive it. */
 tn_status tn_growth_system_read(const tn_module *module, tn_growth_system **system, tn_error *error);
 void tn_growth_system_free(tn_growth_system *system);
+
+/* The template that a successor's function became. */
+uint32_t tn_growth_template_of(const tn_growth_system *system, uint32_t successor);
 
 #endif

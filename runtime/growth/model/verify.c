@@ -15,22 +15,6 @@ static tn_status check_system(const tn_checker *checker)
     for (size_t i = 1; i < module->EDGE_LABEL_count; i++)
         if (module->EDGE_LABEL_records[i].number <= module->EDGE_LABEL_records[i - 1].number)
             return tn_refuse(checker, "the numbers of its labels do not ascend");
-    if (module->AXIOM_count < 3 || module->AXIOM_count > TN_AXIOM_MAX)
-        return tn_refuse(checker, "its seed has %zu edges; 3 to %u are possible", module->AXIOM_count, TN_AXIOM_MAX);
-    if (module->TEMPLATE_count > TN_TEMPLATES_MAX)
-        return tn_refuse(checker, "it has %zu templates; the limit is %u", module->TEMPLATE_count, TN_TEMPLATES_MAX);
-    return TN_OK;
-}
-
-static tn_status check_branches(const tn_checker *checker)
-{
-    const tn_module *module = checker->module;
-    for (size_t i = 0; i < module->TEMPLATE_count; i++) {
-        const tn_template_record *template = &module->TEMPLATE_records[i];
-        for (uint32_t k = 0; k < template->branch_count; k++)
-            if (module->BRANCH_records[template->branch_first + k].at > template->segment_count)
-                return tn_refuse(checker, "branch %u of template %zu leaves from a point that is not there", k, i);
-    }
     return TN_OK;
 }
 
@@ -94,17 +78,13 @@ static tn_status check_goals(const tn_checker *checker)
 tn_status tn_growth_verify(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
-    size_t parts = module->EDGE_LABEL_count + module->AXIOM_count + module->REWRITE_GROUP_count +
-                   module->GROUP_LABEL_count + module->REWRITE_RULE_count + module->ALTERNATIVE_count +
-                   module->TEMPLATE_count + module->SEGMENT_count + module->BRANCH_count + module->STUDY_count +
-                   module->FORCE_count + module->BOUNDARY_count + module->GOAL_count;
+    size_t parts = module->EDGE_LABEL_count + module->REWRITE_GROUP_count + module->REWRITE_RULE_count +
+                   module->STUDY_count + module->FORCE_count + module->BOUNDARY_count + module->GOAL_count;
     if (module->GROWTH_count > 1 || module->STUDY_count > 1)
         return tn_refuse(checker, "it has more than one rewrite system or study");
     if (module->GROWTH_count == 0)
         return parts == 0 ? TN_OK : tn_refuse(checker, "it has parts of a rewrite system that it does not have");
     tn_status status = check_system(checker);
-    if (status == TN_OK)
-        status = check_branches(checker);
     if (status == TN_OK)
         status = check_surroundings(checker);
     return status == TN_OK ? check_goals(checker) : status;

@@ -89,19 +89,11 @@ static bool holds(const tn_alternative *alternative, int32_t age)
     }
 }
 
-static double total_weight(const tn_growth_rule *rule)
-{
-    double total = 0;
-    for (uint32_t i = 0; i < rule->alternative_count; i++)
-        total += rule->alternatives[i].weight;
-    return total;
-}
-
 /* The alternative that the next random number falls on. */
 static uint16_t draw(const tn_growth *growth, const tn_growth_rule *rule, uint64_t ordinal)
 {
     uint64_t bits = tn_mix64(growth->options.seed + ordinal * 0x9e3779b97f4a7c15u);
-    double u = (double)(bits >> 11) * 0x1p-53 * total_weight(rule), below = 0;
+    double u = (double)(bits >> 11) * 0x1p-53 * rule->total, below = 0;
     for (uint32_t i = 0; i < rule->alternative_count; i++) {
         below += rule->alternatives[i].weight;
         if (u < below)
@@ -131,7 +123,7 @@ static uint16_t select_template(const tn_pass *pass, const contexts *around, con
                     return (uint16_t)rule->alternatives[i].template;
             continue;
         }
-        if (total_weight(rule) <= 0)
+        if (rule->total <= 0)
             continue;
         if (!ordinal)
             return NEEDS_DRAW;

@@ -10,6 +10,7 @@
  *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
  *
+ * Matching and rewriting have a plain way too, which interprets the rules' code for every edge (interpret.h).
  * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again
  * where another face has the same edges replaced by the same templates.
  */

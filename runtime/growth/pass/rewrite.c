@@ -6,12 +6,7 @@
 
 #include "runtime/base/share.h"
 #include "runtime/growth/pass/axes.h"
-#include "runtime/growth/pass/pass.h"
-
-/* How many of each, so far or in a chunk. */
-typedef struct tally_counts {
-    uint64_t rewrites, kept, pieces, vertices, branches;
-} tally_counts;
+#include "runtime/growth/pass/rewrite.h"
 
 static inline const double *position(const tn_pass *pass, tn_edge_side side)
 {
@@ -179,8 +174,7 @@ static bool ages_stay_in_range(const tn_template *template, int32_t age)
 
 /* Replaces the edges first .. last, of which `first` gets the record; `at` holds the numbers that come next. False
  * where an age leaves its range. */
-static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tally_counts *at,
-                           placing *some)
+static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tn_tally *at, placing *some)
 {
     const tn_shape *shape = &pass->growth->shapes[chosen];
     const tn_template *template = shape->template;
@@ -201,7 +195,7 @@ static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_
     return true;
 }
 
-static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tally_counts *so_far)
+static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tn_tally *so_far)
 {
     const tn_template *template = &pass->growth->system->templates[chosen];
     so_far->rewrites += times;
@@ -210,8 +204,7 @@ static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tally_co
     so_far->branches += times * template->branch_count;
 }
 
-/* Memory for what the counts say, and the first numbers of each kind. */
-static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *error)
+tn_status tn_rewrite_make_room(tn_pass *pass, const tn_tally *total, tn_error *error)
 {
     tn_growth *growth = pass->growth;
     const tn_map *old = pass->old;
@@ -254,13 +247,6 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     return TN_OK;
 }
 
-static void keep(tn_pass *pass, uint32_t edge, uint32_t number)
-{
-    pass->records[edge] = (tn_record){2 * number, 0, pass->branch_first, TN_NO_TEMPLATE, 0};
-    tn_edge_state state = pass->old->states[edge];
-    pass->new->states[number] = pass->joins_last ? state & ~TN_STATE_FRESH : state;
-}
-
 /* ---- each edge on its own */
 
 static uint32_t group_at(const tn_pass *pass, uint32_t edge)
@@ -271,7 +257,7 @@ static uint32_t group_at(const tn_pass *pass, uint32_t edge)
 }
 
 /* Counted by runs of edges replaced alike: one after another, each would wait for the sums of the last. */
-static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
+static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tn_tally *by_group)
 {
     for (uint32_t e = begin, next; e < end; e = next) {
         uint16_t chosen = tn_choice(pass, e);
@@ -286,7 +272,7 @@ static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tally
     }
 }
 
-static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_counts *by_group)
+static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tn_tally *by_group)
 {
     placing some;
     start_placing(&some);
@@ -294,7 +280,7 @@ static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_cou
     for (uint32_t e = begin; e < end && fine; e++) {
         uint16_t chosen = tn_choice(pass, e);
         if (chosen == TN_NO_TEMPLATE) {
-            keep(pass, e, (uint32_t)by_group[0].kept++);
+            tn_rewrite_keep(pass, e, (uint32_t)by_group[0].kept++);
             continue;
         }
         fine = replace(pass, e, e, chosen, &by_group[group_at(pass, e)], &some);
@@ -303,12 +289,12 @@ static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tally_cou
 }
 
 /* Counts become first numbers: groups in order, chunks of edges in order within each. Returns the totals. */
-static tally_counts number(tn_pass *pass, tally_counts *counts, uint32_t chunks, uint32_t groups)
+static tn_tally number(tn_pass *pass, tn_tally *counts, uint32_t chunks, uint32_t groups)
 {
-    tally_counts next = {0};
+    tn_tally next = {0};
     for (uint32_t g = 0; g < groups; g++) {
         for (uint32_t c = 0; c < chunks; c++) {
-            tally_counts *one = &counts[(size_t)c * groups + g], here = *one;
+            tn_tally *one = &counts[(size_t)c * groups + g], here = *one;
             *one = next;
             next.rewrites += here.rewrites;
             next.kept += here.kept;
@@ -327,7 +313,7 @@ static tally_counts number(tn_pass *pass, tally_counts *counts, uint32_t chunks,
 
 typedef struct single_rewrite {
     tn_pass *pass;
-    tally_counts *counts; /* by chunk, then group */
+    tn_tally *counts; /* by chunk, then group */
     atomic_bool out_of_range;
 } single_rewrite;
 
@@ -337,7 +323,7 @@ static uint32_t chunk_end(const tn_pass *pass, uint32_t chunk)
     return edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
 }
 
-static tally_counts *counts_of(const single_rewrite *r, uint32_t chunk)
+static tn_tally *counts_of(const single_rewrite *r, uint32_t chunk)
 {
     return r->counts + (size_t)chunk * (r->pass->group_last - r->pass->group_first);
 }
@@ -363,8 +349,8 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
     if (!r.counts)
         return tn_fail_memory(error);
     tn_share(pass->threads, chunks, TN_SHARE_EVENLY, count_piece, &r);
-    tally_counts total = number(pass, r.counts, chunks, groups);
-    tn_status status = make_room(pass, &total, error);
+    tn_tally total = number(pass, r.counts, chunks, groups);
+    tn_status status = tn_rewrite_make_room(pass, &total, error);
     if (status == TN_OK)
         tn_share(pass->threads, chunks, TN_SHARE_EVENLY, rewrite_piece, &r);
     pass->out_of_range = r.out_of_range;
@@ -374,8 +360,7 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
 
 /* ---- chains */
 
-/* The record of a chain's first edge becomes that of all. */
-static void run_along(tn_pass *pass, const tn_replacement *chain)
+void tn_rewrite_along(tn_pass *pass, const tn_replacement *chain)
 {
     uint32_t d = pass->dart[2 * (size_t)chain->first], f = pass->sides[2 * (size_t)chain->first].face;
     uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
@@ -388,35 +373,42 @@ static void run_along(tn_pass *pass, const tn_replacement *chain)
 
 static tn_status rewrite_list(tn_pass *pass, tn_error *error)
 {
-    tally_counts total = {0};
+    tn_tally total = {0};
     uint32_t edges = pass->old->edge_count, replaced = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
         count(pass, pass->list[i].template, 1, &total);
         replaced += pass->list[i].length;
     }
     total.kept = edges - replaced;
-    tn_status status = make_room(pass, &total, error);
+    tn_status status = tn_rewrite_make_room(pass, &total, error);
     if (status != TN_OK)
         return status;
     pass->runs = malloc((edges ? edges : 1) * sizeof *pass->runs);
     if (!pass->runs)
         return tn_fail_memory(error);
     memset(pass->runs, 0xff, edges * sizeof *pass->runs);
-    tally_counts at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
+    tn_tally at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
     placing some;
     start_placing(&some);
     bool fine = true;
     for (size_t i = 0; i < pass->list_count && fine; i++) {
         const tn_replacement *one = &pass->list[i];
         fine = replace(pass, one->first, one->last, one->template, &at, &some);
-        run_along(pass, one);
+        tn_rewrite_along(pass, one);
     }
     pass->out_of_range = !fine || !place_all(pass, &some);
     uint32_t kept = 0;
     for (uint32_t e = 0; e < edges; e++)
         if (pass->runs[e].first == TN_NONE)
-            keep(pass, e, kept++);
+            tn_rewrite_keep(pass, e, kept++);
     return TN_OK;
+}
+
+tn_status tn_rewrite_out_of_range(const tn_pass *pass, tn_error *error)
+{
+    return tn_fail(error, TN_LIMIT, E_GROWTH_AGE,
+                   "in step %u an edge's age leaves the range of -%d to %d, or a coordinate that of numbers",
+                   pass->growth->steps + 1, TN_AGE_MAX, TN_AGE_MAX);
 }
 
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error)
@@ -424,12 +416,8 @@ tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error)
     tn_status status = pass->list ? rewrite_list(pass, error) : rewrite_singly(pass, error);
     if (status != TN_OK)
         return status;
-    if (pass->out_of_range) {
-        tn_fail(error, TN_LIMIT, E_GROWTH_AGE,
-                "in step %u an edge's age leaves the range of -%d to %d, or a coordinate that of numbers",
-                pass->growth->steps + 1, TN_AGE_MAX, TN_AGE_MAX);
-        return TN_LIMIT;
-    }
+    if (pass->out_of_range)
+        return tn_rewrite_out_of_range(pass, error);
     pass->growth->counts.rewrites += pass->rewrites;
     return TN_OK;
 }

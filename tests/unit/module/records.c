@@ -20,12 +20,12 @@
 
 /* ---- an engine that has all sections, and stops the loader once all fields were found right */
 
-static double seen_weight; /* of the alternative that was verified last */
+static double seen_weight; /* of the goal that was verified last */
 
 static tn_status fields_are_right(const tn_checker *checker)
 {
-    if (checker->module->ALTERNATIVE_count > 0)
-        seen_weight = checker->module->ALTERNATIVE_records[0].weight;
+    if (checker->module->GOAL_count > 0)
+        seen_weight = checker->module->GOAL_records[0].weight;
     return tn_refuse(checker, "its fields are right");
 }
 
@@ -383,10 +383,10 @@ static void test_missing_fields_have_their_defaults(void **state)
     (void)state;
     tn_error error;
     seen_weight = -1;
-    assert_null(resized(TN_SECTION_ALTERNATIVE, tn_section_stored(TN_SECTION_ALTERNATIVE) - 8, &error));
+    assert_null(resized(TN_SECTION_GOAL, tn_section_stored(TN_SECTION_GOAL) - 20, &error));
     assert_true(seen_weight == 1); /* DEFAULT(weight, 1) */
     seen_weight = -1;
-    assert_null(resized(TN_SECTION_ALTERNATIVE, tn_section_stored(TN_SECTION_ALTERNATIVE), &error));
+    assert_null(resized(TN_SECTION_GOAL, tn_section_stored(TN_SECTION_GOAL), &error));
     assert_true(seen_weight == 0);
     tn_grammar_record grammar;
     memset(&grammar, 7, sizeof grammar);
