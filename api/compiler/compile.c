@@ -1,10 +1,12 @@
-/* The compiling half of the C interface (include/tartan/tartan.h). */
+/* The C interface to compiling rule files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/runtime/api.h"
-#include "driver/open/open.h"
+#include "api/base/api.h"
+#include "compiler/compile.h"
+#include "runtime/base/file.h"
+#include "runtime/load.h"
 
 _Static_assert((int)TARTAN_NOTE == (int)TN_NOTE && (int)TARTAN_ERROR == (int)TN_ERROR,
                "severities are the same numbers");
@@ -56,37 +58,71 @@ static tartan_status failed(const tn_diagnostics *diagnostics, tn_status status,
     return tn_api_refuse(error, (tartan_status)status, "the rules could not be compiled");
 }
 
-static tartan_status finish(tn_opened *opened, tn_status status, tartan_report *report, void *context,
-                            tartan_module **module, tartan_error *error)
+/* The module of a compilation. */
+static tartan_status load(tn_compilation *compilation, tartan_module **module, tartan_error *error)
 {
-    show_all(&opened->compilation, report, context);
-    tartan_status result;
-    if (status != TN_OK) {
-        result = failed(&opened->compilation.diagnostics, status, error);
-    } else if (!opened->compiled) {
-        result = tn_api_refuse(error, TARTAN_INVALID, "%s is a module, not a rule file", opened->path);
-    } else {
-        result =
-            tn_api_module(opened->module, opened->compilation.module, opened->compilation.module_size, module, error);
-        opened->module = NULL;
-        opened->compilation.module = NULL;
-    }
-    tn_close(opened);
-    return result;
+    tn_module *loaded;
+    tn_error found;
+    if (tn_module_load(compilation->module, compilation->module_size, NULL, &loaded, &found) != TN_OK)
+        return tn_api_fail(&found, error);
+    uint8_t *bytes = compilation->module;
+    compilation->module = NULL;
+    return tn_api_module(loaded, bytes, compilation->module_size, module, error);
 }
 
-tartan_status tartan_compile_file(const char *path, tartan_report *report, void *context, tartan_module **module,
-                                  tartan_error *error)
+static tartan_status compile(const char *path, const char *text, size_t size, const tartan_compile_options *options,
+                             tartan_module **module, tartan_error *error)
 {
-    tn_opened opened;
-    tn_status status = tn_open(path, false, &opened);
-    return finish(&opened, status, report, context, module, error);
+    tn_compilation compilation;
+    const tn_compile_options own = {.stdlib_dirs = options->folders,
+                                    .stdlib_dir_count = options->folder_count,
+                                    .warnings_are_errors = options->warnings_are_errors};
+    tn_status compiled = tn_compile_text(path, text, size, &own, &compilation);
+    show_all(&compilation, options->report, options->report_context);
+    tartan_status status =
+        compiled == TN_OK ? load(&compilation, module, error) : failed(&compilation.diagnostics, compiled, error);
+    tn_compilation_clear(&compilation);
+    return status;
 }
 
-tartan_status tartan_compile_text(const char *path, const char *text, size_t size, tartan_report *report, void *context,
+static tartan_status take(const char *path, const tartan_compile_options *given, tartan_compile_options *options,
+                          tartan_error *error)
+{
+    if (!path)
+        return tn_api_missing(error, "path");
+    tartan_status status = TN_API_TAKE(tartan_compile_options, options, given, error);
+    if (status == TARTAN_OK && options->folder_count && !options->folders)
+        status = tn_api_missing(error, "array of folders");
+    return status;
+}
+
+tartan_status tartan_compile_text(const char *path, const char *text, size_t size, const tartan_compile_options *given,
                                   tartan_module **module, tartan_error *error)
 {
-    tn_opened opened;
-    tn_status status = tn_open_bytes(path, (const uint8_t *)text, size, false, &opened);
-    return finish(&opened, status, report, context, module, error);
+    tartan_compile_options options;
+    tartan_status status = take(path, given, &options, error);
+    if (status != TARTAN_OK)
+        return status;
+    if (size && !text)
+        return tn_api_missing(error, "text");
+    if (tn_module_has_magic(text, size))
+        return tn_api_refuse(error, TARTAN_INVALID, "%.200s is a module, not a rule file", path);
+    return compile(path, size ? text : "", size, &options, module, error);
+}
+
+tartan_status tartan_compile_file(const char *path, const tartan_compile_options *given, tartan_module **module,
+                                  tartan_error *error)
+{
+    tartan_compile_options options;
+    uint8_t *bytes;
+    size_t size;
+    tn_error found;
+    tartan_status status = take(path, given, &options, error);
+    if (status != TARTAN_OK)
+        return status;
+    if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &found) != TN_OK)
+        return tn_api_fail(&found, error);
+    status = tartan_compile_text(path, (const char *)bytes, size, given, module, error);
+    free(bytes);
+    return status;
 }
