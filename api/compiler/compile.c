@@ -5,6 +5,7 @@
 
 #include "api/base/api.h"
 #include "compiler/compile.h"
+#include "driver/open/files.h"
 #include "runtime/base/file.h"
 #include "runtime/load.h"
 
@@ -70,14 +71,65 @@ static tartan_status load(tn_compilation *compilation, tartan_module **module, t
     return tn_api_module(loaded, bytes, compilation->module_size, module, error);
 }
 
-static tartan_status compile(const char *path, const char *text, size_t size, const tartan_compile_options *options,
+/* ---- where what is used comes from */
+
+/* Asks the caller. */
+static tn_status resolve(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    const tartan_compile_options *options = context;
+    const tartan_use use = {request->path, request->extension, request->user};
+    tartan_text text = {.name = request->path};
+    tartan_error said = {.status = TARTAN_OK};
+    (void)meant;
+    tartan_status status = options->resolve(options->resolve_context, &use, &text, &said);
+    if (status == TARTAN_MEMORY)
+        return tn_fail_memory(error);
+    if (status == TARTAN_OK && (text.text || text.size == 0)) {
+        *found = (tn_input){
+            .text = text.text ? text.text : "", .size = text.size, .name = text.name ? text.name : request->path};
+        return TN_OK;
+    }
+    tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "%.479s", said.message[0] ? said.message : "there is no such text");
+    if (said.help[0])
+        tn_error_help(error, "%.319s", said.help);
+    return TN_INVALID;
+}
+
+/* Compiles with files that lie beside the text, and in the caller's folders. */
+static tn_status compile_with_files(const tn_notation *notation, tn_input *input, const tartan_compile_options *options,
+                                    tn_compilation *compilation)
+{
+    tn_files files;
+    char *identity = tn_file_identity(input->name);
+    char **folders = calloc(options->folder_count + 1, sizeof *folders);
+    bool copied = folders && identity;
+    for (size_t i = 0; copied && i < options->folder_count; i++)
+        copied = (folders[i] = strdup(options->folders[i])) != NULL;
+    tn_stdlib_dirs dirs = {folders, options->folder_count};
+    tn_files_begin(&files, &dirs);
+    input->identity = identity;
+    const tn_compile_options own = {tn_files_resolver(&files), options->warnings_are_errors};
+    tn_status status = copied ? tn_compile_text(notation, input, &own, compilation) : TN_MEMORY;
+    tn_files_clear(&files);
+    for (size_t i = 0; folders && i < options->folder_count; i++)
+        free(folders[i]);
+    free(folders);
+    free(identity);
+    return status;
+}
+
+static tartan_status compile(const char *path, const char *text, size_t size, tartan_compile_options *options,
                              tartan_module **module, tartan_error *error)
 {
-    tn_compilation compilation;
-    const tn_compile_options own = {.stdlib_dirs = options->folders,
-                                    .stdlib_dir_count = options->folder_count,
-                                    .warnings_are_errors = options->warnings_are_errors};
-    tn_status compiled = tn_compile_text(path, text, size, &own, &compilation);
+    tn_compilation compilation = {0};
+    tn_input input = {.text = text, .size = size, .name = path};
+    const tn_notation *notation = tn_notation_or_first(path, text, size);
+    const tn_compile_options own = {{resolve, options}, options->warnings_are_errors};
+    tn_diagnostics_init(&compilation.diagnostics, &compilation.sources);
+    tn_status compiled = options->resolve ? tn_compile_text(notation, &input, &own, &compilation)
+                                          : compile_with_files(notation, &input, options, &compilation);
+    if (compiled == TN_MEMORY && !compilation.arena)
+        return tn_api_memory(error);
     show_all(&compilation, options->report, options->report_context);
     tartan_status status =
         compiled == TN_OK ? load(&compilation, module, error) : failed(&compilation.diagnostics, compiled, error);
@@ -93,6 +145,9 @@ static tartan_status take(const char *path, const tartan_compile_options *given,
     tartan_status status = TN_API_TAKE(tartan_compile_options, options, given, error);
     if (status == TARTAN_OK && options->folder_count && !options->folders)
         status = tn_api_missing(error, "array of folders");
+    for (size_t i = 0; status == TARTAN_OK && i < options->folder_count; i++)
+        if (!options->folders[i])
+            status = tn_api_missing(error, "folder");
     return status;
 }
 

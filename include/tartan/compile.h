@@ -24,12 +24,32 @@ typedef struct tartan_diagnostic {
  * during the call. */
 typedef void tartan_report(void *context, const tartan_diagnostic *diagnostic);
 
+/* A `use` that is asked for. */
+typedef struct tartan_use {
+    const char *path;      /* as its author wrote it */
+    const char *extension; /* of the notation that is asked for, ".plan": for paths that name none */
+    const char *user;      /* the name of the text that it is written in */
+} tartan_use;
+
+/* A text that was found. */
+typedef struct tartan_text {
+    const char *text; /* the caller's, to stay there until compiling has ended */
+    size_t size;
+    const char *name; /* what diagnostics call it, the same for the same text; likewise. NULL: as it was asked for */
+} tartan_text;
+
+/* Finds what a `use` asks for, on the thread that compiles. Any status but TARTAN_OK is an error at the `use`, with the
+ * message and help of `error` (never NULL); TARTAN_MEMORY ends the compilation. */
+typedef tartan_status tartan_resolve(void *context, const tartan_use *use, tartan_text *found, tartan_error *error);
+
 typedef struct tartan_compile_options {
     size_t size;
     tartan_report *report; /* may be NULL */
     void *report_context;
     const char *const *folders; /* where `use "name"`, without slash and extension, is looked for, in this order */
     size_t folder_count;
+    tartan_resolve *resolve; /* where all that is used comes from, and no file is opened; NULL: files, and `folders` */
+    void *resolve_context;
     bool warnings_are_errors;
 } tartan_compile_options;
 TARTAN_SIZED(tartan_compile_options)

@@ -111,6 +111,42 @@ static void says_what_is_wrong(void **state)
     assert_true(error.message[0]);
 }
 
+/* Texts by a table: no file is opened. */
+static tartan_status from_table(void *context, const tartan_use *use, tartan_text *found, tartan_error *error)
+{
+    ++*(int *)context;
+    static const char shared[] = "schema box { lid = flag }\nrule open = tray(lid)\n";
+    if (strcmp(use->path, "shared") != 0) {
+        snprintf(error->message, sizeof error->message, "the table has no %s", use->path);
+        return TARTAN_INVALID;
+    }
+    assert_string_equal(use->extension, ".plan");
+    assert_string_equal(use->user, "main.plan");
+    *found = (tartan_text){.text = shared, .size = sizeof shared - 1};
+    return TARTAN_OK;
+}
+
+static void asks_the_resolver(void **state)
+{
+    (void)state;
+    static const char good[] = "use \"shared\"\nrule shut = not open\n", bad[] = "use \"other\"\n";
+    tartan_compile_options options = tartan_compile_options_init();
+    tartan_module *module = NULL;
+    tartan_error error;
+    int asked = 0;
+    options.resolve = from_table;
+    options.resolve_context = &asked;
+    if (tartan_compile_text("main.plan", good, sizeof good - 1, &options, &module, &error) != TARTAN_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(asked, 1);
+    assert_int_equal(tartan_module_rule_count(module), 2);
+    tartan_module_free(module);
+    module = NULL;
+    assert_int_equal(tartan_compile_text("main.plan", bad, sizeof bad - 1, &options, &module, &error), TARTAN_INVALID);
+    assert_string_equal(error.message, "the table has no other");
+    assert_null(module);
+}
+
 static void saves_and_loads(void **state)
 {
     (void)state;
@@ -365,10 +401,15 @@ static void walks_and_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compiles_and_describes), cmocka_unit_test(says_what_is_wrong),
-        cmocka_unit_test(saves_and_loads),        cmocka_unit_test(matches),
-        cmocka_unit_test(matches_many),           cmocka_unit_test(reads_and_writes_plans),
-        cmocka_unit_test(opens_a_library),        cmocka_unit_test(walks_and_samples),
+        cmocka_unit_test(compiles_and_describes),
+        cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(asks_the_resolver),
+        cmocka_unit_test(saves_and_loads),
+        cmocka_unit_test(matches),
+        cmocka_unit_test(matches_many),
+        cmocka_unit_test(reads_and_writes_plans),
+        cmocka_unit_test(opens_a_library),
+        cmocka_unit_test(walks_and_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
