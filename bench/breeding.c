@@ -225,7 +225,7 @@ int main(int count, char **words)
     tn_growth *growths[THREADS] = {NULL};
     bench b = {.study = &study, .growths = growths, .evaluator = tn_grower_evaluator(grower)};
     tn_genome *seeds = find_seeds(&b, grammar);
-    tn_evaluator keeping = {&b, b.evaluator.objectives, keep_and_score, NULL};
+    tn_evaluator keeping = {.context = &b, .objectives = b.evaluator.objectives, .evaluate = keep_and_score};
     breed(grammar, seeds, &keeping, 1, &(spent){0});
     for (unsigned threads = 1; threads <= THREADS; threads *= 2)
         report(&b, grammar, seeds, threads);

@@ -25,7 +25,8 @@ struct tn_background {
     const tn_stdlib_dirs *stdlib; /* the workspace's, which does not change */
     tn_plan_memory *memory;       /* the workspace's, which threads share */
     int wake;
-    atomic_bool stop, ended;
+    tn_watch watch; /* only its `stop` */
+    atomic_bool ended;
     tn_analysis *analysis;
     tn_facts *facts;
 };
@@ -70,7 +71,7 @@ static void look(tn_background *b)
     if (tn_module_load(opened.compilation.module, opened.compilation.module_size, NULL, &opened.module, &error) !=
         TN_OK)
         return;
-    opened.module->stop = &b->stop;
+    opened.module->watch = &b->watch;
     look_at_module(b, &opened);
     tn_module_free(opened.module);
     tn_diagnostics_sort(&opened.compilation.diagnostics);
@@ -147,7 +148,7 @@ tn_background *tn_background_start(const tn_workspace *workspace, const tn_docum
 
 void tn_background_cancel(tn_background *background)
 {
-    background->stop = true;
+    background->watch.stop = true;
 }
 
 bool tn_background_ended(tn_background *background)
@@ -158,9 +159,9 @@ bool tn_background_ended(tn_background *background)
 void tn_background_finish(tn_background *background, tn_analysis **analysis, tn_facts **facts)
 {
     pthread_join(background->thread, NULL);
-    *analysis = background->stop ? NULL : background->analysis;
-    *facts = background->stop ? NULL : background->facts;
-    if (!background->stop) {
+    *analysis = background->watch.stop ? NULL : background->analysis;
+    *facts = background->watch.stop ? NULL : background->facts;
+    if (!background->watch.stop) {
         background->analysis = NULL;
         background->facts = NULL;
     }

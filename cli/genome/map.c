@@ -106,7 +106,7 @@ static void write_tree(mapping_run *run, const tn_mapping *m)
              tn_tree_write_json(run->grammar, m->events, &tree, run->out))
         fputc('\n', run->out);
     else if (status == TN_OK && strcmp(how, "json") != 0)
-        status = tn_tree_draw(run->grammar, m->events, &tree, how, &error);
+        status = tn_tree_draw(run->grammar, m->events, &tree, &(tn_picture){.path = how}, &error);
     if (status != TN_OK)
         fail(run, &error);
     tn_tree_clear(&tree);

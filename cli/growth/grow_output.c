@@ -200,6 +200,11 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format f
 
 /* ---- pictures */
 
+static tn_picture picture_to(const char *path, tn_grow_format format)
+{
+    return (tn_picture){.path = path, .format = (tn_canvas_format)(format - TN_GROW_SVG + TN_CANVAS_SVG)};
+}
+
 static void note_depth(tn_job *job, const tn_view *view)
 {
     if (tn_view_by_depth(view) > 0)
@@ -221,8 +226,8 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
                                .columns = (uint32_t)settings->columns.value,
                                .dpi = (uint32_t)settings->dpi.value,
                                .system = tn_growth_rules(growth)};
-    if (count && tn_views_draw(views, count, &options, settings->output, (tn_canvas_format)(format - TN_GROW_SVG),
-                               &error) != TN_OK)
+    tn_picture to = picture_to(settings->output, format);
+    if (count && tn_views_draw(views, count, &options, &to, &error) != TN_OK)
         tn_job_fail(job, &error);
 }
 
@@ -238,11 +243,12 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
                                .caption = caption,
                                .dpi = (uint32_t)job->settings->dpi.value,
                                .system = tn_growth_rules(growth)};
+    tn_picture to = picture_to(path, format);
     tn_status status = tn_view_take(growth, &camera, &view, &error);
     if (status == TN_OK)
         note_depth(job, view);
     if (status == TN_OK)
-        status = tn_views_draw(&view, 1, &options, path, (tn_canvas_format)(format - TN_GROW_SVG), &error);
+        status = tn_views_draw(&view, 1, &options, &to, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_view_free(view);

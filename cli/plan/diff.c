@@ -92,7 +92,7 @@ static tn_status draw(const tn_diff_report *report, const tn_settings *settings,
                                .note_count = TN_DIFF_PARTS + 1};
     if (status == TN_OK)
         status = tn_plans_draw(tn_library_schema(tn_library_diff_part(report->diff, TN_DIFF_KEPT)), s.plans, s.count,
-                               &options, settings->output, error);
+                               &options, &(tn_picture){.path = settings->output}, error);
     sheet_clear(&s);
     return status;
 }
@@ -127,7 +127,7 @@ void tn_job_compare(tn_job *job, const char *const paths[2], const tn_ready_libr
     const tn_settings *settings = job->settings;
     tn_library_diff *diff;
     tn_error error;
-    if (tn_library_diff_new(before->library, after->library, (uint32_t)settings->max_states.value, &diff, &error) !=
+    if (tn_library_diff_new(before->library, after->library, (uint32_t)settings->max_states.value, NULL, &diff, &error) !=
         TN_OK) {
         error.code_offset = TN_NO_OFFSET;
         tn_job_fail(job, &error);

@@ -194,7 +194,8 @@ static void draw_sheet(sheet *s)
                                .dpi = (uint32_t)settings->dpi.value,
                                .max_plans = max_plans(settings)};
     tn_job_show(s->job);
-    if (tn_plans_draw(s->schema, s->plans, s->count, &options, settings->output, &error) != TN_OK)
+    if (tn_plans_draw(s->schema, s->plans, s->count, &options, &(tn_picture){.path = settings->output}, &error) !=
+        TN_OK)
         tn_job_fail(s->job, &error);
 }
 

@@ -188,7 +188,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written;
     job->extension = learns ? "plan" : grows ? "hemls" : "txt";
     if (options->only_replay) {
-        job->evaluator = (tn_evaluator){NULL, options->objectives, never_evaluate, NULL};
+        job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = never_evaluate};
         return TN_OK;
     }
     if (learns)

@@ -60,7 +60,7 @@ static tn_status draw_derivation(tn_run *run, const char *path, const tn_individ
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
     if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
-        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, path, error);
+        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, &(tn_picture){.path = path}, error);
     tn_tree_clear(&tree);
     tn_mapper_free(mapper);
     return status;

@@ -208,7 +208,10 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower)
 {
-    return (tn_evaluator){grower, grower->separately ? grower->goal_count : 1, score_growth, adjust};
+    return (tn_evaluator){.context = grower,
+                          .objectives = grower->separately ? grower->goal_count : 1,
+                          .evaluate = score_growth,
+                          .adjust = adjust};
 }
 
 const char *tn_grower_objective(const tn_grower *g, size_t i)
@@ -238,7 +241,7 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const
     }
     tn_view_options options = {.title = title, .labels = labels};
     if (status == TN_OK && drawn)
-        status = tn_views_draw(views, drawn, &options, path, format, error);
+        status = tn_views_draw(views, drawn, &options, &(tn_picture){.path = path}, error);
     for (size_t i = 0; views && i < drawn; i++)
         tn_view_free(views[i]);
     tn_growth_free(growth);

@@ -222,7 +222,8 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
 
 tn_evaluator tn_learner_evaluator(tn_learner *learner)
 {
-    return (tn_evaluator){learner, learner->separately ? 2 : 1, score_rule, adjust};
+    return (tn_evaluator){
+        .context = learner, .objectives = learner->separately ? 2 : 1, .evaluate = score_rule, .adjust = adjust};
 }
 
 /* ---- pictures */

@@ -2,7 +2,7 @@
  * library for plans.
  *
  *   cc embed.c $(pkg-config --cflags --libs tartan) -o embed
- *   ./embed narrow.plan <plans.txt
+ *   ./embed narrow.plan $(pkg-config --variable=stdlibdir tartan) <plans.txt
  */
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +25,7 @@ static tartan_status match_lines(const tartan_module *module, tartan_error *erro
 {
     tartan_rules *rules = NULL;
     tartan_matcher *matcher = NULL;
-    tartan_status status = tartan_rules_new(module, NULL, 0, &rules, error);
+    tartan_status status = tartan_rules_new(module, NULL, 0, NULL, &rules, error);
     if (status == TARTAN_OK)
         status = tartan_matcher_new(rules, &matcher, error);
     char line[4096];
@@ -51,7 +51,7 @@ static tartan_status sample(const tartan_module *module, tartan_error *error)
     tartan_library *library = NULL;
     tartan_plans *plans = NULL;
     char *count = NULL;
-    tartan_status status = tartan_library_open(module, NULL, &library, error);
+    tartan_status status = tartan_library_open(module, NULL, NULL, &library, error);
     if (status == TARTAN_OK)
         status = tartan_library_count(library, TARTAN_ANY_LENGTH, &count, error);
     if (status == TARTAN_OK)
@@ -76,13 +76,19 @@ static tartan_status sample(const tartan_module *module, tartan_error *error)
 
 int main(int argc, char **argv)
 {
-    if (argc != 2) {
-        fprintf(stderr, "usage: %s RULES.plan <PLANS\n", argv[0]);
+    if (argc != 3) {
+        fprintf(stderr, "usage: %s RULES.plan STDLIB <PLANS\n", argv[0]);
         return 2;
     }
     tartan_error error;
     tartan_module *module = NULL;
-    tartan_status status = tartan_compile_file(argv[1], show, stderr, &module, &error);
+    const char *folders[] = {argv[2]};
+    tartan_compile_options options = tartan_compile_options_init();
+    options.report = show;
+    options.report_context = stderr;
+    options.folders = folders;
+    options.folder_count = 1;
+    tartan_status status = tartan_compile_file(argv[1], &options, &module, &error);
     if (status == TARTAN_OK)
         status = match_lines(module, &error);
     if (status == TARTAN_OK)

@@ -26,8 +26,9 @@ struct tn_canvas {
     char *path;
     char *text; /* of an SVG, until its ids are numbered */
     size_t text_size, text_room;
-    tn_picture *page; /* NULL: a file */
-    FILE *letters;    /* of a page: its lettering as it is set */
+    tn_picture *page;   /* or NULL */
+    tn_picture *memory; /* or NULL */
+    FILE *letters;      /* of a page: its lettering as it is set */
     char *lettering;
     size_t lettering_size;
     bool out_of_memory;
@@ -38,7 +39,7 @@ tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_err
     static const char *const extensions[] = {
         [TN_CANVAS_SVG] = ".svg", [TN_CANVAS_PNG] = ".png", [TN_CANVAS_PDF] = ".pdf"};
     const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++) {
+    for (size_t i = TN_CANVAS_SVG; dot && i < sizeof extensions / sizeof *extensions; i++) {
         if (strcasecmp(dot, extensions[i]) == 0) {
             *format = (tn_canvas_format)i;
             return TN_OK;
@@ -152,15 +153,49 @@ static tn_status new_element(tn_picture *page, const tn_canvas_options *options,
     return status;
 }
 
+/* A canvas whose file is in memory. */
+static tn_status new_in_memory(tn_picture *picture, const tn_canvas_options *options, tn_canvas **canvas,
+                               tn_error *error)
+{
+    tn_canvas *made = calloc(1, sizeof *made);
+    if (!made)
+        return tn_fail_memory(error);
+    made->format = picture->format;
+    made->memory = picture;
+    made->output.stream = open_memstream(&picture->element, &picture->size);
+    tn_status status = made->output.stream ? start(made, options, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        *canvas = made;
+    else
+        tn_canvas_free(made);
+    return status;
+}
+
+tn_status tn_picture_format(const tn_picture *picture, tn_canvas_format *format, tn_error *error)
+{
+    if (picture->path && picture->format == TN_CANVAS_BY_PATH)
+        return tn_canvas_format_of(picture->path, format, error);
+    *format = picture->format == TN_CANVAS_BY_PATH ? TN_CANVAS_SVG : picture->format;
+    return TN_OK;
+}
+
+tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, tn_canvas **canvas, tn_error *error)
+{
+    tn_canvas_format format;
+    tn_status status = tn_picture_format(picture, &format, error);
+    if (status != TN_OK)
+        return status;
+    if (picture->path)
+        return tn_canvas_new(picture->path, format, options, canvas, error);
+    return picture->format == TN_CANVAS_BY_PATH ? new_element(picture, options, canvas, error)
+                                                : new_in_memory(picture, options, canvas, error);
+}
+
 tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
                           tn_error *error)
 {
     tn_canvas_options options = {width, height, picture->dpi, title};
-    tn_canvas_format format;
-    if (!picture->path)
-        return new_element(picture, &options, canvas, error);
-    tn_status status = tn_canvas_format_of(picture->path, &format, error);
-    return status == TN_OK ? tn_canvas_new(picture->path, format, &options, canvas, error) : status;
+    return tn_canvas_open(picture, &options, canvas, error);
 }
 
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
@@ -250,6 +285,27 @@ static tn_status write_element(tn_canvas *canvas, tn_error *error)
     return element ? TN_OK : tn_fail_memory(error);
 }
 
+/* The picture's bytes are the caller's now. */
+static tn_status close_memory(tn_canvas *canvas, tn_error *error)
+{
+    bool failed = ferror(canvas->output.stream) != 0;
+    failed |= fclose(canvas->output.stream) != 0;
+    canvas->output.stream = NULL;
+    if (!failed)
+        canvas->memory = NULL;
+    return failed ? tn_fail_memory(error) : TN_OK;
+}
+
+/* What was drawn into memory and not committed goes. */
+static void discard_memory(tn_canvas *canvas)
+{
+    if (canvas->output.stream)
+        fclose(canvas->output.stream);
+    canvas->output.stream = NULL;
+    free(canvas->memory->element);
+    canvas->memory->element = NULL;
+}
+
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
 {
     cairo_show_page(canvas->context);
@@ -266,7 +322,7 @@ tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
         return write_element(canvas, error);
     tn_status status = canvas->format == TN_CANVAS_SVG ? write_svg(canvas, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_output_commit(&canvas->output, error);
+        status = canvas->memory ? close_memory(canvas, error) : tn_output_commit(&canvas->output, error);
     if (status == TN_OK && drawn == CAIRO_STATUS_WRITE_ERROR)
         status = cairo_failed(canvas, drawn, error);
     return status;
@@ -280,6 +336,8 @@ void tn_canvas_free(tn_canvas *canvas)
         cairo_destroy(canvas->context);
     if (canvas->surface)
         cairo_surface_destroy(canvas->surface);
+    if (canvas->memory)
+        discard_memory(canvas);
     tn_output_discard(&canvas->output);
     if (canvas->letters)
         fclose(canvas->letters);

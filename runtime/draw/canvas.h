@@ -13,7 +13,7 @@
 
 typedef struct tn_canvas tn_canvas;
 
-typedef enum tn_canvas_format { TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF } tn_canvas_format;
+typedef enum tn_canvas_format { TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF } tn_canvas_format;
 
 /* The most pixels of a PNG: 4 bytes each while it is drawn. A side is limited to 32,767 by cairo. */
 #define TN_CANVAS_PIXELS_MAX UINT64_C(100000000)
@@ -31,18 +31,25 @@ typedef struct tn_canvas_options {
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
 
-/* Where a picture goes: to a file, or into an HTML page as an <svg> element whose lettering is text, which makes it a
- * tenth of the size. */
+/* Where a picture goes: to a file, into memory, or into an HTML page as an <svg> element whose lettering is text, which
+ * makes it a tenth of the size. */
 typedef struct tn_picture {
-    const char *path; /* its extension says how; NULL: into a page */
-    uint32_t dpi;     /* of a PNG; 0: 150 */
-    unsigned number;  /* into a page: which of its pictures, so that no two ids are the same */
-    char *element;    /* into a page: the element once it is committed, which the caller frees */
+    const char *path;        /* a file; NULL: into memory or a page */
+    tn_canvas_format format; /* BY_PATH: what the path's extension says, or, without a path, into a page */
+    uint32_t dpi;            /* of a PNG; 0: 150 */
+    unsigned number;         /* into a page: which of its pictures, so that no two ids are the same */
+    char *element;           /* into memory or a page: what was drawn once it is committed, which the caller frees */
     size_t size;
 } tn_picture;
 
-/* Starts a picture that goes there; `picture` stays the caller's, and is filled when the canvas is committed. Errors
- * also as in tn_canvas_format_of. */
+/* The format that a picture will have; TN_CANVAS_SVG into a page. Errors as in tn_canvas_format_of. */
+tn_status tn_picture_format(const tn_picture *picture, tn_canvas_format *format, tn_error *error);
+
+/* Starts a picture that goes there (its dpi is the options'); `picture` stays the caller's until the canvas is freed,
+ * and is filled when it is committed. Errors as in tn_canvas_new. */
+tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, tn_canvas **canvas, tn_error *error);
+
+/* The same, with the picture's dpi. */
 tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
                           tn_error *error);
 

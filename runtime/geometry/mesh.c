@@ -28,6 +28,34 @@ tn_status tn_mesh_new(size_t vertices, size_t faces, size_t corners, tn_mesh *me
     return tn_fail_memory(error);
 }
 
+/* A copy of an array; NULL for NULL. Sets *failed where out of memory. */
+static void *copy_array(const void *array, size_t size, bool *failed)
+{
+    void *copy = array ? malloc(size + 1) : NULL;
+    *failed |= array && !copy;
+    if (copy && size)
+        memcpy(copy, array, size);
+    return copy;
+}
+
+tn_status tn_mesh_copy(const tn_mesh *mesh, tn_mesh *copy, tn_error *error)
+{
+    bool failed = false;
+    size_t corners = mesh->face_count ? mesh->face_first[mesh->face_count] : 0;
+    *copy = *mesh;
+    copy->positions = copy_array(mesh->positions, 3 * mesh->vertex_count * sizeof *mesh->positions, &failed);
+    copy->face_first = copy_array(mesh->face_first, (mesh->face_count + 1) * sizeof *mesh->face_first, &failed);
+    copy->corners = copy_array(mesh->corners, corners * sizeof *mesh->corners, &failed);
+    copy->face_group = copy_array(mesh->face_group, mesh->face_count * sizeof *mesh->face_group, &failed);
+    copy->group_names = copy_array(mesh->group_names, mesh->group_count * sizeof *mesh->group_names, &failed);
+    copy->lines = copy_array(mesh->lines, 2 * mesh->line_count * sizeof *mesh->lines, &failed);
+    copy->line_group = copy_array(mesh->line_group, mesh->line_count * sizeof *mesh->line_group, &failed);
+    if (!failed)
+        return TN_OK;
+    tn_mesh_clear(copy);
+    return tn_fail_memory(error);
+}
+
 static const double *place(const tn_mesh *mesh, uint32_t vertex)
 {
     return mesh->positions + 3 * (size_t)vertex;

@@ -27,6 +27,9 @@ void tn_mesh_clear(tn_mesh *mesh);
 /* Room for so many; TN_MEMORY. Groups and lines are not made. */
 tn_status tn_mesh_new(size_t vertices, size_t faces, size_t corners, tn_mesh *mesh, tn_error *error);
 
+/* A mesh of its own, the same to the last number. Clear it in any case. */
+tn_status tn_mesh_copy(const tn_mesh *mesh, tn_mesh *copy, tn_error *error);
+
 /* Newell's normal of a loop of vertices: twice its area long. */
 void tn_mesh_face_normal(const tn_mesh *mesh, const uint32_t *corners, uint32_t count, double n[3]);
 

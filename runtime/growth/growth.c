@@ -359,16 +359,23 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                     .threads = growth->options.threads > 0 ? growth->options.threads : omp_get_max_threads(),
                     .walks_vertices = walks_vertices(growth, first, last),
                     .branch_first = growth->branches};
+    tn_watch *watch = growth->options.watch;
     tn_status status = tn_pass_survey(&pass, error);
     if (status == TN_OK)
+        status = tn_watch_check(watch, error);
+    if (status == TN_OK)
         status = growth->options.interpret ? tn_interpret_match(&pass, error) : tn_pass_match(&pass, error);
+    if (status == TN_OK)
+        status = tn_watch_check(watch, error);
     bool explaining = growth->options.explain && pass.joins_last && growth->pending.count;
     if (status == TN_OK && (anything_to_do(&pass) || explaining)) {
         status = growth->options.interpret ? tn_interpret_rewrite(&pass, error) : tn_pass_rewrite(&pass, error);
         if (status == TN_OK) {
             if (growth->options.explain)
                 explain_outside(&pass);
-            status = tn_pass_faces(&pass, error);
+            status = tn_watch_check(watch, error);
+            if (status == TN_OK)
+                status = tn_pass_faces(&pass, error);
         }
         if (status == TN_OK && !growth->needs_ranks)
             status = finish_pass(&pass, error);
@@ -448,6 +455,11 @@ tn_status tn_growth_regrow(tn_growth *growth, uint32_t steps, tn_error *error)
 }
 
 /* ---- looking at it */
+
+void tn_growth_watch(tn_growth *growth, tn_watch *watch)
+{
+    growth->options.watch = watch;
+}
 
 const tn_map *tn_growth_map(const tn_growth *growth)
 {

@@ -27,6 +27,9 @@ tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, con
  * that is no longer finite; the map is then unusable. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error);
 
+/* Who waits for the steps to come; NULL: nobody. */
+void tn_growth_watch(tn_growth *growth, tn_watch *watch);
+
 /* Back to the seed, and `steps` steps. */
 tn_status tn_growth_regrow(tn_growth *growth, uint32_t steps, tn_error *error);
 

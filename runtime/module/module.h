@@ -16,7 +16,7 @@
 #ifndef TARTAN_MODULE_MODULE_H
 #define TARTAN_MODULE_MODULE_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 #include "runtime/module/opcodes.h"
 #include "runtime/module/values.h"
 
@@ -76,8 +76,8 @@ typedef struct tn_module {
 #include "runtime/module/records.def"
     tn_table tables[TN_SECTION_COUNT];
     uint64_t hash; /* the file's */
-    /* Set by the owner, or NULL: long work on the module's rules gives up (TN_STOPPED) once this is true. */
-    const _Atomic bool *stop;
+    /* Set by the owner, or NULL: long work on the module's rules gives up (TN_STOPPED) once this says so. */
+    tn_watch *watch;
 } tn_module;
 
 #define TN_STACK_MAX 65536u /* values on a function's stack: engines set aside room for them */

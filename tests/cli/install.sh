@@ -21,26 +21,28 @@ mkdir -p "$prefix/share/man/man1" # what was there before stays
 touch "$prefix/share/man/man1/other.1"
 cmake --install "$build" --prefix "$prefix" >/dev/null
 libdir=$(dirname "$(find "$prefix" -name libtartan.a)")
-export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir TARTAN_PATH=$prefix/share/tartan/stdlib
+export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir
+stdlib=$(pkg-config --variable=stdlibdir tartan)
+[ -e "$stdlib/lahave.plan" ] || fail "pkg-config does not know where the standard library lies: $stdlib"
 version=$(pkg-config --modversion tartan)
 [ "$(pkg-config --modversion tartan-runtime)" = "$version" ] || fail 'the two libraries are of different versions'
 case $("$prefix/bin/tartan" --version) in
 *"$version"*) ;;
 *) fail "the binary is not of version $version" ;;
 esac
-grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/tartan.h" || fail "the header is not of version $version"
+grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/base.h" || fail "the header is not of version $version"
 [ -e "$libdir/libtartan.so.${version%.*}" ] || fail 'the shared library has no versioned name'
 
 # Only the public interface is visible.
 for library in libtartan libtartan-runtime; do
-    other=$(nm -D --defined-only "$libdir/$library.so" | awk '{print $3}' | grep -vE '^tartan_|^_(init|fini)$|^__' || true)
+    other=$(nm -D --defined-only "$libdir/$library.so" | awk '{print $3}' | grep -vE '^tartan_|^TARTAN_|^_(init|fini)$|^__' || true)
     [ -z "$other" ] || fail "$library.so exports more than tartan_*: $other"
 done
 
 # Both export exactly what the header declares, the runtime all but compiling; an addition or a loss shows in the list.
-grep -oE 'tartan_[a-z_]+\(' <<<"$(sed -n '/^TARTAN_API/,/;/p' "$prefix/include/tartan/tartan.h")" | tr -d '(' | sort >"$scratch/declared"
+grep -hoE 'tartan_[a-z_]+\(' <<<"$(sed -n '/^TARTAN_API/,/;/p' "$prefix"/include/tartan/*.h)" | tr -d '(' | sort >"$scratch/declared"
 exported() {
-    nm -D --defined-only "$1" | awk '$3 ~ /^tartan_/ {print $3}' | sort
+    nm -D --defined-only "$1" | awk '$3 ~ /^tartan_/ {print $3}' | sed 's/@@TARTAN_0\.2$//' | sort
 }
 exported "$libdir/libtartan.so" >"$scratch/exported"
 cmp "$scratch/declared" "$scratch/exported" || fail "the header and libtartan differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
@@ -77,7 +79,7 @@ cp examples/embed/embed.c examples/embed/narrow.plan "$scratch"
 cat >"$scratch/CMakeLists.txt" <<'LISTS'
 cmake_minimum_required(VERSION 3.16)
 project(embed C)
-find_package(tartan 0.1 REQUIRED)
+find_package(tartan 0.2 REQUIRED)
 add_executable(with_cmake embed.c)
 target_link_libraries(with_cmake PRIVATE tartan::tartan)
 add_executable(with_cmake_static embed.c)
@@ -88,11 +90,23 @@ cmake --build "$scratch/build" >/dev/null
 
 printf "8' single public - dense:4' open:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' empty\n" >"$scratch/plans"
 for program in shared static build/with_cmake build/with_cmake_static; do
-    "$scratch/$program" "$scratch/narrow.plan" <"$scratch/plans" >"$scratch/out.$(basename "$program")"
+    "$scratch/$program" "$scratch/narrow.plan" "$stdlib" <"$scratch/plans" >"$scratch/out.$(basename "$program")"
     cmp "$scratch/out.shared" "$scratch/out.$(basename "$program")"
 done
 grep -q '^corridor matches 8' "$scratch/out.shared" || fail 'the program did not match the plan'
 grep -qE '^[0-9]+ plans, three of them:$' "$scratch/out.shared" || fail 'the program did not count the library'
+
+# The programs of the other examples: a surface with its mesh and picture, and a run that is saved and goes on.
+for name in growth evolution; do
+    "$CC" "${flags[@]}" -std=c99 -Wall -Wextra -Wpedantic "examples/embed-$name/$name.c" "${by_pkg_config[@]}" -lm -o "$scratch/$name"
+done
+"$scratch/growth" examples/embed-growth/dome.study "$scratch/dome.obj" "$scratch/dome.svg" >"$scratch/dome" 2>/dev/null
+grep -q '^step 5: 1089 vertices, 2112 edges, 1024 faces$' "$scratch/dome" || fail 'embed-growth grew another surface'
+[ "$(grep -c '^f ' "$scratch/dome.obj")" = 1024 ] || fail 'embed-growth wrote another mesh'
+grep -q '<svg' "$scratch/dome.svg" || fail 'embed-growth drew nothing'
+"$scratch/evolution" examples/embed-evolution/sums.bnf 137 >"$scratch/sums"
+[ "$(tail -1 "$scratch/sums" | sed 's/.* //' | tr + '\n' | awk '{s += $1} END {print s}')" = 137 ] || fail "embed-evolution found no sum: $(tail -1 "$scratch/sums")"
+grep -q '^saved: [0-9]* bytes$' "$scratch/sums" || fail 'embed-evolution saved nothing'
 
 # The runtime alone runs a module.
 "$prefix/bin/tartan" build "$scratch/narrow.plan" -o "$scratch/narrow.tnb"
@@ -107,7 +121,7 @@ int main(int argc, char **argv)
     tartan_library *library;
     char *count;
     if (argc != 2 || tartan_module_load_file(argv[1], &module, &error) != TARTAN_OK ||
-        tartan_library_open(module, "huts", &library, &error) != TARTAN_OK ||
+        tartan_library_open(module, NULL, NULL, &library, &error) != TARTAN_OK ||
         tartan_library_count(library, TARTAN_ANY_LENGTH, &count, &error) != TARTAN_OK)
         return 1;
     printf("%s plans, three of them:\n", count);
@@ -122,7 +136,7 @@ read -ra runtime <<<"$(pkg-config --cflags --libs tartan-runtime)"
 [ "$("$scratch/load" "$scratch/narrow.tnb")" = "$(grep plans, "$scratch/out.shared")" ] || fail 'the runtime counts otherwise'
 
 # The installed binary finds the stdlib by itself; what was installed goes again.
-env -u TARTAN_PATH "$prefix/bin/tartan" check "$scratch/narrow.plan"
+"$prefix/bin/tartan" check "$scratch/narrow.plan"
 cmake -DMANIFEST="$manifest" -P cmake/uninstall.cmake
 left=$(cd "$prefix" && find . -type f -o -type l -o -name '*tartan*')
 [ "$left" = ./share/man/man1/other.1 ] || fail "uninstalling left: $left"

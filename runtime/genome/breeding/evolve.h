@@ -24,9 +24,12 @@ typedef struct tn_score {
     tn_score_state state;
 } tn_score;
 
-/* Gives sentences their scores. May be called by several threads at once, each with its own `thread` from 0 on. A
- * sentence that cannot be scored is a state, not an error; the message (of 200 bytes) says why. TN_MEMORY and the like
- * end the run. */
+struct tn_individual;
+
+/* Gives sentences their scores, one at a time or (evaluate_many, at most `batch` at a time) many, whose `score` and
+ * `message` it sets. May be called by several threads at once, each with its own `thread` from 0 on. A sentence that
+ * cannot be scored is a state, not an error; the message (of 200 bytes) says why. TN_MEMORY and the like end the run.
+ */
 typedef struct tn_evaluator {
     void *context;
     size_t objectives;
@@ -34,6 +37,9 @@ typedef struct tn_evaluator {
                           char message[200], tn_error *error);
     /* Changes a target or weight, "NAME VALUE ..."; NULL where nothing can be changed. Never while evaluating. */
     tn_status (*adjust)(void *context, const char *change, tn_error *error);
+    tn_status (*evaluate_many)(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
+                               tn_error *error); /* or NULL */
+    size_t batch;
 } tn_evaluator;
 
 /* What a failed evaluation returns: running out of memory ends the run; anything else is the sentence's own fault,

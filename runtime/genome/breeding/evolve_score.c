@@ -1,6 +1,7 @@
 /* Scores: each sentence is evaluated once, by all threads, or recalled. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "runtime/genome/breeding/evolve_state.h"
 
@@ -70,12 +71,42 @@ static tn_status list_unknown(tn_evolution *e, tn_individual **individuals, size
 typedef struct scoring {
     tn_evolution *evolution;
     tn_individual **individuals;
+    size_t todo;
 } scoring;
 
 static tn_status score_item(void *context, unsigned thread, size_t item, tn_error *error)
 {
     const scoring *s = context;
     return evaluate(s->evolution, thread, s->individuals[s->evolution->todo[item]], error);
+}
+
+/* One of the batches that those to do are cut into. */
+static tn_status score_batch(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    const scoring *s = context;
+    const tn_evaluator *evaluator = &s->evolution->evaluator;
+    size_t begin = item * evaluator->batch, left = s->todo - begin;
+    size_t count = left < evaluator->batch ? left : evaluator->batch;
+    tn_individual **batch = calloc(count + 1, sizeof *batch);
+    if (!batch)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        batch[i] = s->individuals[s->evolution->todo[begin + i]];
+        batch[i]->score = (tn_score){0};
+    }
+    tn_status status = evaluator->evaluate_many(evaluator->context, thread, batch, count, error);
+    for (size_t i = 0; i < count; i++)
+        tidy_score(s->evolution, &batch[i]->score);
+    free(batch);
+    return status;
+}
+
+static tn_status evaluate_all(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
+{
+    scoring s = {e, individuals, todo};
+    size_t batch = e->evaluator.evaluate_many ? e->evaluator.batch : 1;
+    tn_crew_work *work = e->evaluator.evaluate_many ? score_batch : score_item;
+    return tn_crew_run(e->crew, (todo + batch - 1) / batch, 1, work, &s, error);
 }
 
 static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
@@ -88,8 +119,7 @@ static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t 
             tidy_score(e, &individual->score);
     }
     e->evaluations += todo;
-    scoring s = {e, individuals};
-    return recalled ? TN_OK : tn_crew_run(e->crew, todo, 1, score_item, &s, error);
+    return recalled ? TN_OK : evaluate_all(e, individuals, todo, error);
 }
 
 tn_status tn_evolution_score(tn_evolution *e, tn_individual **individuals, size_t count, tn_error *error)

@@ -151,5 +151,5 @@ static tn_status fit(void *context, unsigned thread, const char *sentence, size_
 
 tn_evaluator tn_problem_evaluator(tn_problem *problem)
 {
-    return (tn_evaluator){problem, 1, problem->target ? match : fit, NULL};
+    return (tn_evaluator){.context = problem, .objectives = 1, .evaluate = problem->target ? match : fit};
 }

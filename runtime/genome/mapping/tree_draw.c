@@ -188,18 +188,18 @@ static tn_status lay_out(drawing *d, tn_error *error)
     return well ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status draw(drawing *d, const char *path, tn_error *error)
+static tn_status draw(drawing *d, tn_picture *to, tn_error *error)
 {
-    tn_canvas_format format;
+    tn_canvas_format format; /* a wrong name is said before anything is laid out */
     tn_canvas *canvas = NULL;
-    tn_status status = tn_canvas_format_of(path, &format, error);
+    tn_status status = tn_picture_format(to, &format, error);
     if (status == TN_OK)
         status = lay_out(d, error);
     tn_canvas_options options = {.width = d->width > 120 ? d->width : 120,
                                  .height = 2 * MARGIN + LETTERING + 9 + d->deepest * LEVEL,
                                  .title = d->grammar->name};
     if (status == TN_OK)
-        status = tn_canvas_new(path, format, &options, &canvas, error);
+        status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         d->context = tn_canvas_context(canvas);
         for (uint32_t i = 0; i < d->tree->count; i++)
@@ -211,7 +211,7 @@ static tn_status draw(drawing *d, const char *path, tn_error *error)
     return status;
 }
 
-tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path,
+tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, tn_picture *to,
                        tn_error *error)
 {
     if (tree->count > TN_TREE_DRAWN) {
@@ -225,7 +225,7 @@ tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const 
     d.half = calloc(tree->count + 1, sizeof *d.half);
     d.left = calloc(tree->count + 1, sizeof *d.left);
     d.depth = calloc(tree->count + 1, sizeof *d.depth);
-    tn_status status = d.x && d.half && d.left && d.depth ? draw(&d, path, error) : tn_fail_memory(error);
+    tn_status status = d.x && d.half && d.left && d.depth ? draw(&d, to, error) : tn_fail_memory(error);
     free(d.x);
     free(d.half);
     free(d.left);

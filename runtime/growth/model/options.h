@@ -2,8 +2,7 @@
 #ifndef TARTAN_GROWTH_MODEL_OPTIONS_H
 #define TARTAN_GROWTH_MODEL_OPTIONS_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "runtime/base/watch.h"
 
 typedef struct tn_growth_options {
     double scale[3];       /* factor of each step, by axis; > 0 */
@@ -22,6 +21,7 @@ typedef struct tn_growth_options {
     uint64_t edge_limit;   /* most edges; 0: TN_EDGES_MAX */
     uint64_t memory_limit; /* most bytes; 0: none */
     int threads;           /* 0: as many as the machine has */
+    tn_watch *watch;       /* or NULL: a step gives up (TN_STOPPED) once this says so, and the map is then unusable */
 } tn_growth_options;
 
 /* Scale 1.5, start at the origin with length 1, branches of any length, seed 1: the defaults of Genr8. */

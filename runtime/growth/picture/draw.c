@@ -413,8 +413,8 @@ static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const 
     write_foot(cr, s, options);
 }
 
-tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
-                        tn_canvas_format format, tn_error *error)
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error)
 {
     sheet s = lay_out(views, count, options);
     if (!lay_out_legend(views, count, options->system, &s)) {
@@ -425,7 +425,7 @@ tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_optio
     tn_canvas_options canvas_options = {
         .width = s.size[0], .height = s.size[1], .dpi = options->dpi, .title = options->title};
     tn_canvas *canvas;
-    tn_status status = tn_canvas_new(path, format, &canvas_options, &canvas, error);
+    tn_status status = tn_canvas_open(to, &canvas_options, &canvas, error);
     if (status == TN_OK) {
         paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
         status = tn_canvas_commit(canvas, error);

@@ -36,8 +36,8 @@ typedef struct tn_view_options {
     const tn_growth_system *system; /* names of labels, for the legend */
 } tn_view_options;
 
-/* Draws views side by side, all to one scale, to .svg, .png or .pdf. */
-tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
-                        tn_canvas_format format, tn_error *error);
+/* Draws views side by side, all to one scale. */
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error);
 
 #endif

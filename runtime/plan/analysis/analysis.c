@@ -83,7 +83,7 @@ tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_sea
                         .what = what,
                         .max_states = most,
                         .max_work = max_work,
-                        .stop = analysis->schema->module->stop};
+                        .watch = analysis->schema->module->watch};
     return tn_search_shortest(&search, word, found, error);
 }
 

@@ -130,7 +130,7 @@ static question ask(const tn_plan_analysis *analysis, const tn_search_part *part
 {
     tn_bounds bounds = tn_bounds_make(analysis->max_joint);
     bounds.max_work = (uint64_t)analysis->max_joint * WORK_PER_STATE;
-    bounds.stop = analysis->schema->module->stop;
+    bounds.watch = analysis->schema->module->watch;
     return (question){.parts = parts, .min = min, .bounds = bounds, .asked = asked, .answer = answer};
 }
 

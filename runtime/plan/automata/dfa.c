@@ -15,7 +15,7 @@ tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, 
                           tn_error *error)
 {
     bounds->work += work;
-    if (bounds->stop && *bounds->stop)
+    if (bounds->watch && tn_watch_stopped(bounds->watch))
         return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped while the automaton of this %s was being made", what);
     tn_status status = TN_OK;
     if (states > bounds->max_states)

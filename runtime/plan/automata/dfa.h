@@ -12,7 +12,7 @@
 #ifndef TARTAN_PLAN_AUTOMATA_DFA_H
 #define TARTAN_PLAN_AUTOMATA_DFA_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 
 #define TN_NO_STATE UINT32_MAX
 
@@ -33,7 +33,7 @@ typedef struct tn_bounds {
     uint64_t max_transitions; /* states times columns of any intermediate automaton */
     uint64_t max_work;        /* elementary steps in all */
     uint64_t work;
-    const _Atomic bool *stop; /* or NULL: gives up (TN_STOPPED) once this is true */
+    tn_watch *watch; /* or NULL: gives up (TN_STOPPED) once this says so */
 } tn_bounds;
 
 /* The defaults for everything but the states: 64 M transitions (256 MB), 2 G steps (a minute at most). */

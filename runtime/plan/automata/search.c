@@ -32,7 +32,7 @@ static tn_status explorer_make(explorer *e, const tn_search *search, tn_error *e
 {
     *e = (explorer){.search = search, .bounds = tn_bounds_make(search->max_states)};
     e->bounds.max_work = search->max_work ? search->max_work : TN_SEARCH_WORK;
-    e->bounds.stop = search->stop;
+    e->bounds.watch = search->watch;
     tn_status status = tn_bounds_check(&e->bounds, search->what, 1, 1, 0, error);
     if (status != TN_OK)
         return status;

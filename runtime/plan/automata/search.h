@@ -24,8 +24,8 @@ typedef struct tn_search {
     uint32_t min, max; /* trays of the plan; max UINT32_MAX: any number */
     const char *what;  /* for errors: "the automaton of this ... passes" */
     uint32_t max_states;
-    uint64_t max_work;        /* steps; 0: TN_SEARCH_WORK */
-    const _Atomic bool *stop; /* as in tn_bounds */
+    uint64_t max_work; /* steps; 0: TN_SEARCH_WORK */
+    tn_watch *watch;   /* as in tn_bounds */
 } tn_search;
 
 /* The shortest such plan (of those, the first by letters), as letters in `word`, or *found = false. The caller frees

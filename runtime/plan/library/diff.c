@@ -11,6 +11,7 @@ struct tn_library_diff {
     tn_tray *map;               /* [trays]: the tray of `after` that a tray of `before` is */
     tn_classes *classes;        /* trays that neither library tells apart */
     uint32_t max_states;
+    tn_watch *watch; /* while it is made */
     tn_sparse *parts[TN_DIFF_PARTS];
     tn_library *libraries[TN_DIFF_PARTS];
     tn_dfa **clauses[2]; /* of each side, over the joint classes */
@@ -112,6 +113,7 @@ static tn_status combine(const tn_library_diff *d, const tn_sparse *a, const tn_
                          tn_sparse **out, tn_error *error)
 {
     tn_bounds bounds = tn_bounds_make(d->max_states);
+    bounds.watch = d->watch;
     tn_status status = tn_sparse_copy(a, out, error);
     return status == TN_OK ? tn_sparse_apply(out, b, operation, "comparison", &bounds, error) : status;
 }
@@ -298,7 +300,7 @@ static tn_status compare_clauses(tn_library_diff *d, tn_error *error)
 /* ---- making */
 
 tn_status tn_library_diff_new(const tn_library *before, const tn_library *after, uint32_t max_states,
-                              tn_library_diff **out, tn_error *error)
+                              tn_watch *watch, tn_library_diff **out, tn_error *error)
 {
     tn_library_diff *d = calloc(1, sizeof *d);
     if (!d)
@@ -306,6 +308,7 @@ tn_status tn_library_diff_new(const tn_library *before, const tn_library *after,
     d->sides[0] = before;
     d->sides[1] = after;
     d->max_states = max_states ? max_states : TN_LIBRARY_STATES_DEFAULT;
+    d->watch = watch;
     tn_status status = tn_tray_map(before->schema, after->schema, &d->map, error);
     if (status == TN_OK)
         status = join_classes(d, &d->classes, error);
@@ -317,6 +320,7 @@ tn_status tn_library_diff_new(const tn_library *before, const tn_library *after,
         tn_library_diff_free(d);
         return status;
     }
+    d->watch = NULL;
     *out = d;
     return TN_OK;
 }

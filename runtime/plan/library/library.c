@@ -79,7 +79,7 @@ tn_bounds tn_library_bounds(const tn_library *library)
     return (tn_bounds){.max_states = library->max_joint,
                        .max_transitions = TRANSITIONS_PER_STATE * states,
                        .max_work = WORK_PER_STATE * states,
-                       .stop = library->schema->module->stop};
+                       .watch = library->schema->module->watch};
 }
 
 tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,

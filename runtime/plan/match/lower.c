@@ -52,7 +52,7 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
     lowering->module = classes->schema->module;
     lowering->classes = classes;
     lowering->bounds = tn_bounds_make(max_states ? max_states : TN_STATES_DEFAULT);
-    lowering->bounds.stop = lowering->module->stop;
+    lowering->bounds.watch = lowering->module->watch;
     lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
     tn_status status = lowering->lowered ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
                                          : tn_fail_memory(error);

@@ -369,11 +369,11 @@ static tn_status check_count(size_t count, const tn_draw_options *options, tn_er
 }
 
 tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, size_t count,
-                        const tn_draw_options *options, const char *path, tn_error *error)
+                        const tn_draw_options *options, tn_picture *to, tn_error *error)
 {
     drawing d = {.plans = plans, .count = count, .options = options};
     tn_canvas *canvas;
-    tn_status status = tn_canvas_format_of(path, &d.format, error);
+    tn_status status = tn_picture_format(to, &d.format, error);
     if (status == TN_OK)
         status = check_count(count, options, error);
     if (status != TN_OK)
@@ -389,7 +389,7 @@ tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, siz
         return status;
     fit_sheet(&d);
     tn_canvas_options canvas_options = {d.width, d.height, options->dpi, options->title};
-    status = tn_canvas_new(path, d.format, &canvas_options, &canvas, error);
+    status = tn_canvas_open(to, &canvas_options, &canvas, error);
     if (status != TN_OK)
         return status;
     status = draw_pages(&d, canvas, error);

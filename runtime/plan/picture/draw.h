@@ -8,6 +8,7 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_H
 #define TARTAN_PLAN_PICTURE_DRAW_H
 
+#include "runtime/draw/canvas.h"
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_drawn_plan {
@@ -33,10 +34,10 @@ typedef struct tn_draw_options {
     size_t max_plans;  /* 0: TN_DRAW_PLANS_DEFAULT; E0820 past it */
 } tn_draw_options;
 
-/* Draws the plans to `path`, whose extension says how (.svg, .png, .pdf). A PDF has as many pages as it takes; the
+/* Draws the plans. A PDF has as many pages as it takes; the
  * others are one sheet, as high as it takes. E0820 where a PNG would be too large, E0902 where the file cannot be
  * written, E0904 for another extension or an unknown paper. */
 tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, size_t count,
-                        const tn_draw_options *options, const char *path, tn_error *error);
+                        const tn_draw_options *options, tn_picture *to, tn_error *error);
 
 #endif

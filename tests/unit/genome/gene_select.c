@@ -177,7 +177,7 @@ static void breed(tn_replacement replacement, uint32_t elites)
 {
     tn_grammar *grammar = test_grammar_file(STDLIB "words.bnf");
     witness w = {.count = 0};
-    tn_evaluator evaluator = {&w, 1, observe, NULL};
+    tn_evaluator evaluator = {.context = &w, .objectives = 1, .evaluate = observe};
     tn_evolution_settings settings = tn_evolution_settings_default();
     tn_evolution *e;
     uint32_t counts[TN_SCORE_STATE_COUNT], failed = 0, limited = 0, lost = 0;

@@ -173,7 +173,7 @@ static void draw_to(sheet *s, const char *extension, const tn_draw_options *opti
     char path[80];
     tn_error error;
     snprintf(path, sizeof path, "%s.%s", s->path, extension);
-    test_ok(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, options, path, &error), &error);
+    test_ok(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, options, &(tn_picture){.path = path}, &error), &error);
     test_ok(tn_file_read(path, 100 << 20, bytes, size, &error), &error);
     remove(path);
 }
@@ -201,15 +201,23 @@ static void refuses_what_it_cannot_draw(void **state)
     tn_error error;
     tn_draw_options few = {.max_plans = PLAN_COUNT - 1}, paper = {.paper = "foolscap"}, dense = {.dpi = 100000},
                     scale = {.scale = 100}, wide = {.columns = 1000}, plain = {0};
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &few, "x.svg", &error), TN_LIMIT);
+    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &few, &(tn_picture){.path = "x.svg"}, &error),
+                     TN_LIMIT);
     assert_int_equal(error.code, 820);
     assert_non_null(strstr(error.help, "--max-plans"));
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &paper, "x.svg", &error), TN_INVALID);
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &dense, "/tmp/tartan-x.png", &error), TN_LIMIT);
+    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &paper, &(tn_picture){.path = "x.svg"}, &error),
+                     TN_INVALID);
+    assert_int_equal(
+        tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &dense, &(tn_picture){.path = "/tmp/tartan-x.png"}, &error),
+        TN_LIMIT);
     assert_int_equal(error.code, 820);
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &scale, "x.svg", &error), TN_INVALID);
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &wide, "x.svg", &error), TN_LIMIT);
-    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &plain, "/no/such/folder/x.svg", &error), TN_IO);
+    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &scale, &(tn_picture){.path = "x.svg"}, &error),
+                     TN_INVALID);
+    assert_int_equal(tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &wide, &(tn_picture){.path = "x.svg"}, &error),
+                     TN_LIMIT);
+    assert_int_equal(
+        tn_plans_draw(s->schema, s->plans, PLAN_COUNT, &plain, &(tn_picture){.path = "/no/such/folder/x.svg"}, &error),
+        TN_IO);
     assert_int_equal(error.code, 902);
     assert_int_not_equal(access("/tmp/tartan-x.png", F_OK), 0);
 }
@@ -237,7 +245,9 @@ static double sheet_height(const sheet *s, const char *heading)
         plans[i].heading = heading;
     }
     snprintf(path, sizeof path, "%s.svg", s->path);
-    test_ok(tn_plans_draw(s->schema, plans, sizeof plans / sizeof *plans, &options, path, &error), &error);
+    test_ok(
+        tn_plans_draw(s->schema, plans, sizeof plans / sizeof *plans, &options, &(tn_picture){.path = path}, &error),
+        &error);
     test_ok(tn_file_read(path, 100 << 20, &bytes, &size, &error), &error);
     remove(path);
     double height = height_of(bytes, size);
@@ -309,7 +319,7 @@ static void draws_nothing(void **state)
     tn_error error;
     tn_draw_options options = {0};
     snprintf(path, sizeof path, "%s.svg", s->path);
-    test_ok(tn_plans_draw(s->schema, NULL, 0, &options, path, &error), &error);
+    test_ok(tn_plans_draw(s->schema, NULL, 0, &options, &(tn_picture){.path = path}, &error), &error);
     assert_int_equal(remove(path), 0);
 }
 

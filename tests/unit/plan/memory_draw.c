@@ -24,7 +24,7 @@ static tn_status draw(const tn_schema *schema, const char *extension, tn_error *
     const tn_draw_options options = {.title = "title", .number_name = "line", .dpi = 20};
     char path[64];
     snprintf(path, sizeof path, "/tmp/tartan-memory-draw-%ld.%s", (long)getpid(), extension);
-    tn_status status = tn_plans_draw(schema, plans, 3, &options, path, error);
+    tn_status status = tn_plans_draw(schema, plans, 3, &options, &(tn_picture){.path = path}, error);
     assert_int_equal(access(path, F_OK) == 0, status == TN_OK);
     remove(path);
     return status;

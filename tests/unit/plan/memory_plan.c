@@ -133,7 +133,7 @@ static tn_status compare(void *context, uint64_t *result, tn_error *error)
 {
     const test_library *sides = context;
     tn_library_diff *diff = NULL;
-    tn_status status = tn_library_diff_new(sides[0].library, sides[1].library, 0, &diff, error);
+    tn_status status = tn_library_diff_new(sides[0].library, sides[1].library, 0, NULL, &diff, error);
     mpz_t kept;
     mpz_init(kept);
     for (int part = 0; status == TN_OK && part < TN_DIFF_PARTS; part++) {

@@ -22,7 +22,7 @@ static tartan_status compile(const tartan_module *module, tartan_error *error)
 {
     (void)module;
     tartan_module *made = NULL;
-    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, NULL, &made, error);
+    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, &made, error);
     if (status == TARTAN_OK)
         tartan_module_free(made);
     else
@@ -47,15 +47,15 @@ static tartan_status match(const tartan_module *module, tartan_error *error)
     uint64_t bits[2];
     char *line = NULL;
     uint32_t trays[] = {1, 3, 0};
-    tartan_status status = tartan_rules_new(module, NULL, 0, &rules, error);
+    tartan_status status = tartan_rules_new(module, NULL, 0, NULL, &rules, error);
     if (status == TARTAN_OK)
         status = tartan_matcher_new(rules, &matcher, error);
     if (status == TARTAN_OK)
         status = tartan_match(matcher, trays, 2, bits, error);
     if (status == TARTAN_OK)
-        status = tartan_match_all(rules, trays, (size_t[]){2, 3}, 2, 1, bits, error);
+        status = tartan_match_all(rules, trays, (size_t[]){2, 3}, 2, 1, bits, NULL, error);
     if (status == TARTAN_OK)
-        status = tartan_match_any(rules, trays, (size_t[]){2, 3}, 2, 1, (uint8_t[2]){0}, error);
+        status = tartan_match_any(rules, trays, (size_t[]){2, 3}, 2, 1, (uint8_t[2]){0}, NULL, error);
     if (status == TARTAN_OK)
         status = tartan_plan_write(tartan_rules_schema(rules), trays, 3, &line, error);
     if (status == TARTAN_OK) {
@@ -75,7 +75,7 @@ static tartan_status walk(const tartan_module *module, tartan_error *error)
     char *count = NULL, *rank = NULL;
     uint32_t trays[3];
     size_t length;
-    tartan_status status = tartan_library_open(module, NULL, &library, error);
+    tartan_status status = tartan_library_open(module, NULL, NULL, &library, error);
     if (status == TARTAN_OK)
         status = tartan_library_count(library, TARTAN_ANY_LENGTH, &count, error);
     if (status == TARTAN_OK)
@@ -125,7 +125,7 @@ static void fails_cleanly(void **state)
 static int make(void **state)
 {
     tartan_module *module = NULL;
-    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, NULL, &module, NULL);
+    tartan_status status = tartan_compile_text("box.plan", text, sizeof text - 1, NULL, &module, NULL);
     *state = module;
     return status != TARTAN_OK;
 }

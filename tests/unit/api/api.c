@@ -41,15 +41,33 @@ static void count(void *context, const tartan_diagnostic *diagnostic)
     s->column = diagnostic->column;
 }
 
+static tartan_compile_options counting(seen *s)
+{
+    tartan_compile_options options = tartan_compile_options_init();
+    options.report = count;
+    options.report_context = s;
+    return options;
+}
+
 static tartan_module *compile(const char *text)
 {
     tartan_error error;
     tartan_module *module = NULL;
     seen s = {0};
-    if (tartan_compile_text("box.plan", text, strlen(text), count, &s, &module, &error) != TARTAN_OK)
+    tartan_compile_options options = counting(&s);
+    if (tartan_compile_text("box.plan", text, strlen(text), &options, &module, &error) != TARTAN_OK)
         fail_msg("%s", error.message);
     assert_int_equal(s.errors + s.warnings, 0);
     return module;
+}
+
+static tartan_status open_named(const tartan_module *module, const char *name, uint32_t max_states,
+                                tartan_library **library, tartan_error *error)
+{
+    tartan_library_options options = tartan_library_options_init();
+    options.name = name;
+    options.max_states = max_states;
+    return tartan_library_open(module, &options, NULL, library, error);
 }
 
 static void compiles_and_describes(void **state)
@@ -76,7 +94,8 @@ static void says_what_is_wrong(void **state)
     tartan_error error;
     tartan_module *module = NULL;
     seen s = {0};
-    assert_int_equal(tartan_compile_text("box.plan", wrong, sizeof wrong - 1, count, &s, &module, &error),
+    tartan_compile_options options = counting(&s);
+    assert_int_equal(tartan_compile_text("box.plan", wrong, sizeof wrong - 1, &options, &module, &error),
                      TARTAN_INVALID);
     assert_null(module);
     assert_int_equal(s.errors, 1);
@@ -87,10 +106,45 @@ static void says_what_is_wrong(void **state)
     assert_int_equal(error.status, TARTAN_INVALID);
     assert_true(error.code > 0 && error.message[0]);
     /* nobody has to listen */
-    assert_int_equal(tartan_compile_text("box.plan", wrong, sizeof wrong - 1, NULL, NULL, &module, NULL),
-                     TARTAN_INVALID);
-    assert_int_equal(tartan_compile_file("/nowhere/box.plan", NULL, NULL, &module, &error), TARTAN_IO);
+    assert_int_equal(tartan_compile_text("box.plan", wrong, sizeof wrong - 1, NULL, &module, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_compile_file("/nowhere/box.plan", NULL, &module, &error), TARTAN_IO);
     assert_true(error.message[0]);
+}
+
+/* Texts by a table: no file is opened. */
+static tartan_status from_table(void *context, const tartan_use *use, tartan_text *found, tartan_error *error)
+{
+    ++*(int *)context;
+    static const char shared[] = "schema box { lid = flag }\nrule open = tray(lid)\n";
+    if (strcmp(use->path, "shared") != 0) {
+        snprintf(error->message, sizeof error->message, "the table has no %s", use->path);
+        return TARTAN_INVALID;
+    }
+    assert_string_equal(use->extension, ".plan");
+    assert_string_equal(use->user, "main.plan");
+    *found = (tartan_text){.text = shared, .size = sizeof shared - 1};
+    return TARTAN_OK;
+}
+
+static void asks_the_resolver(void **state)
+{
+    (void)state;
+    static const char good[] = "use \"shared\"\nrule shut = not open\n", bad[] = "use \"other\"\n";
+    tartan_compile_options options = tartan_compile_options_init();
+    tartan_module *module = NULL;
+    tartan_error error;
+    int asked = 0;
+    options.resolve = from_table;
+    options.resolve_context = &asked;
+    if (tartan_compile_text("main.plan", good, sizeof good - 1, &options, &module, &error) != TARTAN_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(asked, 1);
+    assert_int_equal(tartan_module_rule_count(module), 2);
+    tartan_module_free(module);
+    module = NULL;
+    assert_int_equal(tartan_compile_text("main.plan", bad, sizeof bad - 1, &options, &module, &error), TARTAN_INVALID);
+    assert_string_equal(error.message, "the table has no other");
+    assert_null(module);
 }
 
 static void saves_and_loads(void **state)
@@ -108,7 +162,7 @@ static void saves_and_loads(void **state)
     assert_int_equal(tartan_module_load("", 0, &again, NULL), TARTAN_INVALID);
     assert_null(again);
     /* a module is not a rule file */
-    assert_int_equal(tartan_compile_text("box.plan", bytes, size, NULL, NULL, &again, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_compile_text("box.plan", bytes, size, NULL, &again, &error), TARTAN_INVALID);
     assert_int_equal(tartan_module_load_file("/nowhere/box.tnb", &again, &error), TARTAN_IO);
     tartan_module_free(module);
     tartan_module_free(NULL);
@@ -121,7 +175,7 @@ static void matches(void **state)
     tartan_error error;
     tartan_rules *rules = NULL;
     tartan_matcher *matcher = NULL;
-    assert_int_equal(tartan_rules_new(module, NULL, 0, &rules, &error), TARTAN_OK);
+    assert_int_equal(tartan_rules_new(module, NULL, 0, NULL, &rules, &error), TARTAN_OK);
     assert_int_equal(tartan_rules_count(rules), 2);
     assert_string_equal(tartan_rules_name(rules, 1), "wide");
     assert_null(tartan_rules_name(rules, 2));
@@ -141,10 +195,10 @@ static void matches(void **state)
     tartan_rules_free(rules);
 
     const char *one[] = {"wide"}, *none[] = {"wied"};
-    assert_int_equal(tartan_rules_new(module, one, 1, &rules, &error), TARTAN_OK);
+    assert_int_equal(tartan_rules_new(module, one, 1, NULL, &rules, &error), TARTAN_OK);
     assert_string_equal(tartan_rules_name(rules, 0), "wide");
     tartan_rules_free(rules);
-    assert_int_equal(tartan_rules_new(module, none, 1, &rules, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_rules_new(module, none, 1, NULL, &rules, &error), TARTAN_INVALID);
     assert_non_null(strstr(error.message, "wied"));
     assert_string_equal(error.help, "did you mean `wide`?");
     tartan_module_free(module);
@@ -166,9 +220,9 @@ static void matches_many(void **state)
             trays[at++] = (uint32_t)((i * 7 + k * 3) % 4);
         ends[i] = at;
     }
-    assert_int_equal(tartan_rules_new(module, NULL, 0, &rules, &error), TARTAN_OK);
-    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 1, bits[0], &error), TARTAN_OK);
-    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 3, bits[1], &error), TARTAN_OK);
+    assert_int_equal(tartan_rules_new(module, NULL, 0, NULL, &rules, &error), TARTAN_OK);
+    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 1, bits[0], NULL, &error), TARTAN_OK);
+    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 3, bits[1], NULL, &error), TARTAN_OK);
     assert_memory_equal(bits[0], bits[1], sizeof bits[0]);
     tartan_matcher *matcher = NULL;
     assert_int_equal(tartan_matcher_new(rules, &matcher, &error), TARTAN_OK);
@@ -179,30 +233,30 @@ static void matches_many(void **state)
         assert_int_equal(alone, bits[0][i]);
     }
     tartan_matcher_free(matcher);
-    assert_int_equal(tartan_match_all(rules, trays, ends, 0, 0, bits[0], &error), TARTAN_OK);
+    assert_int_equal(tartan_match_all(rules, trays, ends, 0, 0, bits[0], NULL, &error), TARTAN_OK);
     for (unsigned threads = 1; threads <= 4; threads++) {
         uint8_t matches[PLANS];
         memset(matches, 7, sizeof matches);
-        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, &error), TARTAN_OK);
+        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, NULL, &error), TARTAN_OK);
         for (size_t i = 0; i < PLANS; i++)
             assert_int_equal(matches[i], bits[0][i] != 0);
     }
 
-    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, UINT32_MAX, bits[1], &error), TARTAN_OK);
+    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, UINT32_MAX, bits[1], NULL, &error), TARTAN_OK);
     assert_memory_equal(bits[0], bits[1], sizeof bits[0]);
 
     /* the first plan that is wrong is the one that the error is about, in however many threads */
     trays[ends[9700] + 0] = 9;
     trays[ends[5100] + 1] = 8;
     for (unsigned threads = 1; threads <= 4; threads++) {
-        assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, threads, bits[0], &error), TARTAN_INVALID);
+        assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, threads, bits[0], NULL, &error), TARTAN_INVALID);
         assert_non_null(strstr(error.message, "plan 5103: tray 1 of the plan has number 8"));
         uint8_t matches[PLANS];
-        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, &error), TARTAN_INVALID);
+        assert_int_equal(tartan_match_any(rules, trays, ends, PLANS, threads, matches, NULL, &error), TARTAN_INVALID);
         assert_non_null(strstr(error.message, "number 8"));
     }
     ends[5] = 0;
-    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 1, bits[0], &error), TARTAN_INVALID);
+    assert_int_equal(tartan_match_all(rules, trays, ends, PLANS, 1, bits[0], NULL, &error), TARTAN_INVALID);
     tartan_rules_free(rules);
     free(trays);
     tartan_module_free(module);
@@ -214,7 +268,7 @@ static void reads_and_writes_plans(void **state)
     tartan_module *module = compile(rules_text);
     tartan_error error;
     tartan_library *library = NULL;
-    assert_int_equal(tartan_library_open(module, NULL, &library, &error), TARTAN_OK);
+    assert_int_equal(tartan_library_open(module, NULL, NULL, &library, &error), TARTAN_OK);
     const tartan_schema *schema = tartan_library_schema(library);
     uint32_t trays[3];
     size_t length = 9;
@@ -250,7 +304,7 @@ static void opens_a_library(void **state)
     tartan_error error;
     tartan_library *library = NULL;
     char *text = NULL, hash[33];
-    assert_int_equal(tartan_library_open(module, "rows", &library, &error), TARTAN_OK);
+    assert_int_equal(open_named(module, "rows", 0, &library, &error), TARTAN_OK);
     assert_int_equal(tartan_library_min_trays(library), 1);
     assert_int_equal(tartan_library_max_trays(library), 3);
     tartan_library_hash(library, hash);
@@ -280,15 +334,15 @@ static void opens_a_library(void **state)
                      TARTAN_INVALID);
     assert_int_equal(tartan_library_rank(library, (uint32_t[]){0, 0, 0, 0}, 4, &text, &error), TARTAN_INVALID);
     tartan_library_free(library);
-    assert_int_equal(tartan_library_open_within(module, "rows", 1, &library, &error), TARTAN_LIMIT);
+    assert_int_equal(open_named(module, "rows", 1, &library, &error), TARTAN_LIMIT);
     assert_int_equal(error.code, 802);
     assert_non_null(strstr(error.help, "--max-states"));
-    assert_int_equal(tartan_library_open_within(module, "rows", 1000, &library, &error), TARTAN_OK);
+    assert_int_equal(open_named(module, "rows", 1000, &library, &error), TARTAN_OK);
     assert_int_equal(tartan_library_count(library, TARTAN_ANY_LENGTH, &text, &error), TARTAN_OK);
     assert_string_equal(text, "56");
     tartan_text_free(text);
     tartan_library_free(library);
-    assert_int_equal(tartan_library_open(module, "columns", &library, &error), TARTAN_INVALID);
+    assert_int_equal(open_named(module, "columns", 0, &library, &error), TARTAN_INVALID);
     tartan_module_free(module);
 }
 
@@ -301,7 +355,7 @@ static void walks_and_samples(void **state)
     tartan_plans *plans = NULL;
     const uint32_t *trays;
     size_t length, found = 0;
-    assert_int_equal(tartan_library_open(module, NULL, &library, &error), TARTAN_OK);
+    assert_int_equal(tartan_library_open(module, NULL, NULL, &library, &error), TARTAN_OK);
     assert_int_equal(tartan_library_plans(library, NULL, NULL, &plans, &error), TARTAN_OK);
     while (tartan_plans_next(plans, &trays, &length))
         found++;
@@ -347,10 +401,15 @@ static void walks_and_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compiles_and_describes), cmocka_unit_test(says_what_is_wrong),
-        cmocka_unit_test(saves_and_loads),        cmocka_unit_test(matches),
-        cmocka_unit_test(matches_many),           cmocka_unit_test(reads_and_writes_plans),
-        cmocka_unit_test(opens_a_library),        cmocka_unit_test(walks_and_samples),
+        cmocka_unit_test(compiles_and_describes),
+        cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(asks_the_resolver),
+        cmocka_unit_test(saves_and_loads),
+        cmocka_unit_test(matches),
+        cmocka_unit_test(matches_many),
+        cmocka_unit_test(reads_and_writes_plans),
+        cmocka_unit_test(opens_a_library),
+        cmocka_unit_test(walks_and_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

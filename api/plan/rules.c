@@ -1,15 +1,17 @@
+/* The C interface to matching rules. */
 #include "runtime/plan/match/rules.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/runtime/api.h"
+#include "api/plan/plan.h"
 #include "runtime/base/crew.h"
 
 struct tartan_rules {
-    const tn_module *module;
-    tn_schema *schema;
+    tn_api_plans plans;
     tn_rules *rules;
     uint32_t *records; /* per rule: its RULE record */
     size_t count;
@@ -19,13 +21,6 @@ struct tartan_matcher {
     const tartan_rules *rules;
     tn_matcher *matcher;
 };
-
-static tartan_status out_of_memory(tartan_error *error)
-{
-    tn_error found;
-    tn_fail_memory(&found);
-    return tn_api_fail(&found, error);
-}
 
 static bool find(const tn_module *module, const char *name, uint32_t *record)
 {
@@ -46,63 +41,77 @@ static tartan_status unknown(const tn_module *module, const char *name, tartan_e
     return tn_api_unknown(error, "rule", name, names, module->RULE_count);
 }
 
-/* Fills records with the rules asked for. */
-static tartan_status choose(tartan_rules *rules, const char *const *names, size_t count, tartan_error *error)
+static tartan_status choose(const tn_module *module, const char *const *names, size_t count, uint32_t *records,
+                            size_t *found, tartan_error *error)
 {
-    const tn_module *module = rules->module;
-    rules->records = calloc((count > module->RULE_count ? count : module->RULE_count) + 1, sizeof *rules->records);
-    if (!rules->records)
-        return out_of_memory(error);
-    for (size_t i = 0; i < count; i++)
-        if (!find(module, names[i], &rules->records[rules->count++]))
+    *found = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!names || !names[i])
+            return tn_api_missing(error, "rule's name");
+        if (!find(module, names[i], &records[(*found)++]))
             return unknown(module, names[i], error);
+    }
     for (size_t i = 0; count == 0 && i < module->RULE_count; i++)
         if (!(module->RULE_records[i].flags & TN_IMPORTED))
-            rules->records[rules->count++] = (uint32_t)i;
-    if (rules->count == 0)
+            records[(*found)++] = (uint32_t)i;
+    if (*found == 0)
         return tn_api_refuse(error, TARTAN_INVALID, "the module has no rules of its own");
+    const tn_rule_record *first = &module->RULE_records[records[0]];
+    for (size_t i = 1; i < *found; i++)
+        if (module->RULE_records[records[i]].schema != first->schema)
+            return tn_api_refuse(error, TARTAN_INVALID, "rules `%s` and `%s` are of different schemas",
+                                 tn_text(module, first->name), tn_text(module, module->RULE_records[records[i]].name));
     return TARTAN_OK;
+}
+
+tartan_status tn_api_rules_find(const tn_module *module, const char *const *names, size_t count, uint32_t **records,
+                                size_t *found, tartan_error *error)
+{
+    uint32_t *made = calloc((count > module->RULE_count ? count : module->RULE_count) + 1, sizeof *made);
+    if (!made)
+        return tn_api_memory(error);
+    tartan_status status = choose(module, names, count, made, found, error);
+    if (status == TARTAN_OK)
+        *records = made;
+    else
+        free(made);
+    return status;
 }
 
 static tartan_status prepare(tartan_rules *rules, tartan_error *error)
 {
-    const tn_rule_record *records = rules->module->RULE_records;
-    const tn_rule_record *first = &records[rules->records[0]];
+    const tn_rule_record *records = rules->plans.module.RULE_records;
     const tn_rules_options options = {.any = true};
     uint32_t *functions = malloc(rules->count * sizeof *functions);
     if (!functions)
-        return out_of_memory(error);
-    for (size_t i = 0; i < rules->count; i++) {
-        const tn_rule_record *rule = &records[rules->records[i]];
-        functions[i] = rule->holds;
-        if (rule->schema != first->schema) {
-            free(functions);
-            return tn_api_refuse(error, TARTAN_INVALID, "rules `%s` and `%s` are of different schemas",
-                                 tn_text(rules->module, first->name), tn_text(rules->module, rule->name));
-        }
-    }
+        return tn_api_memory(error);
+    for (size_t i = 0; i < rules->count; i++)
+        functions[i] = records[rules->records[i]].holds;
     tn_error found;
-    tn_status status = tn_schema_new(rules->module, first->schema, 0, &rules->schema, &found);
+    tn_status status =
+        tn_schema_new(&rules->plans.module, records[rules->records[0]].schema, 0, &rules->plans.schema, &found);
     if (status == TN_OK)
-        status = tn_rules_new(rules->schema, functions, rules->count, &options, &rules->rules, &found);
+        status = tn_rules_new(rules->plans.schema, functions, rules->count, &options, &rules->rules, &found);
     free(functions);
     return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
 tartan_status tartan_rules_new(const tartan_module *module, const char *const *names, size_t count,
-                               tartan_rules **rules, tartan_error *error)
+                               const tartan_watch *watch, tartan_rules **rules, tartan_error *error)
 {
     tartan_rules *made = calloc(1, sizeof *made);
     if (!made)
-        return out_of_memory(error);
-    made->module = module->module;
-    tartan_status status = choose(made, names, count, error);
+        return tn_api_memory(error);
+    tartan_status status = tn_api_plans_begin(module, watch, &made->plans, error);
+    if (status == TARTAN_OK)
+        status = tn_api_rules_find(&made->plans.module, names, count, &made->records, &made->count, error);
     if (status == TARTAN_OK)
         status = prepare(made, error);
     if (status != TARTAN_OK) {
         tartan_rules_free(made);
         return status;
     }
+    tn_api_plans_made(&made->plans);
     *rules = made;
     return TARTAN_OK;
 }
@@ -112,7 +121,7 @@ void tartan_rules_free(tartan_rules *rules)
     if (!rules)
         return;
     tn_rules_free(rules->rules);
-    tn_schema_free(rules->schema);
+    tn_api_plans_clear(&rules->plans);
     free(rules->records);
     free(rules);
 }
@@ -124,12 +133,13 @@ size_t tartan_rules_count(const tartan_rules *rules)
 
 const char *tartan_rules_name(const tartan_rules *rules, size_t i)
 {
-    return i < rules->count ? tn_text(rules->module, rules->module->RULE_records[rules->records[i]].name) : NULL;
+    return i < rules->count ? tn_text(&rules->plans.module, rules->plans.module.RULE_records[rules->records[i]].name)
+                            : NULL;
 }
 
 const tartan_schema *tartan_rules_schema(const tartan_rules *rules)
 {
-    return tn_api_public_schema(rules->schema);
+    return tn_api_public_schema(rules->plans.schema);
 }
 
 size_t tartan_rules_words(const tartan_rules *rules)
@@ -139,9 +149,11 @@ size_t tartan_rules_words(const tartan_rules *rules)
 
 tartan_status tartan_matcher_new(const tartan_rules *rules, tartan_matcher **matcher, tartan_error *error)
 {
+    if (!rules)
+        return tn_api_missing(error, "rules object");
     tartan_matcher *made = malloc(sizeof *made);
     if (!made)
-        return out_of_memory(error);
+        return tn_api_memory(error);
     *made = (tartan_matcher){.rules = rules};
     tn_error found;
     if (tn_matcher_new(rules->rules, &made->matcher, &found) != TN_OK) {
@@ -163,8 +175,10 @@ void tartan_matcher_free(tartan_matcher *matcher)
 tartan_status tartan_match(tartan_matcher *matcher, const uint32_t *trays, size_t length, uint64_t *bits,
                            tartan_error *error)
 {
+    if (!matcher || (length && !trays) || !bits)
+        return tn_api_missing(error, !matcher ? "matcher" : !bits ? "room for bits" : "plan");
     tn_error found;
-    tn_status status = tn_api_trays(matcher->rules->schema, trays, length, &found);
+    tn_status status = tn_api_trays(matcher->rules->plans.schema, trays, length, &found);
     if (status == TN_OK)
         status = tn_match(matcher->matcher, trays, length, bits, &found);
     return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
@@ -183,6 +197,8 @@ typedef struct request {
     tn_matcher **matchers; /* of each thread, once it has something to do */
     uint64_t *bits;        /* which rules; NULL: asked whether any does */
     uint8_t *matches;      /* whether any does */
+    tn_watch *watch;
+    atomic_size_t done; /* plans */
 } request;
 
 /* Says which plan an error is about. */
@@ -205,7 +221,11 @@ static size_t valid_plans(const tn_schema *schema, const tn_plan_array *plans, t
 
 static tn_status match_share(void *context, unsigned thread, size_t share, tn_error *error)
 {
-    const request *asked = context;
+    request *asked = context;
+    if (pthread_equal(asked->watch->caller, pthread_self()))
+        tn_watch_tell(asked->watch, (double)asked->done, (double)asked->count);
+    if (tn_watch_check(asked->watch, error) != TN_OK)
+        return TN_STOPPED;
     size_t begin = share * SHARE, left = asked->count - begin, done = 0;
     tn_plan_array plans = {asked->trays, begin ? asked->ends[begin - 1] : 0, asked->ends + begin,
                            left < SHARE ? left : SHARE};
@@ -214,7 +234,7 @@ static tn_status match_share(void *context, unsigned thread, size_t share, tn_er
     if (status != TN_OK)
         return status;
     size_t asked_count = plans.count;
-    plans.count = valid_plans(asked->rules->schema, &plans, error);
+    plans.count = valid_plans(asked->rules->plans.schema, &plans, error);
     status = plans.count < asked_count ? TN_INVALID : TN_OK;
     tn_error found;
     tn_status matched =
@@ -223,6 +243,7 @@ static tn_status match_share(void *context, unsigned thread, size_t share, tn_er
             : tn_match_any(*matcher, &plans, asked->matches + begin, &done, &found);
     if (matched != TN_OK)
         *error = found;
+    asked->done += asked_count;
     if (matched != TN_OK || status != TN_OK)
         name_plan(begin + done, error);
     return matched != TN_OK ? matched : status;
@@ -246,25 +267,34 @@ static tn_status match_shares(request *asked, unsigned threads, tn_error *error)
     return status;
 }
 
-static tartan_status match_plans(request *asked, unsigned threads, tartan_error *error)
+static tartan_status match_plans(request *asked, unsigned threads, const tartan_watch *given, tartan_error *error)
 {
+    tn_watch watch;
+    tn_error found;
+    if (!asked->rules || (asked->count && (!asked->ends || (!asked->bits && !asked->matches))))
+        return tn_api_missing(error, asked->rules ? "room for results" : "rules object");
     for (size_t i = 1; i < asked->count; i++)
         if (asked->ends[i] < asked->ends[i - 1])
             return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
-    tn_error found;
+    if (asked->count && asked->ends[asked->count - 1] && !asked->trays)
+        return tn_api_missing(error, "array of trays");
+    asked->watch = &watch;
+    tartan_status status = tn_api_watch(given, &watch, error);
+    if (status != TARTAN_OK)
+        return status;
     return match_shares(asked, threads, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
 tartan_status tartan_match_all(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
-                               unsigned threads, uint64_t *bits, tartan_error *error)
+                               unsigned threads, uint64_t *bits, const tartan_watch *watch, tartan_error *error)
 {
     request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .bits = bits};
-    return match_plans(&asked, threads, error);
+    return match_plans(&asked, threads, watch, error);
 }
 
 tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays, const size_t *ends, size_t count,
-                               unsigned threads, uint8_t *matches, tartan_error *error)
+                               unsigned threads, uint8_t *matches, const tartan_watch *watch, tartan_error *error)
 {
     request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .matches = matches};
-    return match_plans(&asked, threads, error);
+    return match_plans(&asked, threads, watch, error);
 }

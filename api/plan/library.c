@@ -1,16 +1,12 @@
+/* The C interface to plan libraries. */
 #include "runtime/plan/library/library.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/runtime/api.h"
+#include "api/plan/plan.h"
 
 _Static_assert(TARTAN_ANY_LENGTH == TN_ALL_LENGTHS, "one number for any length");
-
-struct tartan_library {
-    tn_schema *schema;
-    tn_library *library;
-};
 
 /* Either a cursor over a run of ranks, or ranks drawn. */
 struct tartan_plans {
@@ -21,13 +17,6 @@ struct tartan_plans {
     uint32_t *trays;
 };
 
-static tartan_status out_of_memory(tartan_error *error)
-{
-    tn_error found;
-    tn_fail_memory(&found);
-    return tn_api_fail(&found, error);
-}
-
 static tartan_status unknown(const tn_module *module, const char *name, tartan_error *error)
 {
     const char **names = malloc((module->LIBRARY_count + 1) * sizeof *names);
@@ -36,7 +25,7 @@ static tartan_status unknown(const tn_module *module, const char *name, tartan_e
     return tn_api_unknown(error, "library", name, names, module->LIBRARY_count);
 }
 
-static tartan_status find(const tn_module *module, const char *name, uint32_t *index, tartan_error *error)
+tartan_status tn_api_library_find(const tn_module *module, const char *name, uint32_t *index, tartan_error *error)
 {
     size_t found = 0;
     for (size_t i = 0; i < module->LIBRARY_count; i++) {
@@ -55,32 +44,46 @@ static tartan_status find(const tn_module *module, const char *name, uint32_t *i
     return TARTAN_OK;
 }
 
-tartan_status tartan_library_open(const tartan_module *module, const char *name, tartan_library **library,
+static tartan_status open_library(tartan_library *library, uint32_t index, const tartan_library_options *given,
                                   tartan_error *error)
 {
-    return tartan_library_open_within(module, name, 0, library, error);
+    const tn_module *module = &library->plans.module;
+    const tn_library_options options = {.max_states = given->max_states,
+                                        .all_generated = given->all_generated,
+                                        .override_trays = given->trays_max > 0,
+                                        .trays_min = given->trays_min,
+                                        .trays_max = given->trays_max};
+    tn_error found;
+    tn_status status = tn_schema_new(module, module->LIBRARY_records[index].schema, 0, &library->plans.schema, &found);
+    if (status == TN_OK)
+        status = tn_library_new(library->plans.schema, index, &options, &library->owned, &found);
+    library->schema = library->plans.schema;
+    library->library = library->owned;
+    library->index = index;
+    library->bare = given->all_generated;
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
-tartan_status tartan_library_open_within(const tartan_module *module, const char *name, uint32_t max_states,
-                                         tartan_library **library, tartan_error *error)
+tartan_status tartan_library_open(const tartan_module *module, const tartan_library_options *options,
+                                  const tartan_watch *watch, tartan_library **library, tartan_error *error)
 {
     uint32_t index = 0;
-    tartan_status status = find(module->module, name, &index, error);
-    if (status != TARTAN_OK)
-        return status;
+    tartan_library_options own;
     tartan_library *made = calloc(1, sizeof *made);
     if (!made)
-        return out_of_memory(error);
-    tn_error found;
-    tn_status opened =
-        tn_schema_new(module->module, module->module->LIBRARY_records[index].schema, 0, &made->schema, &found);
-    const tn_library_options options = {.max_states = max_states};
-    if (opened == TN_OK)
-        opened = tn_library_new(made->schema, index, &options, &made->library, &found);
-    if (opened != TN_OK) {
+        return tn_api_memory(error);
+    tartan_status status = TN_API_TAKE(tartan_library_options, &own, options, error);
+    if (status == TARTAN_OK)
+        status = tn_api_plans_begin(module, watch, &made->plans, error);
+    if (status == TARTAN_OK)
+        status = tn_api_library_find(&made->plans.module, own.name, &index, error);
+    if (status == TARTAN_OK)
+        status = open_library(made, index, &own, error);
+    if (status != TARTAN_OK) {
         tartan_library_free(made);
-        return tn_api_fail(&found, error);
+        return status;
     }
+    tn_api_plans_made(&made->plans);
     *library = made;
     return TARTAN_OK;
 }
@@ -89,9 +92,37 @@ void tartan_library_free(tartan_library *library)
 {
     if (!library)
         return;
-    tn_library_free(library->library);
-    tn_schema_free(library->schema);
+    tn_library_free(library->owned);
+    tn_api_plans_clear(&library->plans);
     free(library);
+}
+
+/* ---- its clauses */
+
+static const tn_clause_record *clause(const tartan_library *library, size_t i)
+{
+    if (!library->owned)
+        return NULL; /* a part of a diff */
+    const tn_module *module = &library->plans.module;
+    const tn_library_record *record = &module->LIBRARY_records[library->index];
+    return i < record->clause_count ? &module->CLAUSE_records[record->clause_first + i] : NULL;
+}
+
+size_t tartan_library_clause_count(const tartan_library *library)
+{
+    return library->owned ? library->plans.module.LIBRARY_records[library->index].clause_count : 0;
+}
+
+const char *tartan_library_clause_name(const tartan_library *library, size_t i)
+{
+    const tn_clause_record *record = clause(library, i);
+    return record ? tn_text(&library->plans.module, record->name) : NULL;
+}
+
+bool tartan_library_clause_prunes(const tartan_library *library, size_t i)
+{
+    const tn_clause_record *record = clause(library, i);
+    return record && record->kind == TN_CLAUSE_PRUNE;
 }
 
 const tartan_schema *tartan_library_schema(const tartan_library *library)
@@ -115,11 +146,11 @@ void tartan_library_hash(const tartan_library *library, char hex[33])
 }
 
 /* A number as a new decimal text. */
-static tartan_status decimal(const mpz_t number, char **text, tartan_error *error)
+tartan_status tn_api_decimal(const mpz_t number, char **text, tartan_error *error)
 {
     char *digits = malloc(mpz_sizeinbase(number, 10) + 2);
     if (!digits)
-        return out_of_memory(error);
+        return tn_api_memory(error);
     *text = mpz_get_str(digits, 10, number);
     return TARTAN_OK;
 }
@@ -127,19 +158,50 @@ static tartan_status decimal(const mpz_t number, char **text, tartan_error *erro
 /* A rank from its text; `number` is initialised. */
 static tartan_status read_rank(const char *text, mpz_t number, tartan_error *error)
 {
+    if (!text)
+        return tn_api_missing(error, "rank");
     if (text[0] == '\0' || strspn(text, "0123456789") != strlen(text))
         return tn_api_refuse(error, TARTAN_INVALID, "a rank is a decimal number, not `%.40s`", text);
     if (mpz_set_str(number, text, 10) != 0)
-        return out_of_memory(error);
+        return tn_api_memory(error);
     return TARTAN_OK;
+}
+
+tartan_status tartan_library_clause_effect(const tartan_library *library, size_t i, char **out, char **only,
+                                           tartan_error *error)
+{
+    if (!library)
+        return tn_api_missing(error, "library");
+    const tn_clause_record *record = clause(library, i);
+    if (!record)
+        return tn_api_refuse(error, TARTAN_INVALID, "the library has no clause %zu", i);
+    if (record->kind == TN_CLAUSE_PRUNE && library->bare)
+        return tn_api_refuse(error, TARTAN_INVALID, "the library was opened without pruning");
+    mpz_t numbers[2];
+    uint32_t states;
+    tn_error found;
+    char *first = NULL;
+    mpz_inits(numbers[0], numbers[1], NULL);
+    tn_status status = tn_library_effect(library->library, (uint32_t)i, numbers[0], numbers[1], &states, &found);
+    tartan_status result = status == TN_OK ? tn_api_decimal(numbers[0], &first, error) : tn_api_fail(&found, error);
+    if (result == TARTAN_OK)
+        result = tn_api_decimal(numbers[1], only, error);
+    if (result == TARTAN_OK)
+        *out = first;
+    else
+        free(first);
+    mpz_clears(numbers[0], numbers[1], NULL);
+    return result;
 }
 
 tartan_status tartan_library_count(const tartan_library *library, uint32_t length, char **count, tartan_error *error)
 {
+    if (!library)
+        return tn_api_missing(error, "library");
     mpz_t kept;
     mpz_init(kept);
     tn_library_kept(library->library, length, kept);
-    tartan_status status = decimal(kept, count, error);
+    tartan_status status = tn_api_decimal(kept, count, error);
     mpz_clear(kept);
     return status;
 }
@@ -147,6 +209,8 @@ tartan_status tartan_library_count(const tartan_library *library, uint32_t lengt
 tartan_status tartan_library_rank(const tartan_library *library, const uint32_t *trays, size_t length, char **rank,
                                   tartan_error *error)
 {
+    if (!library)
+        return tn_api_missing(error, "library");
     tn_error found;
     if (tn_api_trays(library->schema, trays, length, &found) != TN_OK)
         return tn_api_fail(&found, error);
@@ -154,7 +218,7 @@ tartan_status tartan_library_rank(const tartan_library *library, const uint32_t 
     mpz_init(number);
     tartan_status status;
     if (tn_library_rank(library->library, trays, length, number))
-        status = decimal(number, rank, error);
+        status = tn_api_decimal(number, rank, error);
     else
         status = tn_api_refuse(error, TARTAN_INVALID, "the plan is not in the library");
     mpz_clear(number);
@@ -164,6 +228,8 @@ tartan_status tartan_library_rank(const tartan_library *library, const uint32_t 
 tartan_status tartan_library_unrank(const tartan_library *library, const char *rank, uint32_t *trays, size_t *length,
                                     tartan_error *error)
 {
+    if (!library)
+        return tn_api_missing(error, "library");
     mpz_t number;
     mpz_init(number);
     uint32_t found = 0;
@@ -179,9 +245,11 @@ tartan_status tartan_library_unrank(const tartan_library *library, const char *r
 tartan_status tartan_library_plans(const tartan_library *library, const char *from, const char *to,
                                    tartan_plans **plans, tartan_error *error)
 {
+    if (!library)
+        return tn_api_missing(error, "library");
     tartan_plans *made = calloc(1, sizeof *made);
     if (!made)
-        return out_of_memory(error);
+        return tn_api_memory(error);
     mpz_t first, end;
     mpz_inits(first, end, NULL);
     tn_library_kept(library->library, TN_ALL_LENGTHS, end);
@@ -223,16 +291,18 @@ static size_t at_most_kept(const tn_library *library, uint32_t length, size_t co
 tartan_status tartan_library_sample(const tartan_library *library, uint64_t seed, uint32_t length, size_t count,
                                     tartan_plans **plans, tartan_error *error)
 {
+    if (!library)
+        return tn_api_missing(error, "library");
     tartan_plans *made = calloc(1, sizeof *made);
     if (!made)
-        return out_of_memory(error);
+        return tn_api_memory(error);
     made->library = library->library;
     count = at_most_kept(library->library, length, count);
     made->ranks = calloc(count ? count : 1, sizeof *made->ranks);
     made->trays = calloc((size_t)tn_library_max(library->library) + 1, sizeof *made->trays);
     if (!made->ranks || !made->trays) {
         tartan_plans_free(made);
-        return out_of_memory(error);
+        return tn_api_memory(error);
     }
     for (; made->capacity < count; made->capacity++)
         mpz_init(made->ranks[made->capacity]);

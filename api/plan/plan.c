@@ -1,7 +1,8 @@
+/* The C interface to schemas, and to plans as text. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/runtime/api.h"
+#include "api/plan/plan.h"
 #include "runtime/plan/text/text.h"
 
 const char *tartan_schema_name(const tartan_schema *schema)
@@ -29,6 +30,8 @@ tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t le
 tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, size_t size, uint32_t *trays,
                                size_t capacity, size_t *length, tartan_error *error)
 {
+    if (!schema || (size && !line) || (capacity && !trays) || !length)
+        return tn_api_missing(error, !schema ? "schema" : "plan");
     tn_plan plan = {0};
     tn_error found;
     tn_status status = tn_plan_parse_line(tn_api_schema(schema), line, size, capacity, &plan, &found);
@@ -46,6 +49,8 @@ tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, si
 tartan_status tartan_plan_write(const tartan_schema *schema, const uint32_t *trays, size_t length, char **line,
                                 tartan_error *error)
 {
+    if (!schema || (length && !trays))
+        return tn_api_missing(error, !schema ? "schema" : "plan");
     tn_error found;
     if (tn_api_trays(tn_api_schema(schema), trays, length, &found) != TN_OK)
         return tn_api_fail(&found, error);
@@ -61,7 +66,25 @@ tartan_status tartan_plan_write(const tartan_schema *schema, const uint32_t *tra
     return TARTAN_OK;
 }
 
-void tartan_text_free(char *text)
+/* ---- what objects are made over */
+
+tartan_status tn_api_plans_begin(const tartan_module *module, const tartan_watch *watch, tn_api_plans *plans,
+                                 tartan_error *error)
 {
-    free(text);
+    if (!module)
+        return tn_api_missing(error, "module");
+    plans->module = *module->module;
+    plans->module.watch = &plans->watch;
+    return tn_api_watch(watch, &plans->watch, error);
+}
+
+void tn_api_plans_made(tn_api_plans *plans)
+{
+    plans->watch.go_on = NULL;
+}
+
+void tn_api_plans_clear(tn_api_plans *plans)
+{
+    tn_schema_free(plans->schema);
+    plans->schema = NULL;
 }

@@ -1,0 +1,127 @@
+/* What the files of the C interface share: errors turned into its own, structs with a size, progress. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/base/api.h"
+#include "runtime/base/nearest.h"
+
+_Static_assert((int)TARTAN_OK == (int)TN_OK && (int)TARTAN_STOPPED == (int)TN_STOPPED, "statuses are the same numbers");
+_Static_assert(sizeof((tartan_error *)0)->message == sizeof((tn_error *)0)->message, "messages fit");
+_Static_assert(sizeof((tartan_error *)0)->help == sizeof((tn_error *)0)->help, "help fits");
+
+const char *tartan_version(void)
+{
+    return TARTAN_VERSION;
+}
+
+tartan_status tn_api_fail(const tn_error *found, tartan_error *error)
+{
+    if (error) {
+        *error = (tartan_error){.status = (tartan_status)found->status, .code = found->code, .column = found->column};
+        memcpy(error->message, found->message, sizeof error->message);
+        memcpy(error->help, found->help, sizeof error->help);
+    }
+    return (tartan_status)found->status;
+}
+
+tartan_status tn_api_refuse(tartan_error *error, tartan_status status, const char *format, ...)
+{
+    if (!error)
+        return status;
+    *error = (tartan_error){.status = status};
+    va_list args;
+    va_start(args, format);
+    vsnprintf(error->message, sizeof error->message, format, args);
+    va_end(args);
+    return status;
+}
+
+tartan_status tn_api_memory(tartan_error *error)
+{
+    tn_error found;
+    tn_fail_memory(&found);
+    return tn_api_fail(&found, error);
+}
+
+tartan_status tn_api_missing(tartan_error *error, const char *what)
+{
+    return tn_api_refuse(error, TARTAN_INVALID, "the %s is NULL", what);
+}
+
+tartan_status tn_api_unknown(tartan_error *error, const char *what, const char *name, const char **names, size_t count)
+{
+    const char *near = names ? tn_nearest(name, names, count) : NULL;
+    tn_api_refuse(error, TARTAN_INVALID, "the module has no %s `%.200s`", what, name);
+    if (near && error)
+        snprintf(error->help, sizeof error->help, "did you mean `%.200s`?", near);
+    free(names);
+    return TARTAN_INVALID;
+}
+
+/* ---- structs that callers own */
+
+static size_t size_of(const void *sized)
+{
+    size_t size;
+    memcpy(&size, sized, sizeof size);
+    return size;
+}
+
+static tartan_status too_small(const char *what, tartan_error *error)
+{
+    tn_api_refuse(error, TARTAN_INVALID, "the size of %s is not set", what);
+    if (error)
+        snprintf(error->help, sizeof error->help, "begin with %s_init()", what);
+    return TARTAN_INVALID;
+}
+
+tartan_status tn_api_take(void *own, size_t room, const void *given, const char *what, tartan_error *error)
+{
+    memset(own, 0, room);
+    memcpy(own, &room, sizeof room);
+    if (!given)
+        return TARTAN_OK;
+    size_t size = size_of(given);
+    if (size < room)
+        return too_small(what, error);
+    for (size_t i = room; i < size; i++)
+        if (((const unsigned char *)given)[i])
+            return tn_api_refuse(error, TARTAN_INVALID,
+                                 "this version of Tartan does not know a field of %s that is set", what);
+    memcpy(own, given, room);
+    return TARTAN_OK;
+}
+
+tartan_status tn_api_give(void *given, const void *own, size_t room, const char *what, tartan_error *error)
+{
+    if (!given)
+        return tn_api_missing(error, what);
+    size_t size = size_of(given);
+    if (size < room)
+        return too_small(what, error);
+    memcpy(given, own, room);
+    memcpy(given, &size, sizeof size);
+    return TARTAN_OK;
+}
+
+tartan_status tn_api_watch(const tartan_watch *given, tn_watch *watch, tartan_error *error)
+{
+    tartan_watch own;
+    tartan_status status = TN_API_TAKE(tartan_watch, &own, given, error);
+    if (status == TARTAN_OK)
+        tn_watch_begin(watch, own.go_on, own.context);
+    return status;
+}
+
+/* ---- memory */
+
+void tartan_text_free(char *text)
+{
+    free(text);
+}
+
+void tartan_bytes_free(void *bytes)
+{
+    free(bytes);
+}

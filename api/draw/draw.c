@@ -1,0 +1,153 @@
+/* The C interface to pictures, which are made in memory. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "api/genome/genome.h"
+#include "api/growth/growth.h"
+#include "api/plan/plan.h"
+#include "runtime/growth/picture/draw.h"
+#include "runtime/plan/picture/draw.h"
+
+/* Where a picture of this format goes. */
+static tartan_status begin(tartan_picture_format format, uint32_t dpi, tn_picture *to, void **bytes, const size_t *size,
+                           tartan_error *error)
+{
+    if (!bytes || !size)
+        return tn_api_missing(error, "room for the picture");
+    if ((unsigned)format > TARTAN_PDF)
+        return tn_api_refuse(error, TARTAN_INVALID, "there is no picture format %d", (int)format);
+    *to = (tn_picture){.format = (tn_canvas_format)((int)format + TN_CANVAS_SVG), .dpi = dpi};
+    return TARTAN_OK;
+}
+
+static tartan_status finish(tn_status status, const tn_error *found, const tn_picture *to, void **bytes, size_t *size,
+                            tartan_error *error)
+{
+    if (status != TN_OK)
+        return tn_api_fail(found, error);
+    *bytes = to->element;
+    *size = to->size;
+    return TARTAN_OK;
+}
+
+/* ---- plans */
+
+static tartan_status gather(const tn_schema *schema, const uint32_t *trays, const size_t *ends, size_t count,
+                            const tartan_plans_drawing *drawing, tn_drawn_plan **plans, tartan_error *error)
+{
+    tn_error found;
+    if (count && (!ends || (ends[count - 1] && !trays)))
+        return tn_api_missing(error, "array of plans");
+    tn_drawn_plan *made = calloc(count + 1, sizeof *made);
+    if (!made)
+        return tn_api_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        size_t begin = i ? ends[i - 1] : 0;
+        if (ends[i] < begin || tn_api_trays(schema, trays + begin, ends[i] - begin, &found) != TN_OK) {
+            free(made);
+            return ends[i] < begin ? tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1)
+                                   : tn_api_fail(&found, error);
+        }
+        made[i] = (tn_drawn_plan){.trays = trays + begin,
+                                  .length = ends[i] - begin,
+                                  .number = drawing->captions ? drawing->captions[i] : NULL};
+    }
+    *plans = made;
+    return TARTAN_OK;
+}
+
+tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends, size_t count,
+                                tartan_picture_format format, const tartan_plans_drawing *given, void **bytes,
+                                size_t *size, tartan_error *error)
+{
+    tartan_plans_drawing drawing;
+    tn_drawn_plan *plans = NULL;
+    tn_picture to;
+    tn_error found;
+    if (!schema)
+        return tn_api_missing(error, "schema");
+    tartan_status status = TN_API_TAKE(tartan_plans_drawing, &drawing, given, error);
+    if (status == TARTAN_OK)
+        status = begin(format, drawing.dpi, &to, bytes, size, error);
+    if (status == TARTAN_OK)
+        status = gather(tn_api_schema(schema), trays, ends, count, &drawing, &plans, error);
+    if (status != TARTAN_OK)
+        return status;
+    const tn_draw_options options = {.title = drawing.title,
+                                     .doc = drawing.doc,
+                                     .number_name = "plan",
+                                     .paper = drawing.paper,
+                                     .scale = drawing.scale,
+                                     .columns = drawing.columns,
+                                     .dpi = drawing.dpi};
+    tn_status drawn = tn_plans_draw(tn_api_schema(schema), plans, count, &options, &to, &found);
+    free(plans);
+    return finish(drawn, &found, &to, bytes, size, error);
+}
+
+/* ---- surfaces */
+
+static tartan_status camera_of(const tartan_growth_drawing *drawing, tn_camera *camera, tartan_error *error)
+{
+    *camera = tn_camera_default();
+    if (drawing->camera) {
+        camera->azimuth = drawing->azimuth;
+        camera->elevation = drawing->elevation;
+    }
+    if (drawing->width > 0)
+        camera->width = drawing->width;
+    bool good =
+        isfinite(camera->azimuth) && fabs(camera->elevation) <= 90 && drawing->width >= 0 && drawing->width <= 100000;
+    return good ? TARTAN_OK
+                : tn_api_refuse(error, TARTAN_INVALID,
+                                "a camera's elevation lies between -90 and 90, and a width is up to 100,000 points");
+}
+
+tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
+                                 const tartan_growth_drawing *given, void **bytes, size_t *size, tartan_error *error)
+{
+    tartan_growth_drawing drawing;
+    tn_camera camera;
+    tn_picture to;
+    tn_view *view = NULL;
+    tn_error found;
+    tartan_status status = TN_API_TAKE(tartan_growth_drawing, &drawing, given, error);
+    if (status == TARTAN_OK)
+        status = begin(format, drawing.dpi, &to, bytes, size, error);
+    if (status == TARTAN_OK)
+        status = camera_of(&drawing, &camera, error);
+    if (status == TARTAN_OK)
+        status = tn_api_growth_mend(growth, error);
+    if (status != TARTAN_OK)
+        return status;
+    const tn_view_options options = {.title = drawing.title ? drawing.title : growth->study.title,
+                                     .caption = drawing.caption,
+                                     .dpi = drawing.dpi,
+                                     .system = growth->system};
+    tn_status drawn = tn_view_take(growth->growth, &camera, &view, &found);
+    if (drawn == TN_OK) {
+        drawn = tn_views_draw(&view, 1, &options, &to, &found);
+        tn_view_free(view);
+    }
+    return finish(drawn, &found, &to, bytes, size, error);
+}
+
+/* ---- derivations */
+
+tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format, void **bytes, size_t *size,
+                                     tartan_error *error)
+{
+    tn_picture to;
+    tn_tree tree;
+    tn_error found;
+    tartan_status status = tn_api_derivation(mapper, error);
+    if (status == TARTAN_OK)
+        status = begin(format, 0, &to, bytes, size, error);
+    if (status != TARTAN_OK)
+        return status;
+    tn_status drawn = tn_tree_make(mapper->last.events, mapper->last.event_count, &tree, &found);
+    if (drawn == TN_OK)
+        drawn = tn_tree_draw(mapper->grammar, mapper->last.events, &tree, &to, &found);
+    tn_tree_clear(&tree);
+    return finish(drawn, &found, &to, bytes, size, error);
+}

@@ -1,0 +1,122 @@
+/* The C interface to meshes as files, and to what is done to them: smoothing, subdividing, decimating. */
+#include <stdlib.h>
+
+#include "api/growth/growth.h"
+#include "runtime/geometry/write.h"
+#include "runtime/mesh/openmesh.h"
+
+tartan_status tartan_mesh_read(const char *path, tartan_mesh **mesh, tartan_error *error)
+{
+    tn_mesh made;
+    tn_error found;
+    if (!path)
+        return tn_api_missing(error, "path");
+    return tn_openmesh_read(path, &made, &found) == TN_OK ? tn_api_mesh(&made, mesh, error)
+                                                          : tn_api_fail(&found, error);
+}
+
+static tartan_status done(tn_status status, const tn_error *found, tartan_error *error)
+{
+    return status == TN_OK ? TARTAN_OK : tn_api_fail(found, error);
+}
+
+tartan_status tartan_mesh_smooth(tartan_mesh *mesh, uint32_t rounds, tartan_error *error)
+{
+    tn_error found;
+    return mesh ? done(tn_openmesh_smooth(&mesh->mesh, rounds, &found), &found, error) : tn_api_missing(error, "mesh");
+}
+
+tartan_status tartan_mesh_subdivide(tartan_mesh *mesh, uint32_t rounds, tartan_error *error)
+{
+    tn_error found;
+    return mesh ? done(tn_openmesh_subdivide(&mesh->mesh, rounds, &found), &found, error)
+                : tn_api_missing(error, "mesh");
+}
+
+tartan_status tartan_mesh_decimate(tartan_mesh *mesh, size_t faces, tartan_error *error)
+{
+    tn_error found;
+    return mesh ? done(tn_openmesh_decimate(&mesh->mesh, faces, &found), &found, error) : tn_api_missing(error, "mesh");
+}
+
+/* ---- writing */
+
+typedef tn_status writer(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+static tn_status write_to_memory(const tn_mesh *mesh, const tn_mesh_style *style, writer *write, unsigned char **bytes,
+                                 size_t *size, tn_error *error)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, size);
+    if (!out)
+        return tn_fail_memory(error);
+    tn_status status = write(mesh, style, out, error);
+    bool failed = ferror(out) != 0;
+    failed |= fclose(out) != 0;
+    if (status == TN_OK && failed)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        *bytes = (unsigned char *)text;
+    else
+        free(text);
+    return status;
+}
+
+/* GLB and STL hold triangles only. */
+static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style, bool glb, unsigned char **bytes,
+                                 size_t *size, tn_error *error)
+{
+    tn_mesh cut;
+    tn_status status = tn_mesh_copy(mesh, &cut, error);
+    if (status == TN_OK)
+        status = tn_mesh_triangulate(&cut, error);
+    if (status == TN_OK)
+        status = glb ? write_to_memory(&cut, style, tn_mesh_write_glb, bytes, size, error)
+                     : tn_openmesh_write(&cut, TN_OPENMESH_STL, style->y_up, bytes, size, error);
+    tn_mesh_clear(&cut);
+    return status;
+}
+
+static tn_status write_mesh(const tn_mesh *mesh, tartan_mesh_format format, const tn_mesh_style *style,
+                            unsigned char **bytes, size_t *size, tn_error *error)
+{
+    switch (format) {
+    case TARTAN_OBJ:
+        return write_to_memory(mesh, style, tn_mesh_write_obj, bytes, size, error);
+    case TARTAN_PLY:
+        return write_to_memory(mesh, style, tn_mesh_write_ply, bytes, size, error);
+    case TARTAN_DXF:
+        return write_to_memory(mesh, style, tn_mesh_write_dxf, bytes, size, error);
+    case TARTAN_GLB:
+    case TARTAN_STL:
+        return write_triangles(mesh, style, format == TARTAN_GLB, bytes, size, error);
+    case TARTAN_OFF:
+        return tn_openmesh_write(mesh, TN_OPENMESH_OFF, style->y_up, bytes, size, error);
+    case TARTAN_OM:
+        return tn_openmesh_write(mesh, TN_OPENMESH_OM, style->y_up, bytes, size, error);
+    }
+    return tn_fail(error, TN_INVALID, TN_CODE_NONE, "there is no mesh format %d", (int)format);
+}
+
+tartan_status tartan_mesh_write(const tartan_mesh *mesh, tartan_mesh_format format, const tartan_mesh_style *given,
+                                void **bytes, size_t *size, tartan_error *error)
+{
+    tartan_mesh_style style;
+    unsigned char *made;
+    size_t made_size;
+    tn_error found;
+    if (!mesh || !bytes || !size)
+        return tn_api_missing(error, mesh ? "room for the file" : "mesh");
+    tartan_status status = TN_API_TAKE(tartan_mesh_style, &style, given, error);
+    if (status != TARTAN_OK)
+        return status;
+    if (format == TARTAN_DXF && !mesh->mesh.lines)
+        return tn_api_refuse(error, TARTAN_INVALID, "a DXF holds lines, and the mesh has none");
+    const tn_mesh_style own = {
+        .notes = &style.note, .note_count = style.note != NULL, .normals = style.normals, .y_up = style.y_up};
+    if (write_mesh(&mesh->mesh, format, &own, &made, &made_size, &found) != TN_OK)
+        return tn_api_fail(&found, error);
+    *bytes = made;
+    *size = made_size;
+    return TARTAN_OK;
+}

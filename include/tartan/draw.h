@@ -1,0 +1,60 @@
+/* Pictures in memory: SVG, PNG or PDF, the same bytes for the same input and version of cairo. */
+#ifndef TARTAN_DRAW_H
+#define TARTAN_DRAW_H
+
+#include "analysis.h"
+#include "genome.h"
+#include "growth.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum tartan_picture_format { TARTAN_SVG, TARTAN_PNG, TARTAN_PDF } tartan_picture_format;
+
+typedef struct tartan_plans_drawing {
+    size_t size;
+    const char *title;           /* NULL: the schema's name */
+    const char *doc;             /* a line or two below it, or NULL */
+    const char *const *captions; /* what stands under each plan, its rank for example; or NULL */
+    const char *paper;           /* "a3", "arch-c", "letter"; NULL: the smallest that holds all */
+    uint32_t scale;              /* 1:scale; 0: the largest usual one that fits */
+    uint32_t columns;            /* plans in a row; 0: as many as fit */
+    uint32_t dpi;                /* of a PNG; 0: 150 */
+} tartan_plans_drawing;
+TARTAN_SIZED(tartan_plans_drawing)
+
+/* Draws plans: `trays` holds them one after another, the i-th ending before trays[ends[i]]. At most 5,000, and a PNG of
+ * at most 100 million pixels (TARTAN_LIMIT). `drawing` may be NULL. */
+TARTAN_API tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends,
+                                           size_t count, tartan_picture_format format,
+                                           const tartan_plans_drawing *drawing, void **bytes, size_t *size,
+                                           tartan_error *error);
+
+typedef struct tartan_growth_drawing {
+    size_t size;
+    const char *title;   /* or NULL */
+    const char *caption; /* a line at the foot, or NULL */
+    double azimuth;      /* of the camera: degrees about z from the x axis on; with `camera` */
+    double elevation;    /* degrees above the ground; with `camera` */
+    bool camera;         /* false: from -60 and 30 */
+    double width;        /* points; 0: 480 */
+    uint32_t dpi;        /* of a PNG; 0: 150 */
+} tartan_growth_drawing;
+TARTAN_SIZED(tartan_growth_drawing)
+
+/* Draws a surface as it stands: shaded, what is hidden left out. At most 2 million faces (TARTAN_LIMIT). `drawing` may
+ * be NULL. */
+TARTAN_API tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
+                                            const tartan_growth_drawing *drawing, void **bytes, size_t *size,
+                                            tartan_error *error);
+
+/* Draws the derivation of the mapper's last tartan_map, which was to keep it; at most 4,000 nodes (TARTAN_LIMIT). */
+TARTAN_API tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format, void **bytes,
+                                                size_t *size, tartan_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
