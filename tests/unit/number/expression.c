@@ -189,8 +189,8 @@ static void test_limits(void **state)
     assert_int_equal(first_error("size + ", 256, "size", ""), E_TOO_DEEP);
     assert_int_equal(first_error("size + (", 253, "size", ")"), TN_CODE_NONE);
     assert_int_equal(first_error("size + (", 255, "size", ")"), E_TOO_DEEP);
-    assert_int_equal(first_error("size in 1..(", 126, "size", ")"), TN_CODE_NONE);
-    assert_int_equal(first_error("size in 1..(", 127, "size", ")"), E_TOO_DEEP);
+    assert_int_equal(first_error("size in 1..(", 127, "size", ")"), TN_CODE_NONE);
+    assert_int_equal(first_error("size in 1..(", 128, "size", ")"), E_TOO_DEEP);
     assert_int_equal(first_error("not ", 255, "size", ""), TN_CODE_NONE);
 }
 
