@@ -7,6 +7,7 @@
 #include "compiler/compile.h"
 #include "runtime/base/bytes.h"
 #include "runtime/growth/model/records.h"
+#include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/number/sentence.h"
 #include "tests/fuzz/fuzz.h"

@@ -12,6 +12,7 @@
 #include "compiler/common/expression.h"
 #include "compiler/compile.h"
 #include "runtime/growth/model/records.h"
+#include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "tests/support/test_expression.h"
 
