@@ -10,16 +10,16 @@
 #include <cmocka.h>
 
 #include "compiler/common/expression.h"
-#include "compiler/compile.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
+#include "tests/support/compile_file.h"
 #include "tests/support/test_expression.h"
 
 _Static_assert((int)TN_MEASURED_COUNT == (int)TEST_TERMS, "test trees speak of all that is measured");
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
-static const tn_compile_options options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+static const library_folders options = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
 
 /* ---- by their text */
 
@@ -45,7 +45,7 @@ static tn_module *compile(const char *text)
     tn_module *module;
     tn_error error;
     tn_diagnostics_init(&c.diagnostics, &c.sources);
-    if (tn_compile_text("t.study", text, strlen(text), &options, &c) != TN_OK)
+    if (compile_text("t.study", text, strlen(text), &options, &c) != TN_OK)
         fail_msg("%s\n%s", c.diagnostics.count ? c.diagnostics.items[0].message : "", text);
     assert_int_equal(tn_module_load(c.module, c.module_size, NULL, &module, &error), TN_OK);
     tn_compilation_clear(&c);
@@ -167,7 +167,7 @@ static uint32_t first_error(const char *open, size_t times, const char *middle, 
     fclose(out);
     tn_compilation c;
     tn_diagnostics_init(&c.diagnostics, &c.sources);
-    tn_status status = tn_compile_text("t.study", text, size, &options, &c);
+    tn_status status = compile_text("t.study", text, size, &options, &c);
     uint32_t code = status == TN_OK ? TN_CODE_NONE : c.diagnostics.items[0].code;
     if (status == TN_OK) { /* what compiles loads */
         tn_module *module;
