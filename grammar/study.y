@@ -31,7 +31,8 @@ static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn
 static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b);
 static tn_study_item *with_which(tn_study_item *item, uint32_t which);
 static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_span span);
-static tn_study_item *with_measure(tn_study_item *item, tn_study_measure *measure);
+static tn_study_item *with_expression(tn_study_item *item, tn_expression *expression);
+static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
 static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z);
 static tn_study_vector same(tn_decimal n);
 }
@@ -42,7 +43,7 @@ static tn_study_vector same(tn_decimal n);
     tn_study_vector vector;
     tn_study_item *item;
     tn_study_part *part;
-    tn_study_measure *measure;
+    tn_expression *expression;
     uint32_t which;
 }
 
@@ -57,6 +58,11 @@ static tn_study_vector same(tn_decimal n);
 %token AT "`at`" NORMAL "`normal`" FROM "`from`" TO "`to`" RADIUS "`radius`" STRENGTH "`strength`" EXPONENT "`exponent`"
 %token INSIDE "`inside`" OUTSIDE "`outside`" SLIDE "`slide`" STOP "`stop`" SOFT "`soft`" TARGET "`target`" WEIGHT "`weight`"
 %token COMMA "`,`" OPEN "`(`" CLOSE "`)`" EQUALS "`=`" PLUS "`+`" MINUS "`-`" STAR "`*`" SLASH "`/`"
+%token BELOW "`<`" AT_MOST "`<=`" AT_LEAST "`>=`" ABOVE "`>`" UNEQUAL "`!=`" IN "`in`" TO_DOTS "`..`" AND "`and`" OR "`or`" NOT "`not`"
+%left OR
+%left AND
+%precedence NOT
+%nonassoc EQUALS BELOW AT_MOST AT_LEAST ABOVE UNEQUAL IN
 %left PLUS MINUS
 %left STAR SLASH
 %precedence SIGN
@@ -64,7 +70,7 @@ static tn_study_vector same(tn_decimal n);
 %type <item> statement shape
 %type <part> force_parts force_part boundary_parts boundary_part goal_parts goal_part
 %type <vector> vector three
-%type <measure> expression arguments
+%type <expression> expression call
 %type <which> force
 
 %%
@@ -97,7 +103,7 @@ statement
     | boundary shape boundary_parts         { $$ = with_parts($2, $3, @$); }
     | fitness NAME goal_parts               { $$ = with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $3, @$); }
     | fitness NAME EQUALS expression goal_parts
-                                            { $$ = with_measure(with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $5, @$), $4); }
+                                            { $$ = with_expression(with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $5, @$), $4); }
     | fitness RAW                           { $$ = tn_study_item_new(parse, TN_STUDY_SETS_RAW, @$); }
     ;
 
@@ -165,20 +171,31 @@ goal_part
     ;
 
 expression
-    : NUMBER                                { $$ = tn_study_number_new(parse, $1); }
-    | NAME                                  { $$ = tn_study_name_new(parse, TN_OP_TERM, @$, $1, NULL); }
-    | NAME OPEN arguments CLOSE             { $$ = tn_study_name_new(parse, TN_OPCODE_COUNT, @$, $1, $3); }
+    : NUMBER                                { $$ = tn_expression_number(parse->arena, @$, $1.value); }
+    | NAME                                  { $$ = tn_expression_name(parse->arena, @$, $1.text); }
+    | call CLOSE                            { $$ = $1; if ($$) $$->span = @$; }
     | OPEN expression CLOSE                 { $$ = $2; }
-    | expression PLUS expression            { $$ = tn_study_measure_new(parse, TN_OP_ADD, @$, $1, $3); }
-    | expression MINUS expression           { $$ = tn_study_measure_new(parse, TN_OP_SUBTRACT, @$, $1, $3); }
-    | expression STAR expression            { $$ = tn_study_measure_new(parse, TN_OP_MULTIPLY, @$, $1, $3); }
-    | expression SLASH expression           { $$ = tn_study_measure_new(parse, TN_OP_DIVIDE, @$, $1, $3); }
-    | MINUS expression %prec SIGN           { $$ = tn_study_measure_new(parse, TN_OP_NEGATE, @$, $2, NULL); }
+    | expression PLUS expression            { $$ = of_two(parse, TN_OP_ADD, @$, $1, $3); }
+    | expression MINUS expression           { $$ = of_two(parse, TN_OP_SUBTRACT, @$, $1, $3); }
+    | expression STAR expression            { $$ = of_two(parse, TN_OP_MULTIPLY, @$, $1, $3); }
+    | expression SLASH expression           { $$ = of_two(parse, TN_OP_DIVIDE, @$, $1, $3); }
+    | MINUS expression %prec SIGN           { $$ = of_two(parse, TN_OP_NEGATE, @$, $2, NULL); }
+    | expression BELOW expression           { $$ = of_two(parse, TN_OP_IS_BELOW, @$, $1, $3); }
+    | expression AT_MOST expression         { $$ = of_two(parse, TN_OP_IS_AT_MOST, @$, $1, $3); }
+    | expression EQUALS expression          { $$ = of_two(parse, TN_OP_IS_EQUAL, @$, $1, $3); }
+    | expression UNEQUAL expression         { $$ = of_two(parse, TN_OP_IS_UNEQUAL, @$, $1, $3); }
+    | expression AT_LEAST expression        { $$ = of_two(parse, TN_OP_IS_AT_LEAST, @$, $1, $3); }
+    | expression ABOVE expression           { $$ = of_two(parse, TN_OP_IS_ABOVE, @$, $1, $3); }
+    | expression IN expression TO_DOTS expression %prec IN
+                                            { $$ = tn_expression_of(parse->arena, TN_OP_IS_BETWEEN, @$, $1, $3, $5); }
+    | expression AND expression             { $$ = of_two(parse, TN_OP_IS_BOTH, @$, $1, $3); }
+    | expression OR expression              { $$ = of_two(parse, TN_OP_IS_EITHER, @$, $1, $3); }
+    | NOT expression                        { $$ = of_two(parse, TN_OP_IS_NOT, @$, $2, NULL); }
     ;
 
-arguments
-    : expression
-    | arguments COMMA expression            { $$ = tn_study_argument_add($1, $3); }
+call
+    : NAME OPEN expression                  { $$ = tn_expression_call(parse->arena, @1, $1.text, $3); }
+    | call COMMA expression                 { $$ = $1; tn_expression_add($$, $3); }
     ;
 
 vector
@@ -237,11 +254,16 @@ static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_s
     return item;
 }
 
-static tn_study_item *with_measure(tn_study_item *item, tn_study_measure *measure)
+static tn_study_item *with_expression(tn_study_item *item, tn_expression *expression)
 {
     if (item)
-        item->measure = measure;
+        item->expression = expression;
     return item;
+}
+
+static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
+{
+    return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
 
 static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z)
@@ -269,8 +291,27 @@ static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t foun
         return "a boundary is `plane at 0 0 0 normal 0 0 1`, `box from 0 0 0 to 1 1 1`, `sphere at 0 0 0 radius 2` or `mesh \"hull.stl\"`";
     case YYSYMBOL_FITNESS: return "write `fitness size target 10 weight 2`";
     case YYSYMBOL_EQUALS: return "write an expression of terms, as `fitness slope = undulation / size target 0.5`";
+    case YYSYMBOL_PLUS:
+    case YYSYMBOL_MINUS:
+    case YYSYMBOL_STAR:
+    case YYSYMBOL_SLASH:
+    case YYSYMBOL_BELOW:
+    case YYSYMBOL_AT_MOST:
+    case YYSYMBOL_AT_LEAST:
+    case YYSYMBOL_ABOVE:
+    case YYSYMBOL_UNEQUAL:
+    case YYSYMBOL_IN:
+    case YYSYMBOL_TO_DOTS:
+    case YYSYMBOL_AND:
+    case YYSYMBOL_OR:
+    case YYSYMBOL_NOT: return "the expression goes on here with a number, a name, `(`, `-` or `not`";
     default: break;
     }
+    if (found == YYSYMBOL_BELOW || found == YYSYMBOL_AT_MOST || found == YYSYMBOL_AT_LEAST || found == YYSYMBOL_ABOVE ||
+        found == YYSYMBOL_UNEQUAL || found == YYSYMBOL_IN)
+        return "two comparisons are joined by `and`; what lies between two bounds is `size in 2..3`";
+    if (found == YYSYMBOL_TO_DOTS)
+        return "a range stands behind `in`: `size in 2..3`";
     if (found == YYSYMBOL_EQUALS)
         return "an expression is of `fitness`: `fitness slope = undulation / size target 0.5`";
     if (first_expected == YYSYMBOL_RADIUS || (first_expected == YYSYMBOL_NUMBER && before == YYSYMBOL_RADIUS))

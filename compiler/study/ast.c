@@ -27,50 +27,6 @@ tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind
     return part;
 }
 
-/* ---- expressions */
-
-tn_study_measure *tn_study_measure_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_measure *left,
-                                       tn_study_measure *right)
-{
-    tn_study_measure *measure = TN_NEW(parse->arena, tn_study_measure);
-    if (!measure)
-        return NULL;
-    uint32_t l = left ? left->depth : 0, r = right ? right->depth : 0;
-    *measure = (tn_study_measure){
-        .op = op, .span = span, .left = left, .right = right, .argument_count = 1, .depth = 1 + (l > r ? l : r)};
-    measure->last = measure;
-    return measure;
-}
-
-tn_study_measure *tn_study_number_new(tn_growth_parse *parse, tn_decimal number)
-{
-    tn_study_measure *measure = tn_study_measure_new(parse, TN_OP_NUMBER, number.span, NULL, NULL);
-    if (measure)
-        measure->number = number.value;
-    return measure;
-}
-
-tn_study_measure *tn_study_name_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_text name,
-                                    tn_study_measure *arguments)
-{
-    tn_study_measure *measure = tn_study_measure_new(parse, op, span, arguments, arguments ? arguments->next : NULL);
-    if (measure) {
-        measure->name = name.text;
-        measure->name_span = name.span;
-    }
-    return measure;
-}
-
-tn_study_measure *tn_study_argument_add(tn_study_measure *list, tn_study_measure *argument)
-{
-    if (!list || !argument)
-        return list;
-    list->last->next = argument;
-    list->last = argument;
-    list->argument_count++;
-    return list;
-}
-
 void tn_study_add(tn_growth_parse *parse, tn_study_item *item)
 {
     tn_study_file *file = parse->result;

@@ -4,6 +4,17 @@
 
 #include "compiler/study/study.h"
 
+const tn_expression_scope tn_study_scope = {
+    .names = tn_measured_names,
+    .count = TN_MEASURED_COUNT,
+    .words = TN_WORDS_PLAIN,
+    .what = "term",
+    .examples = {"undulation", "undulation, size", "undulation, size, faces"},
+    .split = "make two fitness terms of it: they are added up",
+    .unknown = E_UNKNOWN_TERM,
+    .wrong = E_MEASURE,
+};
+
 typedef struct check {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
@@ -168,10 +179,10 @@ static void unknown_term(check *c, const tn_study_item *item)
 
 static void check_expression(check *c, const tn_study_item *item)
 {
-    tn_check_measure(c->diagnostics, item->measure);
+    tn_expression_check(c->diagnostics, &tn_study_scope, item->expression);
     if (strlen(item->text) > TN_NAME_MAX)
         tn_report(c->diagnostics, E_MEASURE, item->text_span, "a term's name has at most %u bytes", TN_NAME_MAX);
-    if (!tn_measure_reserves(item->text))
+    if (!tn_expression_reserves(&tn_study_scope, item->text))
         return;
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_MEASURE, item->text_span, "`%s` is a name that expressions use", item->text);
@@ -183,7 +194,7 @@ static bool check_goal(check *c, const tn_study_item *item)
 {
     if (!item->text)
         return false;
-    if (item->measure)
+    if (item->expression)
         check_expression(c, item);
     else if (tn_study_term(item->text) == TN_FITNESS_TERM_COUNT) {
         unknown_term(c, item);

@@ -85,8 +85,9 @@ static tn_status emit(tn_compilation *c, const tn_imports *imports, const tn_che
         return tn_fail_memory(error);
     tn_emit_sources(builder, imports, &c->sources);
     tn_emit_growth(builder, growth);
-    tn_emit_study(builder, c->arena, &c->sources, study);
-    tn_status status = tn_builder_finish(builder, &c->module, &c->module_size, error);
+    tn_status status = tn_emit_study(builder, c->arena, &c->sources, study, error);
+    if (status == TN_OK)
+        status = tn_builder_finish(builder, &c->module, &c->module_size, error);
     tn_builder_free(builder);
     return status;
 }

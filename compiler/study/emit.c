@@ -108,27 +108,37 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
     tn_builder_add_BOUNDARY(builder, &record);
 }
 
-static void emit_goal(tn_builder *builder, const tn_study_item *goal)
+static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_study_item *goal, tn_error *error)
 {
-    const tn_study_measure *measure = goal->measure;
-    tn_goal_record record = {.term = measure ? TN_FITNESS_TERM_COUNT : tn_study_term(goal->text),
-                             .name = tn_builder_string(builder, measure ? goal->text : NULL),
-                             .function = measure ? tn_emit_measure(builder, goal->text, measure) : 0,
+    tn_goal_record record = {.term = goal->expression ? TN_FITNESS_TERM_COUNT : tn_study_term(goal->text),
                              .target = part_or(goal, TN_PART_TARGET, 0),
                              .weight = part_or(goal, TN_PART_WEIGHT, 1),
                              .file = goal->span.file,
                              .begin = goal->span.begin,
                              .end = goal->span.end};
+    if (goal->expression) {
+        tn_status status = tn_expression_code(goal->expression, formula, error);
+        if (status != TN_OK)
+            return status;
+        record.name = tn_builder_string(builder, goal->text);
+        record.function = tn_formula_emit(builder, goal->text, formula);
+    }
     tn_builder_add_GOAL(builder, &record);
+    return TN_OK;
 }
 
-void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study)
+tn_status tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study,
+                        tn_error *error)
 {
+    tn_formula formula = {0};
+    tn_status status = TN_OK;
     emit_settings(builder, study);
     for (uint32_t i = 0; i < study->force_count; i++)
         emit_force(builder, study->forces[i]);
     for (uint32_t i = 0; i < study->boundary_count; i++)
         emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
-    for (uint32_t i = 0; i < study->goal_count; i++)
-        emit_goal(builder, study->goals[i]);
+    for (uint32_t i = 0; i < study->goal_count && status == TN_OK; i++)
+        status = emit_goal(builder, &formula, study->goals[i], error);
+    tn_formula_clear(&formula);
+    return status;
 }

@@ -14,20 +14,21 @@ enum {
 /* A minus that stands before what it turns round, not between two. */
 static bool is_sign(const tn_format *format, size_t i)
 {
-    return tn_format_is(format, i, "-") && i > 0 && format->tokens[i - 1].kind == TN_TOKEN_SIGN &&
-           !tn_format_is(format, i - 1, ")");
+    static const char *const words[] = {"and", "or", "not", "in", NULL};
+    return tn_format_is(format, i, "-") && i > 0 && !tn_format_is(format, i - 1, ")") &&
+           (format->tokens[i - 1].kind == TN_TOKEN_SIGN || tn_format_is_any(format, i - 1, words));
 }
 
 static bool is_operator(const tn_format *format, size_t i)
 {
-    static const char *const signs[] = {"+", "-", "*", "/", NULL};
+    static const char *const signs[] = {"+", "-", "*", "/", "<", "<=", ">=", ">", "!=", NULL};
     return tn_format_is_any(format, i, signs);
 }
 
 static size_t gap_before(const tn_format *format, size_t i)
 {
     bool tight = tn_format_is(format, i, ")") || tn_format_is(format, i, ",") || tn_format_is(format, i - 1, "(") ||
-                 is_sign(format, i - 1) ||
+                 is_sign(format, i - 1) || tn_format_is(format, i, "..") || tn_format_is(format, i - 1, "..") ||
                  (tn_format_is(format, i, "(") && format->tokens[i - 1].kind == TN_TOKEN_NAME);
     return tight ? 0 : 1;
 }

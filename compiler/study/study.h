@@ -6,6 +6,7 @@
 #ifndef TARTAN_COMPILER_STUDY_STUDY_H
 #define TARTAN_COMPILER_STUDY_STUDY_H
 
+#include "compiler/common/expression.h"
 #include "compiler/common/import.h"
 #include "compiler/common/listing.h"
 #include "compiler/hemls/hemls.h"
@@ -58,20 +59,6 @@ typedef struct tn_study_vector {
     tn_span span;
 } tn_study_vector;
 
-/* A fitness expression: a number, a term, an operation or function of up to two others. */
-typedef struct tn_study_measure {
-    tn_opcode op; /* TN_OPCODE_COUNT: a function that is yet to be looked up */
-    tn_span span;
-    double number;
-    const char *name; /* of a term or function */
-    tn_span name_span;
-    uint32_t term; /* tn_measured */
-    struct tn_study_measure *left, *right;
-    struct tn_study_measure *next; /* argument, and the last of the list */
-    struct tn_study_measure *last;
-    uint32_t argument_count, depth;
-} tn_study_measure;
-
 typedef struct tn_study_item {
     tn_study_kind kind;
     tn_span span;
@@ -81,7 +68,7 @@ typedef struct tn_study_item {
     const char *text; /* a path, a title or a term */
     tn_span text_span;
     tn_study_part *parts;      /* the last first */
-    tn_study_measure *measure; /* of a goal that is an expression, which `text` names */
+    tn_expression *expression; /* of a goal that is one, which `text` names */
     tn_use *use;               /* of `use` and `rules`: where it leads */
     struct tn_study_item *next;
 } tn_study_item;
@@ -109,14 +96,6 @@ bool tn_study_has_word(const char *text, size_t size);
 tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span);
 tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
                                  tn_study_part *before);
-/* Of an expression; `left` is a function's arguments. NULL where out of memory, or where an operand is. */
-tn_study_measure *tn_study_number_new(tn_growth_parse *parse, tn_decimal number);
-tn_study_measure *tn_study_name_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_text name,
-                                    tn_study_measure *arguments);
-tn_study_measure *tn_study_measure_new(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_study_measure *left,
-                                       tn_study_measure *right);
-tn_study_measure *tn_study_argument_add(tn_study_measure *list, tn_study_measure *argument);
-
 void tn_study_add(tn_growth_parse *parse, tn_study_item *item);
 void tn_study_lost(tn_growth_parse *parse);
 
@@ -132,19 +111,15 @@ typedef struct tn_checked_study {
 /* Checks the studies among the units. False where there were errors. */
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study);
 
-/* Looks up an expression's terms and functions, and says what is wrong with them. */
-void tn_check_measure(tn_diagnostics *diagnostics, tn_study_measure *measure);
-
-/* Can an expression not have this name, since it means something in expressions? */
-bool tn_measure_reserves(const char *name);
-
-/* Emits an expression's function, and returns its index. */
-uint32_t tn_emit_measure(tn_builder *builder, const char *name, const tn_study_measure *measure);
+/* What fitness expressions speak of: everything that is measured of a surface. */
+extern const tn_expression_scope tn_study_scope;
 
 /* The tn_fitness_term of a name, or their number. */
 uint32_t tn_study_term(const char *name);
 
-void tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study);
+/* TN_OK or TN_MEMORY. */
+tn_status tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study,
+                        tn_error *error);
 
 /* Lays out a .study file, with an evolution block or without. */
 void tn_format_study(tn_format *format);

@@ -1,6 +1,8 @@
+/* Finds the word that was likely meant, and joins words to a list. */
 #include "runtime/base/nearest.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Longer words are no slips of the pen. */
@@ -62,4 +64,14 @@ const char *tn_nearest(const char *word, const char *const *candidates, size_t c
         }
     }
     return best;
+}
+
+void tn_word_list(const char *const *words, size_t count, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < count && used < size; i++) {
+        const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
+        used += (size_t)snprintf(text + used, size - used, "%s%s", between, words[i]);
+    }
 }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/number/measure.h"
+#include "runtime/number/run.h"
 
 void tn_stats_clear(tn_stats *stats)
 {
@@ -260,7 +260,7 @@ double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
     terms[TN_MEASURED_VERTICES] = fitness->vertices;
     terms[TN_MEASURED_EDGES] = fitness->edges;
     terms[TN_MEASURED_FACES] = fitness->faces;
-    return tn_measure_run(goal->code, goal->offset, terms);
+    return tn_number_run(goal->code, goal->offset, terms);
 }
 
 double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length)

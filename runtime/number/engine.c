@@ -1,6 +1,6 @@
 /* Verifies the code of expressions: what they may hold at once. */
 #include "runtime/module/engine.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/number/run.h"
 
 static tn_status verify_function(const tn_checker *checker, uint32_t function)
 {

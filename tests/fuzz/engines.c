@@ -9,7 +9,7 @@
 #include "runtime/genome/settings.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/load.h"
-#include "runtime/number/measure.h"
+#include "runtime/number/run.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/rules.h"
 #include "tests/fuzz/grow.h"
@@ -118,7 +118,7 @@ void fuzz_number(const tn_module *module)
     static const double terms[TN_MEASURED_COUNT] = {1, -2, 0, 1e300, 0.5};
     for (size_t i = 0; i < module->FUNCTION_count; i++)
         if (module->FUNCTION_records[i].kind == TN_FUNCTION_MEASURE)
-            tn_measure_run(module->code, module->FUNCTION_records[i].code_begin, terms);
+            tn_number_run(module->code, module->FUNCTION_records[i].code_begin, terms);
 }
 
 void fuzz_grammar(const tn_module *module)

@@ -5,7 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/number/expression.h"
+#include "runtime/number/run.h"
+#include "runtime/number/sentence.h"
+
+/* What a thread evaluates a sentence with. */
+typedef struct workplace {
+    tn_formula formula;
+    tn_number_rows rows;
+    double *values;
+} workplace;
 
 struct tn_problem {
     char *target;
@@ -13,8 +21,7 @@ struct tn_problem {
     char **names;
     double **columns; /* the last is the value wanted */
     size_t variables, points;
-    tn_expression *expressions; /* by thread */
-    double **values;            /* by thread */
+    workplace *places; /* by thread */
     unsigned threads;
 };
 
@@ -26,15 +33,15 @@ void tn_problem_free(tn_problem *p)
         free(p->names[i]);
     for (size_t i = 0; p->columns && i <= p->variables; i++)
         free(p->columns[i]);
-    for (unsigned t = 0; p->expressions && t < p->threads; t++)
-        tn_expression_clear(&p->expressions[t]);
-    for (unsigned t = 0; p->values && t < p->threads; t++)
-        free(p->values[t]);
+    for (unsigned t = 0; p->places && t < p->threads; t++) {
+        tn_formula_clear(&p->places[t].formula);
+        tn_number_rows_clear(&p->places[t].rows);
+        free(p->places[t].values);
+    }
     free(p->target);
     free(p->names);
     free(p->columns);
-    free(p->expressions);
-    free(p->values);
+    free(p->places);
     free(p);
 }
 
@@ -83,13 +90,12 @@ static tn_status fit_new(size_t variables, size_t points, unsigned threads, tn_p
     p->threads = threads;
     p->names = calloc(variables + 1, sizeof *p->names);
     p->columns = calloc(variables + 1, sizeof *p->columns);
-    p->expressions = calloc(threads, sizeof *p->expressions);
-    p->values = calloc(threads, sizeof *p->values);
-    bool well = p->names && p->columns && p->expressions && p->values;
+    p->places = calloc(threads, sizeof *p->places);
+    bool well = p->names && p->columns && p->places;
     for (size_t i = 0; well && i <= variables; i++)
-        well = (p->columns[i] = calloc(points + TN_EXPRESSION_ROW, sizeof **p->columns)) != NULL;
+        well = (p->columns[i] = calloc(points + TN_ROW, sizeof **p->columns)) != NULL;
     for (unsigned t = 0; well && t < threads; t++)
-        well = (p->values[t] = calloc(points + 1, sizeof **p->values)) != NULL;
+        well = (p->places[t].values = calloc(points + 1, sizeof *p->places[t].values)) != NULL;
     if (well)
         return TN_OK;
     tn_problem_free(p);
@@ -137,15 +143,16 @@ static tn_status fit(void *context, unsigned thread, const char *sentence, size_
                      char message[200], tn_error *error)
 {
     tn_problem *p = context;
-    tn_expression *expression = &p->expressions[thread];
+    workplace *place = &p->places[thread];
+    tn_formula *formula = &place->formula;
     tn_error wrong = {0};
-    tn_status status =
-        tn_expression_parse(sentence, size, (const char *const *)p->names, p->variables, expression, &wrong);
+    tn_status status = tn_sentence_read(sentence, size, (const char *const *)p->names, p->variables, formula, &wrong);
     if (status != TN_OK)
         return tn_score_refuse(status, &wrong, score, message, error);
-    status = tn_expression_evaluate(expression, (const double *const *)p->columns, p->points, p->values[thread], error);
+    status = tn_number_run_rows(&place->rows, formula->code, 0, formula->depth, (const double *const *)p->columns,
+                                p->points, place->values, error);
     if (status == TN_OK)
-        score->objectives[0] = sqrt(mean_squared_error(p->values[thread], p->columns[p->variables], p->points));
+        score->objectives[0] = sqrt(mean_squared_error(place->values, p->columns[p->variables], p->points));
     return status;
 }
 

@@ -10,7 +10,7 @@ typedef struct tn_problem tn_problem;
  * 1 / (1 + their difference) where they are not (PonyGE2's string_match). */
 tn_status tn_problem_match(const char *target, tn_problem **problem, tn_error *error);
 
-/* The root of the mean squared error of a sentence, read as an expression (expression.h) in the variables named, at
+/* The root of the mean squared error of a sentence, read as arithmetic (runtime/number/sentence.h) in the variables named, at
  * points columns[variable][point]; the last column is the value wanted. Copies the numbers. */
 tn_status tn_problem_fit(const char *const *names, const double *const *columns, size_t variables, size_t points,
                          unsigned threads, tn_problem **problem, tn_error *error);

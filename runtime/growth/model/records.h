@@ -24,7 +24,6 @@ typedef enum tn_measured {
 /* As studies write them. */
 extern const char *const tn_measured_names[TN_MEASURED_COUNT];
 
-#define TN_EXPRESSIONS_MAX 64u    /* named fitness expressions of one study */
-#define TN_MEASURE_STACK_MAX 256u /* numbers that evaluating one holds at once */
+#define TN_EXPRESSIONS_MAX 64u /* named fitness expressions of one study */
 
 #endif

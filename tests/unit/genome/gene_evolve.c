@@ -1,70 +1,11 @@
-/* Evolution: the same run whatever the number of threads, runs replayed from their scores, expressions, and that it
- * gets better. */
+/* Evolution: the same run whatever the number of threads, runs replayed from their scores, and that it gets better. */
 #include <math.h>
 
-#include "runtime/base/numeric.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/breeding/problem.h"
-#include "runtime/number/expression.h"
 #include "tests/support/test_grammar.h"
 
 #define STDLIB TARTAN_SOURCE_DIR "/stdlib/"
-
-static double value_of(const char *text)
-{
-    static const char *const names[] = {"x", "y"};
-    const double x[TN_EXPRESSION_ROW] = {3}, y[TN_EXPRESSION_ROW] = {0}, *const columns[] = {x, y};
-    tn_expression e = {0};
-    tn_error error;
-    double value;
-    if (tn_expression_parse(text, strlen(text), names, 2, &e, &error) != TN_OK)
-        fail_msg("%s: %s", text, error.message);
-    assert_int_equal(tn_expression_evaluate(&e, columns, 1, &value, NULL), TN_OK);
-    tn_expression_clear(&e);
-    return value;
-}
-
-static void refused(const char *text, uint32_t column)
-{
-    static const char *const names[] = {"x"};
-    tn_expression e = {0};
-    tn_error error;
-    assert_int_equal(tn_expression_parse(text, strlen(text), names, 1, &e, &error), TN_INVALID);
-    assert_int_equal(error.column, column);
-    tn_expression_clear(&e);
-}
-
-static void test_expressions(void **state)
-{
-    (void)state;
-    assert_true(value_of("1 + 2 * 3") == 7);
-    assert_true(value_of("(1 + 2) * 3 - 4 - 5") == 0);
-    assert_true(value_of("x / 2 / 3") == 0.5);
-    assert_true(value_of("x / y") == 1);
-    assert_true(value_of("-x * -2.50") == 7.5);
-    assert_true(value_of("sqrt(-4) + abs(-1) + square(x)") == 12);
-    assert_true(value_of("min(x, 2) + max(x, y)") == 5);
-    assert_true(value_of("sin(y) + cos(y) + exp(y) + tanh(y)") == 2);
-    assert_true(value_of("log(y) + log(-x)") == tn_log(3));
-    assert_true(value_of("exp(sin(x)) / tanh(x)") == tn_exp(tn_sin(3)) / tn_tanh(3));
-    assert_true(value_of("x - cos(-x)") == 3 - tn_cos(3));
-    assert_true(value_of("0.1") == 0.1);
-    assert_true(value_of("123456.789") == 123456.789);
-    refused("", 1);
-    refused("1 +", 4);
-    refused("x y", 3);
-    refused("(x", 3);
-    refused("z", 1);
-    refused("tan(x)", 5);
-    refused("min(x)", 6);
-    refused("1.5.2", 4);
-    char deep[3001];
-    memset(deep, '(', 3000);
-    deep[3000] = '\0';
-    tn_expression e = {0};
-    assert_int_equal(tn_expression_parse(deep, 3000, NULL, 0, &e, NULL), TN_LIMIT);
-    tn_expression_clear(&e);
-}
 
 /* ---- runs */
 
@@ -303,7 +244,7 @@ static void test_csv(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_expressions), cmocka_unit_test(test_threads), cmocka_unit_test(test_replay),
+        cmocka_unit_test(test_threads), cmocka_unit_test(test_replay),
         cmocka_unit_test(test_better),      cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),
         cmocka_unit_test(test_csv),
     };

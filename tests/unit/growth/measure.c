@@ -13,7 +13,6 @@
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
 #include "runtime/module/builder.h"
-#include "runtime/number/measure.h"
 #include "tests/support/compile_file.h"
 
 static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
@@ -86,13 +85,39 @@ static void test_values(void **state)
     is("min(max(1, 2), max(3, 4)) - (5 - (6 - 7))", -4);
     is("exp(undulation)", tn_exp(2));
     is("log(size)", tn_log(8));
+    is("sin(size) + cos(size) + tanh(size)", tn_sin(8) + tn_cos(8) + tn_tanh(8));
+}
+
+static void test_conditions(void **state)
+{
+    (void)state;
+    is("faces < 31", 0);
+    is("faces <= 31", 1);
+    is("faces = 31", 1);
+    is("faces != 31", 0);
+    is("faces >= 31", 1);
+    is("faces > 31", 0);
+    is("faces in 30..31", 1);
+    is("faces in 31 .. 40 - 9", 1);
+    is("faces in -1..30", 0);
+    is("not faces in 1..30", 1);
+    is("size = 8 and undulation = 2", 1);
+    is("size = 8 AND undulation = 3", 0);
+    is("size = 9 or undulation = 2", 1);
+    is("size = 9 or size = 8 and not undulation = 2", 0);
+    is("(size > 2) + (size > 3) * 10", 11);
+    is("2 * size < 3 + 14", 1);
+    is("not 0", 1);
+    is("undulation", 2);
 }
 
 static void test_what_has_no_value(void **state)
 {
     (void)state;
-    static const char *const none[] = {"size / undulation", "0 / undulation",         "sqrt(undulation - 1)",
-                                       "log(undulation)",   "max(0 / undulation, 1)", "min(1, 0 / undulation)"};
+    static const char *const none[] = {"size / undulation",  "0 / undulation",           "sqrt(undulation - 1)",
+                                       "log(undulation)",    "max(0 / undulation, 1)",   "min(1, 0 / undulation)",
+                                       "0 / undulation < 1", "not (0 / undulation = 1)", "0 / undulation in 1..2",
+                                       "1 or 0 / undulation"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         assert_false(isfinite(value_of(none[i], &flat)));
 }
@@ -155,6 +180,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
+        cmocka_unit_test(test_conditions),
         cmocka_unit_test(test_what_has_no_value),
         cmocka_unit_test(test_they_are_goals_like_others),
         cmocka_unit_test(test_changed_code),

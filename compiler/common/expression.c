@@ -1,0 +1,279 @@
+/* Builds trees of expressions, looks their names up, and makes their code. */
+#include "compiler/common/expression.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "compiler/common/limits.h"
+#include "runtime/base/nearest.h"
+#include "runtime/module/code.h"
+#include "runtime/number/run.h"
+
+/* ---- trees */
+
+static tn_expression *new_node(tn_arena *arena, tn_opcode op, tn_span span)
+{
+    tn_expression *expression = TN_NEW(arena, tn_expression);
+    if (expression)
+        *expression = (tn_expression){.op = op, .span = span, .depth = 1, .height = 1};
+    return expression;
+}
+
+tn_expression *tn_expression_number(tn_arena *arena, tn_span span, double number)
+{
+    tn_expression *expression = new_node(arena, TN_OP_NUMBER, span);
+    if (expression)
+        expression->number = number;
+    return expression;
+}
+
+tn_expression *tn_expression_name(tn_arena *arena, tn_span span, const char *name)
+{
+    tn_expression *expression = new_node(arena, TN_OP_TERM, span);
+    if (expression) {
+        expression->name = name;
+        expression->name_span = span;
+    }
+    return expression;
+}
+
+tn_expression *tn_expression_call(tn_arena *arena, tn_span span, const char *name, tn_expression *first)
+{
+    tn_expression *expression = tn_expression_name(arena, span, name);
+    if (expression)
+        expression->op = TN_OPCODE_COUNT;
+    tn_expression_add(expression, first);
+    return expression;
+}
+
+tn_expression *tn_expression_of(tn_arena *arena, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b,
+                                tn_expression *c)
+{
+    tn_expression *expression = new_node(arena, op, span);
+    tn_expression_add(expression, a);
+    tn_expression_add(expression, b);
+    tn_expression_add(expression, c);
+    return expression;
+}
+
+void tn_expression_add(tn_expression *expression, tn_expression *operand)
+{
+    if (!expression || !operand)
+        return;
+    uint32_t depth = operand->depth + 1, height = expression->operand_count + operand->height;
+    expression->depth = depth > expression->depth ? depth : expression->depth;
+    expression->height = height > expression->height ? height : expression->height;
+    expression->operand_count++;
+    TN_CHAIN(expression, operand);
+}
+
+/* ---- names */
+
+static uint32_t term_named(const tn_expression_scope *scope, const char *name, size_t size)
+{
+    uint32_t term = 0;
+    while (term < scope->count && (strlen(scope->names[term]) != size || memcmp(scope->names[term], name, size) != 0))
+        term++;
+    return term;
+}
+
+bool tn_expression_reserves(const tn_expression_scope *scope, const char *name)
+{
+    size_t size = strlen(name);
+    return term_named(scope, name, size) < scope->count || tn_function_named(scope->words, name, size);
+}
+
+/* A `-` inside a name: was a minus meant? */
+static bool is_difference(const tn_expression_scope *scope, const char *name)
+{
+    for (const char *minus = strchr(name, '-'); minus; minus = strchr(minus + 1, '-'))
+        if (term_named(scope, name, (size_t)(minus - name)) < scope->count)
+            return true;
+    return false;
+}
+
+/* "did you mean `size`?", or all that there are. */
+static void help_with_names(tn_diagnostics *diagnostics, tn_diagnostic *d, const char *wrong, const char *what,
+                            const char *const *names, size_t count)
+{
+    char list[400];
+    const char *near = tn_nearest(wrong, names, count);
+    if (near) {
+        tn_suggest(diagnostics, d, "%s", near);
+        return;
+    }
+    tn_word_list(names, count, list, sizeof list);
+    tn_help(diagnostics, d, "%ss are %s", what, list);
+}
+
+static void unknown_term(tn_diagnostics *diagnostics, const tn_expression_scope *scope, const tn_expression *e)
+{
+    tn_diagnostic *d =
+        tn_report(diagnostics, scope->unknown, e->name_span, "there is no %s `%.100s`", scope->what, e->name);
+    if (is_difference(scope, e->name))
+        tn_help(diagnostics, d, "write a minus with blanks on both sides: names may hold `-`");
+    else
+        help_with_names(diagnostics, d, e->name, scope->what, scope->names, scope->count);
+}
+
+static void unknown_function(tn_diagnostics *diagnostics, const tn_expression_scope *scope, const tn_expression *e)
+{
+    const char *names[TN_OPERATION_COUNT];
+    tn_diagnostic *d = tn_report(diagnostics, scope->unknown, e->name_span, "there is no function `%.100s`", e->name);
+    help_with_names(diagnostics, d, e->name, "function", names, tn_function_names(scope->words, names));
+}
+
+static void check_function(tn_diagnostics *diagnostics, const tn_expression_scope *scope, tn_expression *e)
+{
+    const tn_operation *function = tn_function_named(scope->words, e->name, strlen(e->name));
+    if (!function) {
+        unknown_function(diagnostics, scope, e);
+        return;
+    }
+    e->op = function->opcode;
+    if (function->arity == e->operand_count)
+        return;
+    tn_diagnostic *d = tn_report(diagnostics, scope->wrong, e->span, "`%s` takes %u argument%s, not %u", e->name,
+                                 function->arity, function->arity == 1 ? "" : "s", e->operand_count);
+    tn_help(diagnostics, d, "as `%s(%s)`", e->name, scope->examples[function->arity - 1]);
+}
+
+/* The value of an expression that is one number, whatever it is of. */
+static bool constant(const tn_expression *e, double *number)
+{
+    bool negative = e->op == TN_OP_NEGATE && e->first && e->first->op == TN_OP_NUMBER;
+    if (!negative && e->op != TN_OP_NUMBER)
+        return false;
+    *number = negative ? -e->first->number : e->number;
+    return true;
+}
+
+/* `x in 3..1` */
+static void check_range(tn_diagnostics *diagnostics, const tn_expression_scope *scope, const tn_expression *e)
+{
+    double low, high;
+    if (e->operand_count != 3 || !constant(e->first->next, &low) || !constant(e->last, &high) || low <= high)
+        return;
+    tn_span span = tn_span_join(e->first->next->span, e->last->span);
+    tn_diagnostic *d = tn_report(diagnostics, scope->wrong, span, "nothing lies between %.15g and %.15g", low, high);
+    tn_advise(diagnostics, d, "%.15g..%.15g", high, low);
+}
+
+/* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */
+static void check_node(tn_diagnostics *diagnostics, const tn_expression_scope *scope, tn_expression *e)
+{
+    if (e->op == TN_OP_TERM) {
+        e->term = term_named(scope, e->name, strlen(e->name));
+        if (e->term == scope->count)
+            unknown_term(diagnostics, scope, e);
+    } else if (e->op == TN_OPCODE_COUNT) {
+        check_function(diagnostics, scope, e);
+    } else if (e->op == TN_OP_IS_BETWEEN) {
+        check_range(diagnostics, scope, e);
+    }
+    for (tn_expression *operand = e->first; operand; operand = operand->next)
+        check_node(diagnostics, scope, operand);
+}
+
+void tn_expression_check(tn_diagnostics *diagnostics, const tn_expression_scope *scope, tn_expression *expression)
+{
+    tn_diagnostic *d;
+    if (expression->depth > TN_NESTING_MAX) {
+        d = tn_report(diagnostics, E_TOO_DEEP, expression->span,
+                      "the expression is nested more than %u deep, which is the limit", TN_NESTING_MAX);
+        tn_help(diagnostics, d, "%s", scope->split);
+        return;
+    }
+    if (expression->height >= TN_MEASURE_STACK_MAX) { /* a violation may hold one number more than the value does */
+        d = tn_report(diagnostics, E_TOO_DEEP, expression->span,
+                      "the expression holds more than %u numbers at once, which is the limit",
+                      TN_MEASURE_STACK_MAX - 1);
+        tn_help(diagnostics, d, "%s", scope->split);
+        return;
+    }
+    check_node(diagnostics, scope, expression);
+}
+
+/* ---- code */
+
+static void add_value(tn_formula *formula, const tn_expression *e)
+{
+    for (const tn_expression *operand = e->first; operand; operand = operand->next)
+        add_value(formula, operand);
+    if (e->op == TN_OP_NUMBER)
+        tn_formula_number(formula, e->number);
+    else if (e->op == TN_OP_TERM)
+        tn_formula_term(formula, e->term);
+    else
+        tn_formula_operation(formula, e->op, e->operand_count);
+}
+
+tn_status tn_expression_code(const tn_expression *expression, tn_formula *formula, tn_error *error)
+{
+    tn_formula_begin(formula);
+    add_value(formula, expression);
+    return tn_formula_end(formula, error);
+}
+
+/* What says how far a comparison, and its opposite, is from holding. */
+static const struct {
+    tn_opcode comparison, holds, fails;
+} shortfalls[] = {
+    {TN_OP_IS_BELOW, TN_OP_SHORT_OF_BELOW, TN_OP_SHORT_OF_AT_LEAST},
+    {TN_OP_IS_AT_MOST, TN_OP_SHORT_OF_AT_MOST, TN_OP_SHORT_OF_ABOVE},
+    {TN_OP_IS_EQUAL, TN_OP_SHORT_OF_EQUAL, TN_OP_SHORT_OF_UNEQUAL},
+    {TN_OP_IS_UNEQUAL, TN_OP_SHORT_OF_UNEQUAL, TN_OP_SHORT_OF_EQUAL},
+    {TN_OP_IS_AT_LEAST, TN_OP_SHORT_OF_AT_LEAST, TN_OP_SHORT_OF_BELOW},
+    {TN_OP_IS_ABOVE, TN_OP_SHORT_OF_ABOVE, TN_OP_SHORT_OF_AT_MOST},
+    {TN_OP_IS_BETWEEN, TN_OP_SHORT_OF_BETWEEN, TN_OP_SHORT_OF_OUTSIDE},
+};
+
+static void add_shortfall(tn_formula *formula, const tn_expression *e, bool wanted)
+{
+    for (size_t i = 0; i < sizeof shortfalls / sizeof *shortfalls; i++) {
+        if (shortfalls[i].comparison != e->op)
+            continue;
+        for (const tn_expression *operand = e->first; operand; operand = operand->next)
+            add_value(formula, operand);
+        tn_formula_operation(formula, wanted ? shortfalls[i].holds : shortfalls[i].fails, e->operand_count);
+        return;
+    }
+    add_value(formula, e); /* no condition */
+    tn_formula_number(formula, 0);
+    tn_formula_operation(formula, wanted ? TN_OP_SHORT_OF_UNEQUAL : TN_OP_SHORT_OF_EQUAL, 2);
+}
+
+/* Of the expression, or of its opposite where it is not wanted. */
+static void add_violation(tn_formula *formula, const tn_expression *e, bool wanted)
+{
+    if (e->op == TN_OP_IS_NOT) {
+        add_violation(formula, e->first, !wanted);
+    } else if (e->op == TN_OP_IS_BOTH || e->op == TN_OP_IS_EITHER) {
+        add_violation(formula, e->first, wanted);
+        add_violation(formula, e->last, wanted);
+        tn_formula_operation(formula, (e->op == TN_OP_IS_BOTH) == wanted ? TN_OP_ADD : TN_OP_LEAST, 2);
+    } else {
+        add_shortfall(formula, e, wanted);
+    }
+}
+
+tn_status tn_expression_violation(const tn_expression *expression, tn_formula *formula, tn_error *error)
+{
+    tn_formula_begin(formula);
+    add_violation(formula, expression, true);
+    return tn_formula_end(formula, error);
+}
+
+uint32_t tn_formula_emit(tn_builder *builder, const char *name, const tn_formula *formula)
+{
+    tn_function_record record = {.name = tn_builder_string(builder, name), .kind = TN_FUNCTION_MEASURE};
+    record.code_begin = tn_builder_offset(builder);
+    record.stack_max = formula->depth;
+    tn_instruction instruction;
+    for (uint32_t offset = 0; offset < formula->size; offset += instruction.length) {
+        instruction = tn_code_read(formula->code, offset);
+        tn_builder_emit(builder, instruction.opcode, instruction.first, instruction.second);
+    }
+    record.code_end = tn_builder_offset(builder);
+    return tn_builder_add_FUNCTION(builder, &record);
+}

@@ -1,0 +1,99 @@
+/* Makes the code of an expression, instruction by instruction, and folds its constants. */
+#include "runtime/number/formula.h"
+
+#include <math.h>
+
+#include "runtime/base/array.h"
+#include "runtime/base/bytes.h"
+
+enum { NUMBER_SIZE = 9, TERM_SIZE = 5, PLAIN_SIZE = 1 }; /* bytes of an instruction: opcodes.def */
+
+void tn_formula_clear(tn_formula *formula)
+{
+    free(formula->code);
+    *formula = (tn_formula){0};
+}
+
+void tn_formula_begin(tn_formula *formula)
+{
+    *formula = (tn_formula){.code = formula->code, .capacity = formula->capacity};
+}
+
+/* Room for an instruction, with its opcode in place; NULL where out of memory. */
+static uint8_t *append(tn_formula *formula, tn_opcode opcode, size_t size)
+{
+    formula->failed = formula->failed || !tn_array_reserve(&formula->code, &formula->capacity, formula->size, size, 1);
+    if (formula->failed)
+        return NULL;
+    uint8_t *place = formula->code + formula->size;
+    *place = (uint8_t)opcode;
+    formula->size += size;
+    return place + 1;
+}
+
+static void push(tn_formula *formula)
+{
+    formula->height++;
+    formula->depth = formula->height > formula->depth ? formula->height : formula->depth;
+}
+
+void tn_formula_number(tn_formula *formula, double number)
+{
+    uint8_t *operand = append(formula, TN_OP_NUMBER, NUMBER_SIZE);
+    if (!operand)
+        return;
+    tn_put_u64(operand, tn_bits_of(number));
+    formula->numbers++;
+    push(formula);
+}
+
+void tn_formula_term(tn_formula *formula, uint32_t term)
+{
+    uint8_t *operand = append(formula, TN_OP_TERM, TERM_SIZE);
+    if (!operand)
+        return;
+    tn_put_u32(operand, term);
+    formula->numbers = 0;
+    push(formula);
+}
+
+/* Puts the operation's value in the place of its operands, the last numbers of the code. False where it has none. */
+static bool fold(tn_formula *formula, tn_opcode opcode, uint32_t arity)
+{
+    double operands[TN_ARITY_MAX];
+    uint8_t *first = formula->code + formula->size - arity * NUMBER_SIZE;
+    for (uint32_t i = 0; i < arity; i++)
+        operands[i] = tn_double_of(tn_get_u64(first + i * NUMBER_SIZE + 1));
+    double value = tn_operation_apply(opcode, operands);
+    if (!isfinite(value))
+        return false;
+    formula->size -= arity * NUMBER_SIZE;
+    formula->height -= arity;
+    formula->numbers -= arity;
+    tn_formula_number(formula, value);
+    return true;
+}
+
+void tn_formula_operation(tn_formula *formula, tn_opcode opcode, uint32_t arity)
+{
+    if (formula->failed || (formula->numbers >= arity && fold(formula, opcode, arity)))
+        return;
+    if (!append(formula, opcode, PLAIN_SIZE))
+        return;
+    formula->numbers = 0;
+    formula->height -= arity - 1;
+}
+
+tn_status tn_formula_end(tn_formula *formula, tn_error *error)
+{
+    append(formula, TN_OP_VALUE, PLAIN_SIZE);
+    return formula->failed ? tn_fail_memory(error) : TN_OK;
+}
+
+bool tn_formula_is_constant(const tn_formula *formula, double *number)
+{
+    if (formula->numbers != 1 || formula->size != NUMBER_SIZE + PLAIN_SIZE)
+        return false;
+    *number = tn_double_of(tn_get_u64(formula->code + 1));
+    return true;
+}

@@ -1,0 +1,39 @@
+/* An expression's code as it is made, operands before what is done with them: opcodes of engine MEASURE (opcodes.def),
+ * as functions of modules hold them.
+ *
+ * Every notation's expressions become code here, and here alone constants are folded: an operation whose operands are
+ * all numbers is computed at once, by the function that would compute it later, and its value stands in its place where
+ * it is finite. Code that would run into what has no value stays as it is, and does so when it is run.
+ */
+#ifndef TARTAN_NUMBER_FORMULA_H
+#define TARTAN_NUMBER_FORMULA_H
+
+#include "runtime/base/error.h"
+#include "runtime/number/operation.h"
+
+/* Zero it to begin with; it may be begun again and again. */
+typedef struct tn_formula {
+    uint8_t *code; /* owned */
+    size_t size, capacity;
+    uint32_t height; /* of the stack behind the code so far */
+    uint32_t depth;  /* the most that it was */
+    size_t numbers;  /* instructions at the code's end that are numbers */
+    bool failed;     /* out of memory; tn_formula_end says so */
+} tn_formula;
+
+void tn_formula_clear(tn_formula *formula);
+
+/* Forgets the code and keeps its memory. */
+void tn_formula_begin(tn_formula *formula);
+
+void tn_formula_number(tn_formula *formula, double number); /* finite */
+void tn_formula_term(tn_formula *formula, uint32_t term);   /* what whoever runs the code gives under this number */
+void tn_formula_operation(tn_formula *formula, tn_opcode opcode, uint32_t arity);
+
+/* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
+tn_status tn_formula_end(tn_formula *formula, tn_error *error);
+
+/* Is all of it one number? It has been ended. */
+bool tn_formula_is_constant(const tn_formula *formula, double *number);
+
+#endif

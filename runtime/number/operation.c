@@ -1,0 +1,117 @@
+/* Computes the operations of operations.def, for one point and for rows of points, and finds them by their names.
+ *
+ * Rows have one length, so that compilers turn the loops of simple operations into vector code; each element is
+ * computed by itself, by the expression that a single point takes, so that both give the same bits.
+ */
+#include "runtime/number/operation.h"
+
+#include <string.h>
+
+#include "runtime/base/any_width.h"
+#include "runtime/base/numeric.h"
+
+/* The least violation of a condition that excludes its bound. */
+#define STRICT 1e-9
+
+/* What the table's rows are made of. No operand has a side effect. */
+#define SMALLER(X, Y) ((X) != (X) || (X) < (Y) ? (X) : (Y))
+#define JUDGED(TEST) ((a != a) | (b != b) ? a + b : (TEST) ? 1.0 : 0.0)
+#define SHORT_AT_MOST(X, Y) ((X) <= (Y) ? 0 : (X) - (Y))
+#define SHORT_BELOW(X, Y) ((X) < (Y) ? 0 : (X) == (Y) || (X) - (Y) < STRICT ? STRICT : (X) - (Y))
+
+const tn_operation tn_operations[TN_OPERATION_COUNT] = {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) {TN_OP_##NAME, WORD, TN_WORDS_##WORDS, ARITY, DOC},
+#include "runtime/number/operations.def"
+#undef OPERATION
+};
+
+/* ---- names */
+
+const tn_operation *tn_function_named(tn_words words, const char *name, size_t size)
+{
+    for (size_t i = 0; i < TN_OPERATION_COUNT; i++) {
+        const char *word = tn_operations[i].word;
+        if ((tn_operations[i].words & words) && strlen(word) == size && memcmp(word, name, size) == 0)
+            return &tn_operations[i];
+    }
+    return NULL;
+}
+
+size_t tn_function_names(tn_words words, const char *names[TN_OPERATION_COUNT])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < TN_OPERATION_COUNT; i++)
+        if (tn_operations[i].words & words)
+            names[count++] = tn_operations[i].word;
+    return count;
+}
+
+/* ---- values */
+
+#define TAKE_1 double a = operands[0];
+#define TAKE_2 TAKE_1 double b = operands[1];
+#define TAKE_3 TAKE_2 double c = operands[2];
+
+double tn_operation_apply(tn_opcode opcode, const double *operands)
+{
+    switch (opcode) {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC)                                                          \
+    case TN_OP_##NAME: {                                                                                               \
+        TAKE_##ARITY return VALUE;                                                                                     \
+    }
+#include "runtime/number/operations.def"
+#undef OPERATION
+    default:
+        return 0;
+    }
+}
+
+#define ROWS_1 const double *x = operands[0];
+#define ROWS_2 ROWS_1 const double *y = operands[1];
+#define ROWS_3 ROWS_2 const double *z = operands[2];
+#define LOAD_1 double a = x[i];
+#define LOAD_2 LOAD_1 double b = y[i];
+#define LOAD_3 LOAD_2 double c = z[i];
+#define EACH(ARITY, VALUE)                                                                                             \
+    {                                                                                                                  \
+        ROWS_##ARITY for (size_t i = 0; i < TN_ROW; i++)                                                               \
+        {                                                                                                              \
+            LOAD_##ARITY out[i] = VALUE;                                                                               \
+        }                                                                                                              \
+        break;                                                                                                         \
+    }
+
+/* A row of operations.def belongs to one of the two functions below, by its LOOP. */
+#define IF_SIMPLE_SIMPLE(...) __VA_ARGS__
+#define IF_SIMPLE_CALL(...)
+#define IF_CALL_SIMPLE(...)
+#define IF_CALL_CALL(...) __VA_ARGS__
+
+/* Functions that are more than one operation, element by element. */
+static void compute_calls(tn_opcode opcode, const double *const *operands, double *restrict out)
+{
+    switch (opcode) {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_CALL_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
+#include "runtime/number/operations.def"
+#undef OPERATION
+    default:
+        break;
+    }
+}
+
+TN_ANY_WIDTH static void compute(tn_opcode opcode, const double *const *operands, double *restrict out)
+{
+    switch (opcode) {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_SIMPLE_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
+#include "runtime/number/operations.def"
+#undef OPERATION
+    default:
+        compute_calls(opcode, operands, out);
+        break;
+    }
+}
+
+void tn_operation_row(tn_opcode opcode, const double *const *operands, double *out)
+{
+    compute(opcode, operands, out);
+}

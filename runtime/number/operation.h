@@ -1,0 +1,49 @@
+/* Operations on doubles, by their opcodes: the rows of operations.def as functions.
+ *
+ * None depends on the machine: each is made of operations of IEEE 754, choices, and functions of
+ * runtime/base/numeric.h.
+ */
+#ifndef TARTAN_NUMBER_OPERATION_H
+#define TARTAN_NUMBER_OPERATION_H
+
+#include "runtime/module/opcodes.h"
+
+/* Points that a row holds: one row of each operand stays in the nearest cache. */
+#define TN_ROW 128u
+
+#define TN_ARITY_MAX 3u
+
+enum {
+    TN_OPERATION_COUNT = 0
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) +1
+#include "runtime/number/operations.def"
+#undef OPERATION
+};
+
+/* Whose functions an expression may call. */
+typedef enum tn_words { TN_WORDS_NEITHER, TN_WORDS_PLAIN, TN_WORDS_PROTECTED, TN_WORDS_EITHER } tn_words;
+
+typedef struct tn_operation {
+    tn_opcode opcode;
+    const char *word;
+    tn_words words;
+    uint32_t arity;
+    const char *doc;
+} tn_operation;
+
+/* In the table's order. */
+extern const tn_operation tn_operations[TN_OPERATION_COUNT];
+
+/* The function of this name among these words, or NULL. */
+const tn_operation *tn_function_named(tn_words words, const char *name, size_t size);
+
+/* The names of all functions among these words, in the table's order; returns how many. */
+size_t tn_function_names(tn_words words, const char *names[TN_OPERATION_COUNT]);
+
+/* The value of one point. `operands`: as many as its arity, the lowest on the stack first. */
+double tn_operation_apply(tn_opcode opcode, const double *operands);
+
+/* The values of TN_ROW points, from rows of operands, as many. `out` is none of them. */
+void tn_operation_row(tn_opcode opcode, const double *const *operands, double *out);
+
+#endif

@@ -1,0 +1,105 @@
+/* Runs the code of expressions on a stack of numbers, or of rows of numbers. */
+#include "runtime/number/run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/code.h"
+#include "runtime/number/operation.h"
+
+double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms)
+{
+    double stack[TN_MEASURE_STACK_MAX];
+    size_t height = 0;
+    for (;;) {
+        tn_instruction i = tn_code_read(code, offset);
+        offset += i.length;
+        switch (i.opcode) {
+        case TN_OP_VALUE:
+            return stack[0];
+        case TN_OP_NUMBER:
+            stack[height++] = tn_double_of((uint64_t)i.first);
+            break;
+        case TN_OP_TERM:
+            stack[height++] = terms[i.first];
+            break;
+        default:
+            height -= tn_code_effect((uint8_t)i.opcode).pops;
+            stack[height] = tn_operation_apply(i.opcode, stack + height);
+            height++;
+            break;
+        }
+    }
+}
+
+/* ---- by rows */
+
+void tn_number_rows_clear(tn_number_rows *rows)
+{
+    free(rows->stack);
+    free(rows->operands);
+    *rows = (tn_number_rows){0};
+}
+
+static bool reserve(tn_number_rows *rows, size_t depth)
+{
+    if (depth <= rows->capacity)
+        return true;
+    double *stack = realloc(rows->stack, 2 * depth * TN_ROW * sizeof *stack);
+    if (!stack)
+        return false;
+    rows->stack = stack;
+    const double **operands = realloc(rows->operands, depth * sizeof *operands);
+    if (!operands)
+        return false;
+    rows->operands = operands;
+    rows->capacity = depth;
+    return true;
+}
+
+static void fill(double *row, double number)
+{
+    for (size_t i = 0; i < TN_ROW; i++)
+        row[i] = number;
+}
+
+/* One row of results, from rows of terms. An operation's result may be no row of its operands: results of one level of
+ * the stack are written to that level's two rows in turn, and the operands above it are of other levels. */
+static const double *run_row(const tn_number_rows *rows, const uint8_t *code, uint32_t offset,
+                             const double *const *columns, size_t from)
+{
+    const double **operands = rows->operands;
+    size_t height = 0;
+    for (;;) {
+        tn_instruction i = tn_code_read(code, offset);
+        offset += i.length;
+        if (i.opcode == TN_OP_VALUE)
+            return operands[0];
+        if (i.opcode == TN_OP_TERM) {
+            operands[height++] = columns[i.first] + from;
+            continue;
+        }
+        height -= tn_code_effect((uint8_t)i.opcode).pops;
+        double *row = rows->stack + 2 * height * TN_ROW;
+        const double **own = operands + height++;
+        if (i.opcode == TN_OP_NUMBER) {
+            fill(row, tn_double_of((uint64_t)i.first));
+        } else {
+            row = own[0] == row ? row + TN_ROW : row;
+            tn_operation_row(i.opcode, own, row);
+        }
+        own[0] = row;
+    }
+}
+
+tn_status tn_number_run_rows(tn_number_rows *rows, const uint8_t *code, uint32_t offset, size_t depth,
+                             const double *const *columns, size_t count, double *values, tn_error *error)
+{
+    if (!reserve(rows, depth))
+        return tn_fail_memory(error);
+    for (size_t from = 0; from < count; from += TN_ROW) {
+        size_t points = count - from < TN_ROW ? count - from : TN_ROW;
+        memcpy(values + from, run_row(rows, code, offset, columns, from), points * sizeof *values);
+    }
+    return TN_OK;
+}

@@ -1,0 +1,30 @@
+/* Runs the code of expressions: of a module's function, or of a formula. One point at a time, or by rows of points;
+ * both give the same bits. Where an expression has no value, as after the root of a negative number, what comes out is
+ * not finite. */
+#ifndef TARTAN_NUMBER_RUN_H
+#define TARTAN_NUMBER_RUN_H
+
+#include "runtime/base/error.h"
+#include "runtime/module/module.h"
+
+#define TN_MEASURE_STACK_MAX 256u /* numbers that the code of a module's function holds at once */
+
+/* The value of the verified code that begins at `offset`, where the stack is at most TN_MEASURE_STACK_MAX deep; terms:
+ * what stands under each number of TERM. */
+double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms);
+
+/* Memory of running by rows. Zero it to begin with; it serves any code, one thread at a time. */
+typedef struct tn_number_rows {
+    double *stack;           /* owned: two rows a level */
+    const double **operands; /* owned: the rows that are on the stack, a term's column or one of the above */
+    size_t capacity;
+} tn_number_rows;
+
+void tn_number_rows_clear(tn_number_rows *rows);
+
+/* The values at `count` points, columns[term][point], into `values`; `depth`: of the stack, at most. Columns are
+ * readable (not changed, and not part of the result) up to the next multiple of TN_ROW points. TN_MEMORY, or TN_OK. */
+tn_status tn_number_run_rows(tn_number_rows *rows, const uint8_t *code, uint32_t offset, size_t depth,
+                             const double *const *columns, size_t count, double *values, tn_error *error);
+
+#endif
