@@ -79,7 +79,8 @@ static void goal(const char *text, size_t size)
         if (tn_module_load(c.module, c.module_size, NULL, &module, &error) != TN_OK)
             abort();
         for (size_t i = 0; i < module->FUNCTION_count; i++)
-            run(module->code, module->FUNCTION_records[i].code_begin, module->FUNCTION_records[i].stack_max);
+            if (module->FUNCTION_records[i].kind == TN_FUNCTION_MEASURE)
+                run(module->code, module->FUNCTION_records[i].code_begin, module->FUNCTION_records[i].stack_max);
         tn_module_free(module);
     } else if (c.diagnostics.error_count == 0) {
         abort();

@@ -64,12 +64,13 @@ static void test_studies(void **state)
             trees[i] = test_expression_new(&random, 2 + (unsigned)(i % 5), false);
         char *text = write_study((const test_expression *const *)trees, GOALS);
         tn_module *module = compile(text);
-        assert_int_equal(module->FUNCTION_count, GOALS);
+        assert_int_equal(module->GOAL_count, GOALS);
         for (size_t i = 0; i < GOALS; i++)
             for (size_t point = 0; point < 20; point++) {
                 for (size_t t = 0; t < TEST_TERMS; t++)
                     terms[t] = test_number(&random);
-                double got = tn_number_run(module->code, module->FUNCTION_records[i].code_begin, terms),
+                double got = tn_number_run(
+                           module->code, module->FUNCTION_records[module->GOAL_records[i].function].code_begin, terms),
                        wanted = test_expression_value(trees[i], terms, false);
                 if (!test_same(got, wanted))
                     fail_msg("goal%zu is %a, not %a\n%s", i, got, wanted, text);
