@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "runtime/base/file.h"
 #include "runtime/draw/svg_ids.h"
@@ -32,23 +31,6 @@ struct tn_canvas {
     size_t lettering_size;
     bool out_of_memory;
 };
-
-tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error)
-{
-    static const char *const extensions[] = {
-        [TN_CANVAS_SVG] = ".svg", [TN_CANVAS_PNG] = ".png", [TN_CANVAS_PDF] = ".pdf"};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++) {
-        if (strcasecmp(dot, extensions[i]) == 0) {
-            *format = (tn_canvas_format)i;
-            return TN_OK;
-        }
-    }
-    tn_status status =
-        tn_fail(error, TN_INVALID, E_USAGE, "%.200s does not say what kind of picture it is to be", path);
-    tn_error_help(error, "end its name in .svg, .png or .pdf");
-    return status;
-}
 
 static cairo_status_t write_stream(void *closure, const unsigned char *data, unsigned int length)
 {

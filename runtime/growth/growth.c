@@ -1,11 +1,11 @@
 #include "runtime/growth/growth.h"
 
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
 #include "runtime/base/numeric.h"
+#include "runtime/base/share.h"
 #include "runtime/growth/join/decide.h"
 
 #define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
@@ -355,7 +355,7 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                     .group_first = first,
                     .group_last = last,
                     .joins_last = last == growth->system->group_count,
-                    .threads = growth->options.threads > 0 ? growth->options.threads : omp_get_max_threads(),
+                    .threads = growth->options.threads > 0 ? growth->options.threads : tn_thread_count(),
                     .walks_vertices = walks_vertices(growth, first, last),
                     .branch_first = growth->branches};
     tn_status status = tn_pass_survey(&pass, error);

@@ -47,11 +47,4 @@ bool tn_tree_write_json(const tn_grammar *grammar, const tn_event *events, const
 /* Writes a production as the grammar file has it. */
 void tn_production_write(const tn_grammar *grammar, uint32_t production, FILE *out);
 
-/* Draws the derivation as Fig. 7 does: non-terminals inside, terminals at the leaves, at most TN_TREE_DRAWN nodes
- * (TN_LIMIT, E1228). `path` ends in .svg, .png or .pdf; errors of writing as tn_canvas_new has them. */
-tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, const char *path,
-                       tn_error *error);
-
-#define TN_TREE_DRAWN 4000u
-
 #endif

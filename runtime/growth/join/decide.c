@@ -1,6 +1,5 @@
 #include "runtime/growth/join/decide.h"
 
-#include <omp.h>
 #include <stdlib.h>
 
 #include "runtime/base/share.h"
@@ -235,7 +234,7 @@ static void decide_chunk(void *context, uint32_t number)
     tn_workspace *space = &pass->growth->space;
     uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
-    int decider = pass->threads > 1 && pass->chunk_count > 1 ? omp_get_thread_num() : 0; /* as tn_share does */
+    int decider = pass->threads > 1 && pass->chunk_count > 1 ? tn_thread_number() : 0; /* as tn_share does */
     pass->chunks[number] = (tn_face_chunk){.decider = decider};
     decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
     for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
