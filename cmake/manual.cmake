@@ -3,7 +3,7 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def cli/notations.def)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/common/commands.def cli/common/notations.def)
 set(TARTAN_WRITTEN_FILES "")
 set(TARTAN_PRINTED "") # by the binary, all in one step
 set(TARTAN_PRINTING "")
@@ -16,18 +16,18 @@ macro(tartan_writes name folder)
 endmacro()
 
 tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
-file(STRINGS cli/commands.def rows REGEX "^COMMAND")
+file(STRINGS cli/common/commands.def rows REGEX "^COMMAND")
 foreach(row ${rows})
   string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
 endforeach()
 
-file(STRINGS cli/notations.def rows REGEX "^NOTATION")
+file(STRINGS cli/common/notations.def rows REGEX "^NOTATION")
 foreach(row ${rows})
   string(REGEX MATCH "NOTATION\\(([a-z]+), \"(.*)\", \"(.*)\"\\)" row "${row}")
   set(file ${TARTAN_WRITTEN}/tartan-${CMAKE_MATCH_1}.5)
   set(page ${PROJECT_SOURCE_DIR}/docs/${CMAKE_MATCH_2})
-  add_custom_command(OUTPUT ${file} DEPENDS ${page} ${PROJECT_SOURCE_DIR}/tools/manual-page cli/notations.def
+  add_custom_command(OUTPUT ${file} DEPENDS ${page} ${PROJECT_SOURCE_DIR}/tools/manual-page cli/common/notations.def
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${page} ${CMAKE_MATCH_1} ${CMAKE_MATCH_3} ${PROJECT_VERSION} > ${file} VERBATIM)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
   list(APPEND TARTAN_WRITTEN_FILES ${file})

@@ -26,7 +26,7 @@ struct tn_background {
     const tn_stdlib_dirs *stdlib; /* the workspace's, which does not change */
     int wake;
     atomic_bool stop, ended;
-    tn_analysis *analysis;
+    tn_file_analysis *analysis;
     tn_facts *facts;
 };
 
@@ -154,7 +154,7 @@ bool tn_background_ended(tn_background *background)
     return background->ended;
 }
 
-void tn_background_finish(tn_background *background, tn_analysis **analysis, tn_facts **facts)
+void tn_background_finish(tn_background *background, tn_file_analysis **analysis, tn_facts **facts)
 {
     pthread_join(background->thread, NULL);
     *analysis = background->stop ? NULL : background->analysis;

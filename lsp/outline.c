@@ -28,7 +28,7 @@ static int outline_kind(tn_symbol_kind kind)
     return kinds[kind];
 }
 
-static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
+static json_t *outline_item(tn_file_analysis *analysis, const tn_symbol *symbol)
 {
     json_t *item = json_pack("{s:s,s:i,s:o,s:o}", "name", symbol->name, "kind", outline_kind(symbol->kind), "range",
                              tn_analysis_range(analysis, symbol->span), "selectionRange",
@@ -48,7 +48,7 @@ static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
     return item;
 }
 
-static json_t *outline_plan(tn_analysis *analysis)
+static json_t *outline_plan(tn_file_analysis *analysis)
 {
     json_t *list = json_array();
     for (const tn_symbol *s = analysis->index.first; s; s = s->next)
@@ -60,7 +60,7 @@ static json_t *outline_plan(tn_analysis *analysis)
 /* ---- from tokens */
 
 typedef struct reader {
-    tn_analysis *analysis;
+    tn_file_analysis *analysis;
     const char *text;
     const tn_token *tokens; /* without comments */
     size_t count;
@@ -207,7 +207,7 @@ static json_t *outline_bnf(const reader *r)
 /* ---- all */
 
 /* The tokens but for the comments, in the arena; where lines mean something, with their ends. */
-static bool make_reader(tn_analysis *analysis, reader *r)
+static bool make_reader(tn_file_analysis *analysis, reader *r)
 {
     const tn_tokens *all = &analysis->tokens;
     tn_token *tokens = all->arena ? TN_NEW_ARRAY(all->arena, tn_token, all->count + 1) : NULL;
@@ -221,7 +221,7 @@ static bool make_reader(tn_analysis *analysis, reader *r)
     return true;
 }
 
-json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis)
+json_t *tn_lsp_outline(tn_document *document, tn_file_analysis *analysis)
 {
     reader r;
     (void)document;

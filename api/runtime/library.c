@@ -1,3 +1,4 @@
+/* The C interface: plan libraries are counted, ranked and listed. */
 #include "runtime/plan/library/library.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* The C interface: modules are loaded and asked what they hold. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

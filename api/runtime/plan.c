@@ -1,3 +1,4 @@
+/* The C interface: plans are read from text and written. */
 #include <stdlib.h>
 #include <string.h>
 

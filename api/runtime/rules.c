@@ -1,3 +1,4 @@
+/* The C interface: rules are matched against plans. */
 #include "runtime/plan/match/rules.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* The constructors of the syntax tree of studies that breed (.study). */
 #include <string.h>
 
 #include "compiler/common/lexical.h"

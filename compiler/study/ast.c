@@ -1,3 +1,4 @@
+/* The constructors of the syntax tree of growth studies (.study). */
 #include <string.h>
 #include <strings.h>
 

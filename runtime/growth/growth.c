@@ -159,7 +159,7 @@ static tn_status plant(tn_growth *growth, tn_error *error)
 {
     uint32_t n = growth->system->axiom_count;
     tn_map *map = &growth->map;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     int here = space->current;
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)n * sizeof(double)) ||
         !tn_pages_reserve(&space->states[here], n * sizeof(tn_edge_state)) ||
@@ -254,7 +254,7 @@ void tn_growth_free(tn_growth *growth)
 {
     if (!growth)
         return;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     tn_pages *all[] = {&space->positions, &space->states[0], &space->states[1], &space->darts[0], &space->darts[1],
                        &space->faces[0],  &space->faces[1],  &space->survey,    &space->choices,  &space->chunks,
                        &space->records,   &space->joints,    &space->cut_of,    &space->made};

@@ -28,7 +28,7 @@ fi
 
 # Each notation has one too, made of its page of docs; the overview names it, and every grammar of the compiler has one.
 version=$("$TARTAN" --version | sed 's/^tartan //')
-names=$(sed -n 's/^NOTATION(\([a-z]*\),.*/\1/p' cli/notations.def)
+names=$(sed -n 's/^NOTATION(\([a-z]*\),.*/\1/p' cli/common/notations.def)
 for name in plan bnf study plans $(find stdlib -type f | sed 's/.*\.//' | sort -u); do
     grep -qx "$name" <<<"$names" || fail "no notation $name"
 done
@@ -49,4 +49,4 @@ while IFS='|' read -r name source summary; do
         warnings=$(LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l - <<<"$page" 2>&1 >/dev/null | grep -v "can't break line" || true)
         [ -z "$warnings" ] || fail "tartan-$name(5): $warnings"
     fi
-done < <(sed -n 's/^NOTATION(\([a-z]*\), "\(.*\)", "\(.*\)")$/\1|\2|\3/p' cli/notations.def)
+done < <(sed -n 's/^NOTATION(\([a-z]*\), "\(.*\)", "\(.*\)")$/\1|\2|\3/p' cli/common/notations.def)

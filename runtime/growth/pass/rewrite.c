@@ -241,7 +241,7 @@ static tn_status make_room(tn_pass *pass, const tally_counts *total, tn_error *e
     pass->edges = (uint32_t)edges;
     pass->branch_count = (uint32_t)total->branches;
     pass->rewrites = total->rewrites;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
         !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
         !tn_pages_reserve(&space->records, (size_t)old->edge_count * sizeof *pass->records) ||
@@ -375,14 +375,14 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
 /* ---- chains */
 
 /* The record of a chain's first edge becomes that of all. */
-static void run_along(tn_pass *pass, const tn_replacement *chain)
+static void run_along(tn_pass *pass, const tn_edge_replacement *chain)
 {
     uint32_t d = pass->dart[2 * (size_t)chain->first], f = pass->sides[2 * (size_t)chain->first].face;
     uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
     for (uint32_t j = 0; j < chain->length; j++) {
         uint32_t edge = pass->old->side[first + (d - first + j) % size] / 2;
         pass->records[edge] = pass->records[chain->first];
-        pass->runs[edge] = (tn_run){chain->first, chain->last};
+        pass->runs[edge] = (tn_edge_run){chain->first, chain->last};
     }
 }
 
@@ -407,7 +407,7 @@ static tn_status rewrite_list(tn_pass *pass, tn_error *error)
     start_placing(&some);
     bool fine = true;
     for (size_t i = 0; i < pass->list_count && fine; i++) {
-        const tn_replacement *one = &pass->list[i];
+        const tn_edge_replacement *one = &pass->list[i];
         fine = replace(pass, one->first, one->last, one->template, &at, &some);
         run_along(pass, one);
     }

@@ -111,21 +111,21 @@ void tn_edges_clear(tn_edges *edges)
 
 /* ---- rows */
 
-static tn_status row_allocate(const tn_edges *edges, size_t limbs, tn_row *row, tn_error *error)
+static tn_status row_allocate(const tn_edges *edges, size_t limbs, tn_count_row *row, tn_error *error)
 {
     row->limbs = limbs;
     row->value = calloc((size_t)edges->states * limbs + 1, sizeof *row->value);
     return row->value ? TN_OK : tn_fail_memory(error);
 }
 
-void tn_row_clear(tn_row *row)
+void tn_count_row_clear(tn_count_row *row)
 {
     free(row->value);
-    *row = (tn_row){0};
+    *row = (tn_count_row){0};
 }
 
 /* Drops the last limb of every count where none needs it. */
-static void row_shrink(const tn_edges *edges, tn_row *row)
+static void row_shrink(const tn_edges *edges, tn_count_row *row)
 {
     size_t limbs = row->limbs;
     if (limbs == 1)
@@ -141,7 +141,7 @@ static void row_shrink(const tn_edges *edges, tn_row *row)
         row->value = less;
 }
 
-tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error)
+tn_status tn_count_row_first(const tn_edges *edges, tn_count_row *row, tn_error *error)
 {
     tn_status status = row_allocate(edges, 1, row, error);
     for (uint32_t s = 0; status == TN_OK && s < edges->states; s++)
@@ -166,7 +166,7 @@ static mp_limb_t add_times(mp_limb_t *sum, const mp_limb_t *count, size_t limbs,
 
 /* A sum of counts of one row, each times a number of trays that add up to less than 2^32, needs one limb more at most.
  */
-tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error)
+tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_count_row *next, tn_error *error)
 {
     size_t limbs = row->limbs;
     tn_status status = row_allocate(edges, limbs + 1, next, error);
@@ -175,16 +175,16 @@ tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn
     for (uint32_t s = 0; s < edges->states; s++) {
         mp_limb_t *sum = next->value + (size_t)s * next->limbs;
         for (size_t e = edges->first[s]; e < edges->first[s + 1]; e++)
-            sum[limbs] += add_times(sum, tn_row_at(row, edges->target[e]), limbs, edges->weight[e]);
+            sum[limbs] += add_times(sum, tn_count_row_at(row, edges->target[e]), limbs, edges->weight[e]);
     }
     row_shrink(edges, next);
     return TN_OK;
 }
 
-void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count)
+void tn_count_row_add(const tn_count_row *row, uint32_t state, uint64_t times, mpz_t count)
 {
     mpz_t value;
-    mpz_roinit_n(value, tn_row_at(row, state), (mp_size_t)row->limbs);
+    mpz_roinit_n(value, tn_count_row_at(row, state), (mp_size_t)row->limbs);
     mpz_addmul_ui(count, value, times);
 }
 
@@ -278,22 +278,22 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
                                 tn_error *error)
 {
     tn_edges edges = {0};
-    tn_row row = {0};
+    tn_count_row row = {0};
     tn_status status = tn_edges_make(&edges, sparse, weights, error);
     if (status == TN_OK)
-        status = tn_row_first(&edges, &row, error);
+        status = tn_count_row_first(&edges, &row, error);
     for (uint32_t length = 0; status == TN_OK; length++) {
         mpz_set_ui(counts[length], 0);
         if (sparse->states > 0)
-            tn_row_add(&row, 0, 1, counts[length]);
+            tn_count_row_add(&row, 0, 1, counts[length]);
         if (length == max)
             break;
-        tn_row next = {0};
-        status = tn_row_next(&edges, &row, &next, error);
-        tn_row_clear(&row);
+        tn_count_row next = {0};
+        status = tn_count_row_next(&edges, &row, &next, error);
+        tn_count_row_clear(&row);
         row = next;
     }
-    tn_row_clear(&row);
+    tn_count_row_clear(&row);
     tn_edges_clear(&edges);
     return status;
 }
