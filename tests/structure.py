@@ -112,6 +112,10 @@ def check_arrows(root, files):
             if used != folder and not used.startswith("include/"):
                 arrows[folder].add(used)
                 by.setdefault((folder, used), file)
+    for file in files:  # runtime/engines.def names what these define
+        if re.search(r"^const tn_engine tn_engine_", read(os.path.join(root, file)), re.M):
+            arrows["runtime"].add(home(file))
+            by.setdefault(("runtime", home(file)), "runtime/engines.def")
     allowed, made = table(root), targets(root)
     if "--table" in sys.argv:
         for folder in sorted(arrows):
