@@ -97,7 +97,7 @@ static void test_other_notations(void **state)
 
 /* ---- running */
 
-static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits)
+static tn_status match(const tn_module *module, tn_matching_engine engine, uint64_t *bits)
 {
     static const tn_tray trays[] = {0, 5, 9, 3};
     tn_schema *schema = NULL;
@@ -123,7 +123,7 @@ static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits
     return status;
 }
 
-static void match_with_failures(tn_engine engine)
+static void match_with_failures(tn_matching_engine engine)
 {
     tn_compilation compilation;
     tn_module *module;
