@@ -5,11 +5,13 @@ CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 
-.PHONY: help packages build demo check check-editor check-report lint package check-package bench fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report lint package check-package bench fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
 	@echo 'make check       build everything and run every test'
+	@echo 'make check-long  run the tests that take long, which make check leaves out'
+	@echo 'make check-parts build without pictures, OpenMesh and SQLite, and test that'
 	@echo 'make package     make a Debian package (into build-package/)'
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
@@ -33,7 +35,14 @@ demo: build
 	@tools/demo build/tartan demo
 
 check: build
-	@ctest --test-dir build --output-on-failure -j $(JOBS)
+	@ctest --test-dir build --output-on-failure -j $(JOBS) -LE LONG
+
+# An issue's full numbers; make check has a fixed share of them.
+check-long: build
+	@ctest --test-dir build --output-on-failure -j $(JOBS) -L LONG --no-tests=error
+
+check-parts: packages
+	@tools/check-parts
 
 package: packages
 	@tools/make-package
@@ -63,4 +72,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-asan build-fuzz build-package demo
+	@rm -rf build build-asan build-fuzz build-package build-parts demo

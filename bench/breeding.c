@@ -15,6 +15,7 @@
 #include "runtime/base/crew.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/growth/study.h"
+#include "runtime/mesh/openmesh.h"
 
 enum { POPULATION = 400, GENERATIONS = 5, ROUNDS = 5, FACES_LOW = 500, FACES_HIGH = 2000, THREADS = 4 };
 
@@ -219,7 +220,8 @@ int main(int count, char **words)
     if (tn_grammar_new(module, 0, &grammar, &error) != TN_OK ||
         tn_grower_new(words[2], false, THREADS, &grower, &error) != TN_OK)
         stop(error.message);
-    if (tn_open(words[2], false, &opened) != TN_OK || tn_study_read(opened.module, words[2], &study, &error) != TN_OK)
+    if (tn_open(words[2], false, &opened) != TN_OK ||
+        tn_study_read(opened.module, words[2], tn_openmesh_read, &study, &error) != TN_OK)
         stop("the study cannot be read");
     study.options.threads = 1;
     tn_growth *growths[THREADS] = {NULL};

@@ -1,59 +1,109 @@
 # What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib; manual.cmake adds what is to be read.
 #
-# libtartan-runtime loads and runs modules; libtartan can compile too and holds the runtime whole: a program links the one or the other.
+#   libtartan-runtime  loads modules; plans, genomes, numbers. Needs GMP and xxHash only.
+#   libtartan-growth   grows surfaces
+#   libtartan-mesh     mesh files and algorithms, by OpenMesh
+#   libtartan-draw     pictures, by cairo
+#   libtartan-store    plan libraries and runs in databases, by SQLite
+#   libtartan          compiles, and links all of those
+#
+# What they call of one another is theirs alone: the symbols are of version TARTAN_PRIVATE and change without notice.
 include(CMakePackageConfigHelpers)
 
-get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
-set(TARTAN_OBJECTS "")
-set(TARTAN_RUNTIME_OBJECTS "")
-foreach(folder ${folders})
-  if(folder MATCHES "^(runtime|api)" AND NOT folder STREQUAL "api-compiler")
-    list(APPEND TARTAN_RUNTIME_OBJECTS $<TARGET_OBJECTS:${folder}>)
-  endif()
-  if(NOT folder STREQUAL "lsp")
-    list(APPEND TARTAN_OBJECTS $<TARGET_OBJECTS:${folder}>)
-  endif()
-endforeach()
-set(TARTAN_LIBRARY_NEEDS ${TARTAN_OPENMESH} PkgConfig::GMP PkgConfig::SQLITE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::XXHASH OpenMP::OpenMP_C
-    Threads::Threads m)
-set(TARTAN_PC_REQUIRES "gmp sqlite3 cairo cairo-svg cairo-pdf jansson libxxhash")
 file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-if(CMAKE_C_COMPILER_ID STREQUAL GNU)
-  set(TARTAN_PC_LIBS "-lgomp -pthread -lm")
-else()
-  list(JOIN OpenMP_C_LIBRARIES " " TARTAN_PC_LIBS)
-  string(APPEND TARTAN_PC_LIBS " -pthread -lm")
+
+# What links a program with threads, without CMake.
+set(TARTAN_PC_THREADS "-pthread -lm")
+if(CMAKE_C_COMPILER_ID STREQUAL GNU AND OpenMP_C_FOUND)
+  string(PREPEND TARTAN_PC_THREADS "-lgomp ")
+elseif(OpenMP_C_FOUND)
+  list(JOIN OpenMP_C_LIBRARIES " " openmp)
+  string(PREPEND TARTAN_PC_THREADS "${openmp} ")
 endif()
-list(JOIN TARTAN_OPENMESH " " TARTAN_PC_OPENMESH)
-string(PREPEND TARTAN_PC_LIBS "${TARTAN_PC_OPENMESH} ")
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.
 set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(TARTAN_LIBRARIES "")
 
-function(tartan_library name objects)
+# tartan_library(NAME FOLDERS TARGETS... USES LIBRARIES... NEEDS LIBRARIES... MODULES PKG-CONFIG-MODULES... FLAGS FLAGS...): the objects of the
+# folders, on top of other libraries of ours (USES) and of others: NEEDS for CMake, MODULES and FLAGS for pkg-config.
+function(tartan_library name)
+  cmake_parse_arguments(LIBRARY "" "" "FOLDERS;USES;NEEDS;MODULES;FLAGS" ${ARGN})
+  set(objects "")
+  foreach(folder ${LIBRARY_FOLDERS})
+    list(APPEND objects $<TARGET_OBJECTS:${folder}>)
+  endforeach()
   foreach(kind shared static)
     set(target lib${name}-${kind})
     string(TOUPPER ${kind} type)
     add_library(${target} ${type} ${objects})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} EXPORT_NAME ${name}-${kind} LINKER_LANGUAGE C)
     target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    target_link_libraries(${target} PRIVATE ${TARTAN_LIBRARY_NEEDS})
+    foreach(used ${LIBRARY_USES})
+      target_link_libraries(${target} PUBLIC lib${used}-${kind})
+    endforeach()
+    target_link_libraries(${target} PRIVATE ${LIBRARY_NEEDS})
     install(TARGETS ${target} EXPORT tartan-targets
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endforeach()
-  set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${TARTAN_SOVERSION})
+  # One shared library of ours need not be linked again when another one changes.
+  set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${TARTAN_SOVERSION}
+    LINK_DEPENDS_NO_SHARED ON)
   target_link_options(lib${name}-shared PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
   # clang leaves the sanitizers' names in a shared library to the program
   if(NOT CMAKE_C_FLAGS MATCHES "-fsanitize=")
     target_link_options(lib${name}-shared PRIVATE -Wl,--no-undefined)
   endif()
   set(TARTAN_PC_NAME ${name})
+  set(TARTAN_PC_USES "")
+  foreach(used ${LIBRARY_USES})
+    string(APPEND TARTAN_PC_USES " ${used} = ${PROJECT_VERSION}")
+  endforeach()
+  list(JOIN LIBRARY_MODULES " " TARTAN_PC_MODULES)
+  list(JOIN LIBRARY_FLAGS " " TARTAN_PC_FLAGS)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/tartan.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
-tartan_library(tartan-runtime "${TARTAN_RUNTIME_OBJECTS}")
-tartan_library(tartan "${TARTAN_OBJECTS}")
+# Each folder is in one library. Those of a part that is left out hold nothing but its refusals, which go where they are called.
+get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
+foreach(folder ${folders})
+  get_property(part GLOBAL PROPERTY TARTAN_PART_${folder})
+  if(folder STREQUAL "lsp")
+    continue()
+  elseif(part AND TARTAN_WITH_${part})
+    list(APPEND TARTAN_${part}_FOLDERS ${folder})
+  elseif(part)
+    list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
+  elseif(folder MATCHES "^runtime-growth" AND NOT folder STREQUAL "runtime-growth-model") # modules hold growth's tables
+    list(APPEND TARTAN_GROWTH_FOLDERS ${folder})
+  elseif(folder MATCHES "^(runtime|api-base|api-plan|api-genome)")
+    list(APPEND TARTAN_RUNTIME_FOLDERS ${folder})
+  else()
+    list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
+  endif()
+endforeach()
+
+set(threads ${TARTAN_OPENMP} Threads::Threads m)
+tartan_library(tartan-runtime FOLDERS ${TARTAN_RUNTIME_FOLDERS} NEEDS PkgConfig::GMP PkgConfig::XXHASH ${threads} MODULES gmp libxxhash)
+tartan_library(tartan-growth FOLDERS ${TARTAN_GROWTH_FOLDERS} USES tartan-runtime NEEDS PkgConfig::XXHASH ${threads} MODULES libxxhash)
+set(parts "")
+if(TARTAN_WITH_MESH)
+  tartan_library(tartan-mesh FOLDERS ${TARTAN_MESH_FOLDERS} USES tartan-runtime NEEDS ${TARTAN_OPENMESH} FLAGS ${TARTAN_OPENMESH})
+  list(APPEND parts tartan-mesh)
+endif()
+if(TARTAN_WITH_DRAW)
+  tartan_library(tartan-draw FOLDERS ${TARTAN_DRAW_FOLDERS} USES tartan-growth tartan-runtime NEEDS PkgConfig::CAIRO PkgConfig::GMP ${threads}
+    MODULES cairo cairo-svg cairo-pdf)
+  list(APPEND parts tartan-draw)
+endif()
+if(TARTAN_WITH_STORE)
+  tartan_library(tartan-store FOLDERS ${TARTAN_STORE_FOLDERS} USES tartan-runtime NEEDS PkgConfig::SQLITE PkgConfig::GMP PkgConfig::XXHASH
+    MODULES sqlite3)
+  list(APPEND parts tartan-store)
+endif()
+tartan_library(tartan FOLDERS ${TARTAN_COMPILER_FOLDERS} USES ${parts} tartan-growth tartan-runtime
+  NEEDS PkgConfig::JANSSON PkgConfig::GMP PkgConfig::XXHASH ${threads} MODULES jansson)
 
 install(TARGETS tartan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/tartan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")

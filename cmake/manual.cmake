@@ -3,19 +3,20 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def compiler/notations.def)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/common/commands.def compiler/notations.def)
 set(TARTAN_WRITTEN_FILES "")
+set(TARTAN_PRINTED "") # by the binary, all in one step
+set(TARTAN_PRINTING "")
 
 # The binary prints it: tartan help WORDS...
-function(tartan_writes name folder)
-  set(file ${TARTAN_WRITTEN}/${name})
-  add_custom_command(OUTPUT ${file} DEPENDS tartan COMMAND tartan help ${ARGN} > ${file} VERBATIM)
-  install(FILES ${file} DESTINATION ${folder})
-  set(TARTAN_WRITTEN_FILES ${TARTAN_WRITTEN_FILES} ${file} PARENT_SCOPE)
-endfunction()
+macro(tartan_writes name folder)
+  list(APPEND TARTAN_PRINTED ${TARTAN_WRITTEN}/${name})
+  list(APPEND TARTAN_PRINTING COMMAND tartan help ${ARGN} > ${TARTAN_WRITTEN}/${name})
+  install(FILES ${TARTAN_WRITTEN}/${name} DESTINATION ${folder})
+endmacro()
 
 tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
-file(STRINGS cli/commands.def rows REGEX "^COMMAND")
+file(STRINGS cli/common/commands.def rows REGEX "^COMMAND")
 foreach(row ${rows})
   string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
@@ -46,4 +47,6 @@ tartan_writes(zsh/_tartan ${CMAKE_INSTALL_DATADIR}/zsh/site-functions --completi
 tartan_writes(fish/tartan.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d --completion fish)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN}/bash ${TARTAN_WRITTEN}/zsh ${TARTAN_WRITTEN}/fish)
 
-add_custom_target(manual ALL DEPENDS ${TARTAN_WRITTEN_FILES})
+add_custom_command(OUTPUT ${TARTAN_PRINTED} DEPENDS tartan ${TARTAN_PRINTING} COMMENT "Writing manual pages and completions" VERBATIM)
+
+add_custom_target(manual ALL DEPENDS ${TARTAN_WRITTEN_FILES} ${TARTAN_PRINTED})

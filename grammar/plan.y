@@ -485,7 +485,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, v
     for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
     yysymbol_kind_t found = yypcontext_token(context);
-    tn_found token = {*yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "" : yysymbol_name(found),
+    tn_syntax_found token = {*yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "" : yysymbol_name(found),
                       parse->token_before == TN_PLAN_NAME ? parse->span_before : (tn_span){0}};
     tn_syntax_error(parse, &token, expected, (size_t)count);
     return 0;

@@ -5,7 +5,7 @@
 #include "compiler/common/lexical.h"
 #include "compiler/compile.h"
 
-void tn_analysis_free(tn_analysis *analysis)
+void tn_analysis_free(tn_file_analysis *analysis)
 {
     if (!analysis)
         return;
@@ -17,7 +17,7 @@ void tn_analysis_free(tn_analysis *analysis)
 }
 
 /* The compilation has read the tokens and forgotten them. */
-static void read_tokens(tn_analysis *analysis)
+static void read_tokens(tn_file_analysis *analysis)
 {
     tn_compilation *c = &analysis->compilation;
     tn_diagnostics scratch;
@@ -28,10 +28,10 @@ static void read_tokens(tn_analysis *analysis)
     tn_diagnostics_clear(&scratch);
 }
 
-tn_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
+tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
                              tn_overlay *overlay, void *context)
 {
-    tn_analysis *analysis = calloc(1, sizeof *analysis);
+    tn_file_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)
         return NULL;
     tn_files files;
@@ -55,7 +55,7 @@ tn_analysis *tn_analysis_new(const char *path, const char *text, size_t size, co
     return NULL;
 }
 
-const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file)
+const tn_lines *tn_analysis_lines(tn_file_analysis *analysis, uint32_t file)
 {
     if (file >= analysis->compilation.sources.count)
         return NULL;
@@ -66,7 +66,7 @@ const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file)
     return lines;
 }
 
-json_t *tn_analysis_range(tn_analysis *analysis, tn_span span)
+json_t *tn_analysis_range(tn_file_analysis *analysis, tn_span span)
 {
     const tn_lines *lines = tn_analysis_lines(analysis, span.file);
     return lines ? tn_lines_range(lines, span.begin, span.end) : json_null();

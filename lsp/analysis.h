@@ -9,23 +9,23 @@
 #include "lsp/index.h"
 #include "lsp/lines.h"
 
-typedef struct tn_analysis {
+typedef struct tn_file_analysis {
     tn_compilation compilation;
     tn_lines *lines;  /* of each source, made when needed */
     tn_index index;   /* of a .plan file */
     tn_tokens tokens; /* of the text itself */
-} tn_analysis;
+} tn_file_analysis;
 
 /* Compiles a text; `path` is where it is or would be, a real one that ends as files of its notation do. What `overlay`
  * gives stands in for files (driver/open/files.h); it is not asked afterwards. NULL where out of memory. */
-tn_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
+tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
                              tn_overlay *overlay, void *context);
-void tn_analysis_free(tn_analysis *analysis);
+void tn_analysis_free(tn_file_analysis *analysis);
 
 /* The lines of a source; NULL where out of memory. */
-const tn_lines *tn_analysis_lines(tn_analysis *analysis, uint32_t file);
+const tn_lines *tn_analysis_lines(tn_file_analysis *analysis, uint32_t file);
 
 /* {"start", "end"}, or null. */
-json_t *tn_analysis_range(tn_analysis *analysis, tn_span span);
+json_t *tn_analysis_range(tn_file_analysis *analysis, tn_span span);
 
 #endif

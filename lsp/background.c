@@ -27,7 +27,7 @@ struct tn_background {
     int wake;
     tn_watch watch; /* only its `stop` */
     atomic_bool ended;
-    tn_analysis *analysis;
+    tn_file_analysis *analysis;
     tn_facts *facts;
 };
 
@@ -156,7 +156,7 @@ bool tn_background_ended(tn_background *background)
     return background->ended;
 }
 
-void tn_background_finish(tn_background *background, tn_analysis **analysis, tn_facts **facts)
+void tn_background_finish(tn_background *background, tn_file_analysis **analysis, tn_facts **facts)
 {
     pthread_join(background->thread, NULL);
     *analysis = background->watch.stop ? NULL : background->analysis;

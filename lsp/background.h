@@ -22,6 +22,6 @@ bool tn_background_ended(tn_background *background);
 
 /* Waits for its end, and frees it. What was found goes to *analysis (the document's, with the warnings among its
  * diagnostics) and *facts, which may be NULL too; both are NULL where it was cancelled or failed. */
-void tn_background_finish(tn_background *background, tn_analysis **analysis, tn_facts **facts);
+void tn_background_finish(tn_background *background, tn_file_analysis **analysis, tn_facts **facts);
 
 #endif

@@ -21,7 +21,7 @@ enum { DEPTH_MAX = 1024 }; /* brackets around the cursor that are told apart */
 
 /* Where the cursor is. */
 typedef struct cursor {
-    const tn_analysis *analysis;
+    const tn_file_analysis *analysis;
     const char *text;
     const tn_token *tokens;
     size_t count; /* tokens before the cursor; not the word that it is in or just behind */
@@ -393,7 +393,7 @@ static json_t *without_repeats(json_t *list)
     return kept;
 }
 
-json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset)
+json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     cursor *c = calloc(1, sizeof *c);
     bool quoted;

@@ -6,7 +6,7 @@
 #include "lsp/features.h"
 
 /* Where something in a file that is used is shown: at the first `use`, or at the start. */
-static tn_span place_of_use(const tn_analysis *analysis)
+static tn_span place_of_use(const tn_file_analysis *analysis)
 {
     const tn_imports *imports = analysis->compilation.imports;
     const tn_ast_file *tree = imports && imports->count ? imports->units[imports->count - 1]->tree : NULL;
@@ -18,7 +18,7 @@ static tn_span place_of_use(const tn_analysis *analysis)
 }
 
 /* At least one character, so that there is something to underline. */
-static tn_span visible(const tn_analysis *analysis, tn_span span)
+static tn_span visible(const tn_file_analysis *analysis, tn_span span)
 {
     const tn_source *source = &analysis->compilation.sources.files[span.file];
     if (span.end > span.begin || source->size == 0)
@@ -30,7 +30,7 @@ static tn_span visible(const tn_analysis *analysis, tn_span span)
 }
 
 /* With the notes that have no place of their own, and the help. */
-static json_t *message_of(tn_analysis *analysis, const tn_diagnostic *item, bool elsewhere)
+static json_t *message_of(tn_file_analysis *analysis, const tn_diagnostic *item, bool elsewhere)
 {
     char *text = NULL;
     size_t size = 0;
@@ -64,7 +64,7 @@ static json_t *related(tn_document *document, const tn_diagnostic *item)
     return list;
 }
 
-static json_t *to_json(tn_document *document, tn_analysis *analysis, const tn_diagnostic *item)
+static json_t *to_json(tn_document *document, tn_file_analysis *analysis, const tn_diagnostic *item)
 {
     char code[8] = "";
     bool elsewhere = item->has_span && item->span.file != 0;
@@ -85,7 +85,7 @@ static json_t *to_json(tn_document *document, tn_analysis *analysis, const tn_di
     return result;
 }
 
-json_t *tn_lsp_diagnostics(tn_document *document, tn_analysis *analysis)
+json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis)
 {
     const tn_diagnostics *found = &analysis->compilation.diagnostics;
     json_t *list = json_array();
@@ -96,7 +96,7 @@ json_t *tn_lsp_diagnostics(tn_document *document, tn_analysis *analysis)
 
 /* ---- quick fixes */
 
-static json_t *edit_at(tn_document *document, tn_analysis *analysis, tn_span span, const char *text)
+static json_t *edit_at(tn_document *document, tn_file_analysis *analysis, tn_span span, const char *text)
 {
     json_t *edits = json_pack("[{s:o,s:s}]", "range", tn_analysis_range(analysis, span), "newText", text);
     json_t *changes = json_object();
@@ -104,7 +104,7 @@ static json_t *edit_at(tn_document *document, tn_analysis *analysis, tn_span spa
     return json_pack("{s:o}", "changes", changes);
 }
 
-static json_t *replacement_action(tn_document *document, tn_analysis *analysis, const tn_diagnostic *item)
+static json_t *replacement_action(tn_document *document, tn_file_analysis *analysis, const tn_diagnostic *item)
 {
     return json_pack("{s:o,s:s,s:b,s:[o],s:o}", "title", json_sprintf("Replace with %s", item->replacement), "kind",
                      "quickfix", "isPreferred", 1, "diagnostics", to_json(document, analysis, item), "edit",
@@ -112,7 +112,7 @@ static json_t *replacement_action(tn_document *document, tn_analysis *analysis, 
 }
 
 /* The rule or library in which a place of the document is. */
-static const tn_symbol *owner_of(const tn_analysis *analysis, tn_span span)
+static const tn_symbol *owner_of(const tn_file_analysis *analysis, tn_span span)
 {
     for (const tn_symbol *s = analysis->index.first; s; s = s->next)
         if ((s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY) && s->span.file == span.file &&
@@ -122,8 +122,8 @@ static const tn_symbol *owner_of(const tn_analysis *analysis, tn_span span)
 }
 
 /* Where `allow W012` goes: in a rule before its `=`, in a library before its `}`; or after codes allowed already. */
-static bool allowance(const tn_analysis *analysis, const tn_symbol *owner, const char *code, tn_span *place, char *text,
-                      size_t size)
+static bool allowance(const tn_file_analysis *analysis, const tn_symbol *owner, const char *code, tn_span *place,
+                      char *text, size_t size)
 {
     if (owner->kind == TN_SYMBOL_LIBRARY) {
         *place = (tn_span){0, owner->span.end - 1, owner->span.end - 1};
@@ -139,7 +139,7 @@ static bool allowance(const tn_analysis *analysis, const tn_symbol *owner, const
     return at < analysis->compilation.sources.files[0].size;
 }
 
-static json_t *allow_action(tn_document *document, tn_analysis *analysis, const tn_diagnostic *item)
+static json_t *allow_action(tn_document *document, tn_file_analysis *analysis, const tn_diagnostic *item)
 {
     char code[8], text[32];
     tn_span place;
@@ -152,7 +152,7 @@ static json_t *allow_action(tn_document *document, tn_analysis *analysis, const 
                      edit_at(document, analysis, place, text));
 }
 
-json_t *tn_lsp_actions(tn_document *document, tn_analysis *analysis, size_t begin, size_t end)
+json_t *tn_lsp_actions(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end)
 {
     const tn_diagnostics *found = &analysis->compilation.diagnostics;
     json_t *list = json_array();

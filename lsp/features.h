@@ -6,25 +6,26 @@
 #include "lsp/workspace.h"
 
 /* The parameters of textDocument/publishDiagnostics. */
-json_t *tn_lsp_diagnostics(tn_document *document, tn_analysis *analysis);
+json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis);
 
-json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis);
-json_t *tn_lsp_hover(tn_document *document, tn_analysis *analysis, size_t offset);
-json_t *tn_lsp_definition(tn_document *document, tn_analysis *analysis, size_t offset);
-json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+json_t *tn_lsp_outline(tn_document *document, tn_file_analysis *analysis);
+json_t *tn_lsp_hover(tn_document *document, tn_file_analysis *analysis, size_t offset);
+json_t *tn_lsp_definition(tn_document *document, tn_file_analysis *analysis, size_t offset);
+json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset,
                           bool declaration);
-json_t *tn_lsp_highlight(tn_document *document, tn_analysis *analysis, size_t offset);
+json_t *tn_lsp_highlight(tn_document *document, tn_file_analysis *analysis, size_t offset);
 
 /* The range of a name that can be renamed, or null. */
-json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset);
+json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis,
+                              size_t offset);
 /* A workspace edit; NULL with *reason where the name cannot be changed so. */
-json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset,
                       const char *name, const char **reason);
 
-json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset);
+json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset);
 json_t *tn_lsp_format(tn_document *document);
 
 /* Quick fixes for what is wrong in [begin, end). */
-json_t *tn_lsp_actions(tn_document *document, tn_analysis *analysis, size_t begin, size_t end);
+json_t *tn_lsp_actions(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end);
 
 #endif

@@ -17,7 +17,7 @@ static const char *kind_name(const tn_symbol *symbol)
     return names[symbol->kind];
 }
 
-static const char *code_of(const tn_analysis *analysis, tn_span span, int *size)
+static const char *code_of(const tn_file_analysis *analysis, tn_span span, int *size)
 {
     const tn_source *source = &analysis->compilation.sources.files[span.file];
     size_t bytes = span.end - span.begin;
@@ -25,7 +25,7 @@ static const char *code_of(const tn_analysis *analysis, tn_span span, int *size)
     return source->text + span.begin;
 }
 
-static json_t *text_of(const tn_document *document, tn_analysis *analysis, const tn_symbol *symbol)
+static json_t *text_of(const tn_document *document, tn_file_analysis *analysis, const tn_symbol *symbol)
 {
     int size;
     const char *code = code_of(analysis, symbol->span, &size);
@@ -43,7 +43,7 @@ static json_t *text_of(const tn_document *document, tn_analysis *analysis, const
     return text;
 }
 
-json_t *tn_lsp_hover(tn_document *document, tn_analysis *analysis, size_t offset)
+json_t *tn_lsp_hover(tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
     if (!found)

@@ -6,7 +6,7 @@
 #include "lsp/features.h"
 #include "lsp/occurrences.h"
 
-json_t *tn_lsp_definition(tn_document *document, tn_analysis *analysis, size_t offset)
+json_t *tn_lsp_definition(tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
     if (found)
@@ -53,7 +53,7 @@ static bool collect(void *context, tn_document *document, tn_span span)
     return true;
 }
 
-json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset,
                           bool declaration)
 {
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
@@ -65,7 +65,7 @@ json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_ana
     return c.list;
 }
 
-json_t *tn_lsp_highlight(tn_document *document, tn_analysis *analysis, size_t offset)
+json_t *tn_lsp_highlight(tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     (void)document;
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
@@ -80,7 +80,7 @@ json_t *tn_lsp_highlight(tn_document *document, tn_analysis *analysis, size_t of
 
 /* ---- renaming */
 
-json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset)
+json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     (void)document;
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
@@ -164,7 +164,7 @@ static bool add_edit(void *context, tn_document *document, tn_span span)
     return true;
 }
 
-json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_analysis *analysis, size_t offset,
+json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset,
                       const char *name, const char **reason)
 {
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);

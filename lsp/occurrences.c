@@ -19,7 +19,8 @@ bool tn_same_file(const char *a, const char *b)
 }
 
 /* The symbol of another document's analysis that is defined at the same place. */
-static const tn_symbol *same_symbol(const tn_analysis *analysis, const tn_symbol *symbol, const tn_analysis *other)
+static const tn_symbol *same_symbol(const tn_file_analysis *analysis, const tn_symbol *symbol,
+                                    const tn_file_analysis *other)
 {
     if (other == analysis)
         return symbol;
@@ -45,7 +46,7 @@ static bool is_open(const tn_workspace *workspace, const char *path)
 static bool visit_document(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol, tn_document *document,
                            tn_visit_occurrence *visit, void *context)
 {
-    tn_analysis *other = tn_workspace_analyse(workspace, document);
+    tn_file_analysis *other = tn_workspace_analyse(workspace, document);
     const tn_symbol *same = other ? same_symbol(asked->analysis, symbol, other) : NULL;
     for (size_t i = 0; same && i < other->index.count; i++) {
         const tn_occurrence *occurrence = &other->index.occurrences[i];
@@ -62,7 +63,7 @@ static bool visit_document(tn_workspace *workspace, tn_document *asked, const tn
 
 /* ---- files that are not open */
 
-static bool is_used(const tn_analysis *analysis, const char *path)
+static bool is_used(const tn_file_analysis *analysis, const char *path)
 {
     const tn_imports *imports = analysis->compilation.imports;
     for (size_t i = 0; imports && i < imports->count; i++)
@@ -99,7 +100,7 @@ static int compare_paths(const void *a, const void *b)
 }
 
 /* Where the editor has no folder open: what is beside the file that defines the name. */
-static void find_files(const tn_workspace *workspace, const tn_analysis *analysis, const tn_symbol *symbol,
+static void find_files(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
                        tn_rule_files *files)
 {
     for (size_t i = 0; i < workspace->root_count; i++)

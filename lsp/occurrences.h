@@ -21,7 +21,7 @@ tn_visited tn_each_occurrence(tn_workspace *workspace, tn_document *asked, const
 /* Are two paths those of one file? */
 bool tn_same_file(const char *a, const char *b);
 
-static inline const char *tn_analysis_path(const tn_analysis *analysis, uint32_t file)
+static inline const char *tn_analysis_path(const tn_file_analysis *analysis, uint32_t file)
 {
     return analysis->compilation.sources.files[file].path;
 }

@@ -24,7 +24,7 @@ static int outline_kind(tn_symbol_kind kind)
     return kinds[kind];
 }
 
-static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
+static json_t *outline_item(tn_file_analysis *analysis, const tn_symbol *symbol)
 {
     json_t *item = json_pack("{s:s,s:i,s:o,s:o}", "name", symbol->name, "kind", outline_kind(symbol->kind), "range",
                              tn_analysis_range(analysis, symbol->span), "selectionRange",
@@ -44,7 +44,7 @@ static json_t *outline_item(tn_analysis *analysis, const tn_symbol *symbol)
     return item;
 }
 
-static json_t *outline_index(tn_analysis *analysis)
+static json_t *outline_index(tn_file_analysis *analysis)
 {
     json_t *list = json_array();
     for (const tn_symbol *s = analysis->index.first; s; s = s->next)
@@ -55,7 +55,7 @@ static json_t *outline_index(tn_analysis *analysis)
 
 /* ---- from tokens */
 
-static json_t *entry_item(tn_analysis *analysis, const char *text, const tn_listing_entry *entry)
+static json_t *entry_item(tn_file_analysis *analysis, const char *text, const tn_listing_entry *entry)
 {
     static const int kinds[] = {[TN_LISTING_RULE] = KIND_FUNCTION,
                                 [TN_LISTING_SETTING] = KIND_PROPERTY,
@@ -71,7 +71,7 @@ static json_t *entry_item(tn_analysis *analysis, const char *text, const tn_list
     return item;
 }
 
-static json_t *outline_tokens(tn_analysis *analysis)
+static json_t *outline_tokens(tn_file_analysis *analysis)
 {
     tn_listing listing;
     json_t *list = json_array(), *children = NULL;
@@ -88,7 +88,7 @@ static json_t *outline_tokens(tn_analysis *analysis)
     return list;
 }
 
-json_t *tn_lsp_outline(tn_document *document, tn_analysis *analysis)
+json_t *tn_lsp_outline(tn_document *document, tn_file_analysis *analysis)
 {
     (void)document;
     if (!analysis->compilation.notation->front->list)

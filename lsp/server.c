@@ -68,7 +68,7 @@ static void cancel_background(server *s)
 
 typedef struct question {
     tn_document *document;
-    tn_analysis *analysis;
+    tn_file_analysis *analysis;
     size_t offset;
 } question;
 
@@ -330,7 +330,7 @@ static void publish(server *s)
     for (tn_document *document = s->workspace.documents; document; document = document->next) {
         if (!document->dirty)
             continue;
-        tn_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
+        tn_file_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
         document->dirty = false;
         if (!analysis)
             continue;
@@ -382,7 +382,7 @@ static void time_is_up(server *s)
 static void take_background(server *s)
 {
     tn_document *document = s->subject;
-    tn_analysis *analysis;
+    tn_file_analysis *analysis;
     tn_facts *facts;
     uint64_t count;
     (void)!read(s->wake, &count, sizeof count);
@@ -453,7 +453,7 @@ static void loop(server *s)
 
 static void end_background(server *s)
 {
-    tn_analysis *analysis = NULL;
+    tn_file_analysis *analysis = NULL;
     tn_facts *facts = NULL;
     if (!s->background)
         return;

@@ -83,7 +83,7 @@ bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path)
 }
 
 /* Does the analysis rest on the text of the file? Where a name leads to nothing yet, it may from now on. */
-static bool rests_on(const tn_analysis *analysis, const char *path)
+static bool rests_on(const tn_file_analysis *analysis, const char *path)
 {
     const tn_imports *imports = analysis->compilation.imports;
     if (!imports || imports->count == 0 || imports->units[imports->count - 1]->incomplete)
@@ -230,7 +230,7 @@ static bool open_text(void *context, const char *real_path, const char **text, s
     return false;
 }
 
-tn_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document)
+tn_file_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document)
 {
     if (!document->analysis)
         document->analysis =

@@ -11,10 +11,10 @@ typedef struct tn_document {
     char *text;
     size_t size;
     json_int_t version;
-    bool dirty;             /* its diagnostics are to be sent */
-    bool due;               /* its rules are to be looked at in the background */
-    tn_analysis *analysis;  /* NULL: to be made */
-    struct tn_facts *facts; /* of the last text that compiled and was at rest; or NULL */
+    bool dirty;                 /* its diagnostics are to be sent */
+    bool due;                   /* its rules are to be looked at in the background */
+    tn_file_analysis *analysis; /* NULL: to be made */
+    struct tn_facts *facts;     /* of the last text that compiled and was at rest; or NULL */
 } tn_document;
 
 typedef struct tn_workspace {
@@ -44,7 +44,7 @@ void tn_workspace_remove(tn_workspace *workspace, const char *uri);
 bool tn_workspace_change(tn_workspace *workspace, tn_document *document, const json_t *changes, json_int_t version);
 
 /* The analysis of the text as it is now; NULL where out of memory. Valid until the next change of any document. */
-tn_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document);
+tn_file_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document);
 
 /* {"uri", "range"} of a place, or null. The document's own URI is as the editor wrote it. */
 json_t *tn_analysis_location(const tn_document *document, tn_span span);

@@ -5,6 +5,7 @@
 #include "api/genome/genome.h"
 #include "api/growth/growth.h"
 #include "api/plan/plan.h"
+#include "runtime/genome/picture/tree_draw.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/plan/picture/draw.h"
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "api/growth/options.h"
+#include "runtime/mesh/openmesh.h"
 
 _Static_assert((int)TARTAN_GRAVITY == (int)TN_GRAVITY && (int)TARTAN_SOLID == (int)TN_BOUNDARY_MESH &&
                    (int)TARTAN_SOFT == (int)TN_SOFT,
@@ -48,7 +49,7 @@ static tartan_status read_study(const tartan_module *module, const char *folder,
     if (!path)
         return tn_api_memory(error);
     tn_error found;
-    tn_status status = tn_study_read(module->module, path, study, &found);
+    tn_status status = tn_study_read(module->module, path, tn_openmesh_read, study, &found);
     free(path);
     if (status == TN_OK)
         return TARTAN_OK;

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 
 int tn_exit_code(tn_status status)
 {
@@ -62,7 +62,8 @@ void tn_job_fail(tn_job *job, const tn_error *error)
         return;
     }
     tn_finding_error(&job->opened, error);
-    worsen(job, error->code == E_USAGE ? TN_EXIT_USAGE : tn_exit_code(error->status));
+    bool cannot_be_asked = error->code == E_USAGE || error->code == E_PART_ABSENT;
+    worsen(job, cannot_be_asked ? TN_EXIT_USAGE : tn_exit_code(error->status));
 }
 
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...)

@@ -88,7 +88,8 @@ void tn_manual_overview(FILE *out)
           "before the "
           "installed rule files\n.TP\n.B NO_COLOR\nno colours, where it is not empty\n.SH EXIT STATUS\n0 done; 1 the "
           "rules or the input "
-          "are wrong, or a test failed; 2 wrong usage; 3 a file could not be read or written; 4 a limit was reached; "
+          "are wrong, or a test failed; 2 wrong usage, or a part that this build lacks; 3 a file could not be read or "
+          "written; 4 a limit was reached; "
           "70 an internal "
           "error; 130 interrupted.\n",
           out);

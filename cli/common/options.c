@@ -14,12 +14,12 @@ const tn_option tn_common_options[] = {
 const size_t tn_common_option_count = OPTION_COUNT(tn_common_options);
 
 #define COMMAND(NAME) extern const tn_command tn_command_##NAME;
-#include "cli/commands.def"
+#include "cli/common/commands.def"
 #undef COMMAND
 
 const tn_command *const tn_commands[] = {
 #define COMMAND(NAME) &tn_command_##NAME,
-#include "cli/commands.def"
+#include "cli/common/commands.def"
 #undef COMMAND
 };
 const size_t tn_commands_count = OPTION_COUNT(tn_commands);

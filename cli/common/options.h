@@ -66,7 +66,7 @@ typedef struct tn_settings {
     tn_option_list rules;
     tn_option_range trays;
     tn_option_number max_length, max_states, threads;
-    int engine; /* a tn_engine; of grow: a tn_grow_engine */
+    int engine; /* a tn_matching_engine; of grow: a tn_grow_engine */
     int format, input_format;
     int on_error; /* 0 stop, 1 skip */
 

@@ -9,12 +9,12 @@
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "runtime/base/file_error.h"
+#include "runtime/base/picture.h"
 #include "runtime/base/random.h"
 #include "runtime/base/utf8.h"
-#include "runtime/draw/canvas.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/mapper.h"
-#include "runtime/genome/mapping/tree.h"
+#include "runtime/genome/picture/tree_draw.h"
 
 #define RANDOM_CODONS 200u   /* of a random genome, unless --codons says otherwise */
 #define RANDOM_CODON_BITS 31 /* their size */

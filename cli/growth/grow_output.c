@@ -1,3 +1,4 @@
+/* Writes what `tartan grow` made: meshes and pictures. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Prints the statistics of `tartan grow`. */
 #include <inttypes.h>
 #include <math.h>
 

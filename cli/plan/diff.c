@@ -7,7 +7,7 @@
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_report.h"
 #include "driver/open/digits.h"
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/picture/draw.h"
 
 enum { SHOWN = 3, SHOWN_MAX = 1000, NOTE_SIZE = 400 };

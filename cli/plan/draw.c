@@ -7,7 +7,7 @@
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
 #include "driver/open/digits.h"
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
 

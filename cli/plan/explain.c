@@ -8,7 +8,7 @@
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
 #include "driver/plan/explain.h"
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 
 #define NEAREST_DEFAULT 3
 

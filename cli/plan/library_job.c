@@ -1,15 +1,15 @@
 #include "cli/plan/library_job.h"
 
-#include <omp.h>
 #include <stdlib.h>
 
+#include "runtime/base/share.h"
 #include "runtime/plan/match/vm.h"
 
 int tn_job_threads(const tn_settings *settings)
 {
     if (settings->threads.given)
-        omp_set_num_threads((int)settings->threads.value);
-    return omp_get_max_threads();
+        tn_threads_limit((int)settings->threads.value);
+    return tn_thread_count();
 }
 
 size_t tn_job_max_length(const tn_settings *settings)

@@ -37,7 +37,7 @@ static bool compile_rules(matching *m)
 {
     const tn_settings *settings = m->job->settings;
     const tn_module *module = m->job->opened.module;
-    tn_rules_options options = {.engine = (tn_engine)settings->engine,
+    tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
                                 .max_states = (uint32_t)settings->max_states.value,
                                 .max_length = tn_job_max_length(settings)};
     uint32_t *functions = malloc(sizeof *functions * m->rules.count);

@@ -5,6 +5,7 @@
 
 #include "cli/plan/library_job.h"
 #include "driver/open/suggest_file.h"
+#include "runtime/plan/store/sqlite.h"
 
 const char *tn_job_plans_path(tn_job *job)
 {
@@ -20,7 +21,8 @@ const char *tn_job_plans_path(tn_job *job)
 bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader)
 {
     tn_reader_options options = {.format = (tn_plan_format)job->settings->input_format,
-                                 .max_length = tn_job_max_length(job->settings)};
+                                 .max_length = tn_job_max_length(job->settings),
+                                 .sqlite = tn_plan_sqlite()};
     tn_error error;
     if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
         return true;

@@ -2,6 +2,8 @@
 
 #include <inttypes.h>
 
+#include "runtime/plan/store/sqlite.h"
+
 bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer)
 {
     const tn_settings *settings = job->settings;
@@ -22,6 +24,7 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *
                      .version = producer ? tn_text(module, producer->version) : NULL,
                      .command = made},
         .resume = settings->resume,
+        .sqlite = tn_plan_sqlite(),
     };
     tn_error error;
     if (tn_plan_writer_open(ready->schema, settings->output ? settings->output : "-", &options, writer, &error) ==

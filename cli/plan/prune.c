@@ -101,7 +101,7 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
 static bool compile_clauses(pruning *p)
 {
     const tn_settings *settings = p->job->settings;
-    tn_rules_options options = {.engine = (tn_engine)settings->engine,
+    tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
                                 .max_states = (uint32_t)settings->max_states.value,
                                 .max_length = tn_job_max_length(settings)};
     tn_error error;

@@ -1,3 +1,4 @@
+/* Compares two grammars, so that a file that was laid out anew is known to say the same. */
 #include <string.h>
 
 #include "compiler/bnf/check.h"

@@ -1,3 +1,4 @@
+/* Shows diagnostics: as text with the source line and a caret, or as JSON. */
 #include "compiler/common/diagnostic.h"
 
 #include <string.h>
@@ -17,10 +18,10 @@ static const tn_style coloured = {"\x1b[1m",  "\x1b[1;31m", "\x1b[1;35m", "\x1b[
                                   "\x1b[34m", "\x1b[1;32m", "\x1b[0m"};
 
 /* One line of text with the bytes [begin, end) of it marked; a mark without bytes is one caret wide. */
-typedef struct tn_marked {
+typedef struct tn_marked_source {
     const char *text;
     size_t size, begin, end;
-} tn_marked;
+} tn_marked_source;
 
 static const char *severity_name(tn_severity severity)
 {
@@ -38,7 +39,7 @@ static unsigned shown_width(uint32_t character, size_t column)
 }
 
 /* The byte up to which the line from `from` fits into LINE_COLUMNS. */
-static size_t fitting_end(const tn_marked *line, size_t from)
+static size_t fitting_end(const tn_marked_source *line, size_t from)
 {
     size_t column = 0, at = from;
     for (size_t step; at < line->size; at += step) {
@@ -50,7 +51,7 @@ static size_t fitting_end(const tn_marked *line, size_t from)
 }
 
 /* The window [*from, *to) of the line that is shown: all of it where it fits, else with the mark in view. */
-static void choose_window(const tn_marked *line, size_t *from, size_t *to)
+static void choose_window(const tn_marked_source *line, size_t *from, size_t *to)
 {
     *from = 0;
     *to = fitting_end(line, 0);
@@ -82,7 +83,7 @@ static void write_many(FILE *out, char character, size_t count)
         fputc(character, out);
 }
 
-static void show_line(FILE *out, const tn_style *style, int gutter, size_t number, const tn_marked *line)
+static void show_line(FILE *out, const tn_style *style, int gutter, size_t number, const tn_marked_source *line)
 {
     size_t from, to, column = 0, mark_from = 0, mark_to = 0;
     choose_window(line, &from, &to);
@@ -133,7 +134,7 @@ static void show_span(tn_diagnostics *list, const tn_style *style, tn_span span,
     bool one = place.end_line == place.line;
     int gutter = gutter_width(place.end_line);
     size_t first_end = one ? place.end_column - 1 : place.line_size;
-    tn_marked first = {place.line_text, place.line_size, place.column - 1, first_end};
+    tn_marked_source first = {place.line_text, place.line_size, place.column - 1, first_end};
     show_line(out, style, gutter, place.line, &first);
     if (one)
         return;
@@ -143,7 +144,7 @@ static void show_span(tn_diagnostics *list, const tn_style *style, tn_span span,
     size_t begin = 0;
     while (begin + 1 < last.column && is_blank(last.line_text[begin]))
         begin++;
-    tn_marked marked = {last.line_text, last.line_size, begin, last.column - 1};
+    tn_marked_source marked = {last.line_text, last.line_size, begin, last.column - 1};
     show_line(out, style, gutter, last.line, &marked);
 }
 
@@ -185,7 +186,7 @@ static void show_input(const tn_style *style, const tn_diagnostic *item, FILE *o
     size_t end = item->input_column_end > 0 ? item->input_column_end - 1 : 0;
     begin = begin < size ? begin : size;
     end = end < size ? end : size;
-    tn_marked line = {item->input_text, size, begin, end > begin ? end : begin};
+    tn_marked_source line = {item->input_text, size, begin, end > begin ? end : begin};
     show_line(out, style, gutter_width(item->input_line), item->input_line, &line);
 }
 

@@ -1,3 +1,4 @@
+/* The constructors of the syntax tree of rewrite systems (.hemls). */
 #include <stdio.h>
 #include <string.h>
 

@@ -3,15 +3,15 @@
 
 enum { UNSEEN, OPEN, DONE };
 
-typedef struct tn_walk {
+typedef struct tn_order_walk {
     tn_check *check;
     tn_checked_rule **stack; /* the rules whose uses are being followed */
     size_t depth;
     size_t ordered;
-} tn_walk;
+} tn_order_walk;
 
 /* Reports the circle that leads from stack[start] through the top of the stack back to it. */
-static void report_circle(tn_walk *walk, size_t start)
+static void report_circle(tn_order_walk *walk, size_t start)
 {
     tn_diagnostics *diagnostics = walk->check->diagnostics;
     tn_checked_rule *first = walk->stack[start];
@@ -27,7 +27,7 @@ static void report_circle(tn_walk *walk, size_t start)
 }
 
 /* Takes the next use of the rule on top: opens the rule that it names, or closes the circle. */
-static void follow(tn_walk *walk, tn_checked_rule *rule)
+static void follow(tn_order_walk *walk, tn_checked_rule *rule)
 {
     tn_ast_expr *place = rule->use_places[rule->next_use];
     tn_checked_rule *used = rule->uses[rule->next_use++];
@@ -46,7 +46,7 @@ static void follow(tn_walk *walk, tn_checked_rule *rule)
 void tn_check_order(tn_check *check)
 {
     tn_checked *result = check->result;
-    tn_walk walk = {.check = check, .stack = TN_NEW_ARRAY(check->arena, tn_checked_rule *, result->rule_count)};
+    tn_order_walk walk = {.check = check, .stack = TN_NEW_ARRAY(check->arena, tn_checked_rule *, result->rule_count)};
     if (!walk.stack)
         return;
     for (size_t i = 0; i < result->rule_count; i++) {

@@ -200,7 +200,7 @@ static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected 
 }
 
 /* A misspelled word of the language is a name to the parser, which then stumbles over what follows: `trai(4')`. */
-static bool report_misspelled(tn_parse *parse, const tn_found *found, const tn_expected *e)
+static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
     static const char *const words[] = {"not",      "symmetric",   "tray",     "neighbour", "many", "optional",
                                         "quantity", "occurrences", "distance", "sum",       "of"};
@@ -231,7 +231,7 @@ static bool report_misspelled(tn_parse *parse, const tn_found *found, const tn_e
     return true;
 }
 
-void tn_syntax_error(tn_parse *parse, const tn_found *found, const char *const *expected, size_t count)
+void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *const *expected, size_t count)
 {
     tn_span span = found->span;
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))

@@ -98,10 +98,6 @@ void tn_run_clear(tn_run *run);
 /* The folder's database: DIR/run.sqlite. The caller frees it; NULL where out of memory. */
 char *tn_run_database(const char *dir);
 
-/* Draws statistics as curves over the generations. */
-tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
-                      tn_error *error);
-
 /* Makes generations again from a database until the one in which `id` was born; the individual is valid until run and
  * job are cleared. `opened` holds the grammar and must be closed after them. */
 tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,

@@ -1,3 +1,4 @@
+/* Puts a run together from a study: grammar, settings, problem and first genomes. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

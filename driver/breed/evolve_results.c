@@ -11,7 +11,8 @@
 
 #include "driver/breed/evolve.h"
 #include "runtime/base/file.h"
-#include "runtime/genome/mapping/tree.h"
+#include "runtime/genome/picture/plot.h"
+#include "runtime/genome/picture/tree_draw.h"
 
 #define BEST_MAX 10u /* files of best/ for one objective; of several, all of the first front are written */
 
@@ -83,8 +84,8 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
         status = tn_learner_draw(run->job->learner, individual->sentence, picture, error);
     else if (status == TN_OK)
         status = draw_derivation(run, picture, individual, error);
-    if (status == TN_LIMIT)
-        status = TN_OK; /* too large to be drawn: the sentence is there */
+    if (status != TN_OK && (status == TN_LIMIT || error->code == E_PART_ABSENT))
+        status = TN_OK; /* too large to be drawn, or pictures are left out of this build: the sentence is there */
     free(sentence);
     free(picture);
     return status;
@@ -205,7 +206,9 @@ tn_status tn_run_results(tn_run *run, tn_error *error)
     if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_run_plot(stats, count, run->dir, plot, error);
+        status = tn_stats_plot(stats, count, run->dir, plot, error);
+    if (status != TN_OK && error->code == E_PART_ABSENT)
+        status = TN_OK; /* the numbers are in stats.csv */
     free(plot);
     free(stats);
     return status;

@@ -1,3 +1,4 @@
+/* Begins or resumes a run in a folder, steps it, changes it and replays it. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>

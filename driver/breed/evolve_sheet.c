@@ -1,75 +1,11 @@
+/* A generation on a sheet: of surfaces where they are grown, else of its sentences. */
 #include "driver/breed/evolve_sheet.h"
 
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/draw/canvas.h"
-#include "runtime/draw/type.h"
-
-/* In points. */
-#define CELL_WIDTH 200.0
-#define MARGIN 24.0
-#define INSET 8.0
-#define HEAD 24.0 /* of a cell: its number and score */
-#define LEADING 10.0
-#define LINES_MAX 18u
-#define LETTERS 30u /* about as many as a line holds */
-
-/* The lines of a sentence that hold something, each as often as it is broken. */
-static unsigned count_lines(const char *sentence)
-{
-    unsigned lines = 0;
-    for (const char *at = sentence; at && *at && lines < LINES_MAX;) {
-        size_t size = strcspn(at, "\n");
-        lines += (unsigned)((size + LETTERS - 1) / LETTERS);
-        at += size + (at[size] == '\n');
-    }
-    return lines < 1 ? 1 : lines < LINES_MAX ? lines : LINES_MAX;
-}
-
-static void draw_sentence(cairo_t *t, double x, double y, const char *sentence, unsigned room)
-{
-    char line[512];
-    tn_type_face(t, 8, false);
-    for (const char *at = sentence; *at && room > 0;) {
-        size_t size = strcspn(at, "\n"), kept = size < sizeof line ? size : sizeof line - 1;
-        snprintf(line, sizeof line, "%.*s", (int)kept, at);
-        unsigned used = tn_type_paragraph(t, x, y, CELL_WIDTH - 3 * INSET, LEADING, room, line);
-        y += used * LEADING;
-        room -= used;
-        at += size + (at[size] == '\n');
-    }
-}
-
-static void draw_cell(cairo_t *t, double x, double y, double height, size_t number, const tn_individual *member)
-{
-    char text[96];
-    const char *missing = member->reason != TN_MAP_VALID ? tn_map_reason_text(member->reason)
-                          : !member->sentence_size       ? "no text"
-                                                         : NULL;
-    cairo_set_source_rgb(t, 0.8, 0.8, 0.8);
-    cairo_set_line_width(t, 0.6);
-    cairo_rectangle(t, x, y, CELL_WIDTH - INSET, height - INSET);
-    cairo_stroke(t);
-    cairo_set_source_rgb(t, 0.1, 0.2, 0.5);
-    tn_type_face(t, 14, true);
-    snprintf(text, sizeof text, "%zu", number);
-    tn_type_line(t, x + INSET, y + 18, TN_ALIGN_LEFT, text);
-    cairo_set_source_rgb(t, 0.4, 0.4, 0.4);
-    tn_type_face(t, 7, false);
-    if (member->score.state == TN_SCORED)
-        snprintf(text, sizeof text, "individual %" PRIu64 ", score %.5g", member->id, member->score.objectives[0]);
-    else
-        snprintf(text, sizeof text, "individual %" PRIu64 ", no score", member->id);
-    tn_type_line(t, x + CELL_WIDTH - 2 * INSET, y + 18, TN_ALIGN_RIGHT, text);
-    if (!missing)
-        cairo_set_source_rgb(t, 0, 0, 0);
-    draw_sentence(t, x + INSET, y + HEAD + LEADING, missing ? missing : member->sentence,
-                  (unsigned)((height - INSET - HEAD - INSET) / LEADING));
-}
+#include "runtime/genome/picture/sheet.h"
 
 #define LABEL_BYTES 64u
 
@@ -106,37 +42,11 @@ static size_t count_scored(const tn_run *run)
     return scored;
 }
 
-static tn_status draw_sentences(tn_run *run, const char *path, tn_error *error)
-{
-    size_t count;
-    unsigned lines = 1;
-    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
-    for (size_t i = 0; i < count; i++) {
-        unsigned own = count_lines(members[i]->sentence);
-        lines = own > lines ? own : lines;
-    }
-    double height = HEAD + (lines + 1) * LEADING + INSET;
-    size_t columns = (size_t)ceil(sqrt((double)count * height / CELL_WIDTH));
-    columns = columns < 3 ? 3 : columns;
-    size_t rows = (count + columns - 1) / columns;
-    tn_canvas_options options = {.width = 2 * MARGIN + (double)columns * CELL_WIDTH,
-                                 .height = 2 * MARGIN + (double)rows * height,
-                                 .title = run->job->grammar->name};
-    tn_canvas *canvas = NULL;
-    tn_status status = tn_canvas_new(path, TN_CANVAS_SVG, &options, &canvas, error);
-    if (status == TN_OK) {
-        for (size_t i = 0; i < count; i++)
-            draw_cell(tn_canvas_context(canvas), MARGIN + (double)(i % columns) * CELL_WIDTH,
-                      MARGIN + (double)(i / columns) * height, height, i + 1, members[i]);
-        status = tn_canvas_commit(canvas, error);
-    }
-    tn_canvas_free(canvas);
-    return status;
-}
-
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
 {
     snprintf(path, size, "%s/sheet-%04u.svg", run->dir, run->generations ? run->generations - 1 : 0);
-    size_t scored = run->job->grower ? count_scored(run) : 0;
-    return scored ? draw_surfaces(run, scored, path, error) : draw_sentences(run, path, error);
+    size_t count, scored = run->job->grower ? count_scored(run) : 0;
+    const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
+    return scored ? draw_surfaces(run, scored, path, error)
+                  : tn_sentences_draw(members, count, run->job->grammar->name, path, error);
 }

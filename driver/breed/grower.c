@@ -9,6 +9,7 @@
 #include "driver/open/open.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/study.h"
+#include "runtime/mesh/openmesh.h"
 
 struct tn_grower {
     tn_opened opened; /* of the study */
@@ -38,7 +39,7 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
         return tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.100s cannot be used: %.300s", path,
                        tn_first_error(&g->opened));
     }
-    tn_status status = tn_study_read(g->opened.module, path, &g->study, error);
+    tn_status status = tn_study_read(g->opened.module, path, tn_openmesh_read, &g->study, error);
     for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
         if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
             g->goals[g->goal_count++] = goal;

@@ -8,6 +8,7 @@
 #include "driver/open/open.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/picture/draw_rule.h"
+#include "runtime/plan/store/sqlite.h"
 #include "runtime/plan/text/stream.h"
 
 #define EXAMPLES_MAX 1000000u
@@ -78,9 +79,10 @@ static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_e
 
 static tn_status read_examples(tn_learner *l, const tn_schema *schema, const char *path, bool drop, tn_error *error)
 {
+    tn_reader_options options = {.sqlite = tn_plan_sqlite()};
     tn_plan_reader *reader = NULL;
     const tn_plan *plan;
-    tn_status status = tn_plan_reader_open(schema, path, NULL, &reader, error);
+    tn_status status = tn_plan_reader_open(schema, path, &options, &reader, error);
     if (status != TN_OK)
         return status;
     while ((status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan)

@@ -7,7 +7,7 @@
 #define TARTAN_DRIVER_PLAN_EXPLAIN_H
 
 #include "driver/plan/library.h"
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/analysis/explain.h"
 #include "runtime/plan/library/near.h"
 #include "runtime/plan/text/text.h"

@@ -30,7 +30,8 @@ typedef struct block {
     tn_tray *trays; /* room for the longest plan */
 } block;
 
-static tn_status engine_new(const block *b, tn_engine which, uint32_t max_states, engine *made, tn_error *error)
+static tn_status engine_new(const block *b, tn_matching_engine which, uint32_t max_states, engine *made,
+                            tn_error *error)
 {
     tn_rules_options options = {.engine = which, .max_states = max_states};
     tn_status status;

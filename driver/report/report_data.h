@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "driver/report/report.h"
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 
 typedef struct tn_reporting {
     tn_opened *opened;

@@ -10,12 +10,12 @@ typedef struct tn_scan {
     bool spaced;
 } tn_scan;
 
-typedef enum tn_fault { FAULT_NONE, FAULT_TOO_LARGE, FAULT_NOT_WHOLE, FAULT_DIVISOR } tn_fault;
+typedef enum tn_length_fault { FAULT_NONE, FAULT_TOO_LARGE, FAULT_NOT_WHOLE, FAULT_DIVISOR } tn_length_fault;
 
 /* A sum of nanometres, and what is wrong with it. */
 typedef struct tn_amount {
     int64_t nanometres;
-    tn_fault fault;
+    tn_length_fault fault;
 } tn_amount;
 
 /* A decimal number as written: the whole part (at most TN_LENGTH_MAX + 1, which stands for anything above), then
@@ -218,7 +218,7 @@ static bool read_metric(tn_scan *scan, tn_amount *amount)
     return false;
 }
 
-static void report(const tn_scan *scan, tn_fault fault, tn_error *error)
+static void report(const tn_scan *scan, tn_length_fault fault, tn_error *error)
 {
     int shown = scan->at < 80 ? (int)scan->at : 80;
     switch (fault) {

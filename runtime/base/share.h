@@ -14,4 +14,11 @@ typedef void tn_share_work(void *context, uint32_t piece);
 /* Does pieces 0 to count - 1 with up to `threads` threads. */
 void tn_share(int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context);
 
+/* How many threads there are to use, and how many are to be from now on. Without OpenMP it is one. */
+int tn_thread_count(void);
+void tn_threads_limit(int threads);
+
+/* Which thread this is, inside of work that is shared, from 0. */
+int tn_thread_number(void);
+
 #endif

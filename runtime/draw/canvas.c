@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "runtime/base/file.h"
 #include "runtime/draw/svg_ids.h"
@@ -33,23 +32,6 @@ struct tn_canvas {
     size_t lettering_size;
     bool out_of_memory;
 };
-
-tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error)
-{
-    static const char *const extensions[] = {
-        [TN_CANVAS_SVG] = ".svg", [TN_CANVAS_PNG] = ".png", [TN_CANVAS_PDF] = ".pdf"};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = TN_CANVAS_SVG; dot && i < sizeof extensions / sizeof *extensions; i++) {
-        if (strcasecmp(dot, extensions[i]) == 0) {
-            *format = (tn_canvas_format)i;
-            return TN_OK;
-        }
-    }
-    tn_status status =
-        tn_fail(error, TN_INVALID, E_USAGE, "%.200s does not say what kind of picture it is to be", path);
-    tn_error_help(error, "end its name in .svg, .png or .pdf");
-    return status;
-}
 
 static cairo_status_t write_stream(void *closure, const unsigned char *data, unsigned int length)
 {
@@ -169,14 +151,6 @@ static tn_status new_in_memory(tn_picture *picture, const tn_canvas_options *opt
     else
         tn_canvas_free(made);
     return status;
-}
-
-tn_status tn_picture_format(const tn_picture *picture, tn_canvas_format *format, tn_error *error)
-{
-    if (picture->path && picture->format == TN_CANVAS_BY_PATH)
-        return tn_canvas_format_of(picture->path, format, error);
-    *format = picture->format == TN_CANVAS_BY_PATH ? TN_CANVAS_SVG : picture->format;
-    return TN_OK;
 }
 
 tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, tn_canvas **canvas, tn_error *error)

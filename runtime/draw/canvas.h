@@ -9,17 +9,12 @@
 
 #include <cairo.h>
 
-#include "runtime/base/error.h"
+#include "runtime/base/picture.h"
 
 typedef struct tn_canvas tn_canvas;
 
-typedef enum tn_canvas_format { TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF } tn_canvas_format;
-
 /* The most pixels of a PNG: 4 bytes each while it is drawn. A side is limited to 32,767 by cairo. */
 #define TN_CANVAS_PIXELS_MAX UINT64_C(100000000)
-
-/* The format that a path's extension asks for (.svg, .png, .pdf, in any case); TN_INVALID (E0904) for another. */
-tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error);
 
 typedef struct tn_canvas_options {
     double width, height; /* of the first page, in points */
@@ -30,20 +25,6 @@ typedef struct tn_canvas_options {
 /* Starts a picture. E0902 where the file cannot be written, E0820 where a PNG would be too large. */
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
-
-/* Where a picture goes: to a file, into memory, or into an HTML page as an <svg> element whose lettering is text, which
- * makes it a tenth of the size. */
-typedef struct tn_picture {
-    const char *path;        /* a file; NULL: into memory or a page */
-    tn_canvas_format format; /* BY_PATH: what the path's extension says, or, without a path, into a page */
-    uint32_t dpi;            /* of a PNG; 0: 150 */
-    unsigned number;         /* into a page: which of its pictures, so that no two ids are the same */
-    char *element;           /* into memory or a page: what was drawn once it is committed, which the caller frees */
-    size_t size;
-} tn_picture;
-
-/* The format that a picture will have; TN_CANVAS_SVG into a page. Errors as in tn_canvas_format_of. */
-tn_status tn_picture_format(const tn_picture *picture, tn_canvas_format *format, tn_error *error);
 
 /* Starts a picture that goes there (its dpi is the options'); `picture` stays the caller's until the canvas is freed,
  * and is filled when it is committed. Errors as in tn_canvas_new. */

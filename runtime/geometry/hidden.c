@@ -166,7 +166,7 @@ static tn_status paint_knot(void *user, uint32_t knot, tn_error *error)
 
 static tn_status find_order(work *w, size_t triangle_count, tn_error *error)
 {
-    tn_pairs befores;
+    tn_face_pairs befores;
     tn_status status = tn_overlaps_find(w->scene, w->triangles, triangle_count, &befores, error);
     if (status == TN_OK)
         status = tn_order_make(w->scene, &befores, &w->order, error);

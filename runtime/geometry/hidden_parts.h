@@ -24,15 +24,15 @@ typedef struct tn_pair {
     uint32_t a, b;
 } tn_pair;
 
-typedef struct tn_pairs {
+typedef struct tn_face_pairs {
     tn_pair *items;
     size_t count, room;
-} tn_pairs;
+} tn_face_pairs;
 
 /* Compares all triangles of different faces that overlap in the picture: pairs of faces of which the first is farther
  * somewhere. The caller frees the items. */
-tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triangles, size_t count, tn_pairs *befores,
-                           tn_error *error);
+tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triangles, size_t count,
+                           tn_face_pairs *befores, tn_error *error);
 
 /* ---- order.c */
 
@@ -50,7 +50,7 @@ typedef struct tn_order {
 } tn_order;
 
 /* Makes the order of a scene's faces. TN_LIMIT (E0820) for more than 2^32 pairs. Clear it in any case. */
-tn_status tn_order_make(const tn_scene *scene, const tn_pairs *befores, tn_order *order, tn_error *error);
+tn_status tn_order_make(const tn_scene *scene, const tn_face_pairs *befores, tn_order *order, tn_error *error);
 void tn_order_clear(tn_order *order);
 
 /* Calls `paint` for each knot, the farthest of those first that nothing has to come before any more. */

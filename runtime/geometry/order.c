@@ -170,7 +170,7 @@ tn_status tn_order_walk(const tn_order *o, tn_paint_knot *paint, void *user, tn_
 
 /* ---- */
 
-static void point_arrows(tn_order *o, const tn_pairs *befores)
+static void point_arrows(tn_order *o, const tn_face_pairs *befores)
 {
     for (size_t i = 0; i < befores->count; i++)
         o->arrow_first[befores->items[i].a + 1]++;
@@ -182,7 +182,7 @@ static void point_arrows(tn_order *o, const tn_pairs *befores)
     o->arrow_first[o->count] = (uint32_t)befores->count;
 }
 
-tn_status tn_order_make(const tn_scene *scene, const tn_pairs *befores, tn_order *o, tn_error *error)
+tn_status tn_order_make(const tn_scene *scene, const tn_face_pairs *befores, tn_order *o, tn_error *error)
 {
     size_t count = scene->face_count;
     *o = (tn_order){.count = scene->face_count};

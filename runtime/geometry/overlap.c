@@ -24,7 +24,7 @@ typedef struct search {
     box *boxes;
     uint32_t *stack; /* lists of triangles, one on top of the other */
     size_t used, room;
-    tn_pairs befores;
+    tn_face_pairs befores;
     bool out_of_memory;
 } search;
 
@@ -107,7 +107,7 @@ static void compare(const tn_scene *scene, const tn_seen_triangle *a, const tn_s
 
 static void add(search *s, uint32_t far, uint32_t near)
 {
-    tn_pairs *list = &s->befores;
+    tn_face_pairs *list = &s->befores;
     if (!tn_room_for_one((void **)&list->items, sizeof *list->items, list->count, &list->room)) {
         s->out_of_memory = true;
         return;
@@ -225,7 +225,7 @@ typedef struct job {
     size_t at, count; /* its list on the stack of the search of all */
     box part;
     int depth;
-    tn_pairs befores;
+    tn_face_pairs befores;
     bool out_of_memory;
 } job;
 
@@ -266,7 +266,7 @@ static void do_job(void *context, uint32_t number)
 }
 
 /* All jobs' pairs, which are freed. False: out of memory. */
-static bool gather(jobs *j, tn_pairs *befores)
+static bool gather(jobs *j, tn_face_pairs *befores)
 {
     size_t count = 0;
     bool fine = !j->all.out_of_memory;
@@ -275,10 +275,10 @@ static bool gather(jobs *j, tn_pairs *befores)
         fine = fine && !j->items[i].out_of_memory;
     }
     if (fine)
-        *befores = (tn_pairs){.items = malloc((count + 1) * sizeof *befores->items), .room = count + 1};
+        *befores = (tn_face_pairs){.items = malloc((count + 1) * sizeof *befores->items), .room = count + 1};
     fine = fine && befores->items;
     for (size_t i = 0; i < j->count; i++) {
-        const tn_pairs *list = &j->items[i].befores;
+        const tn_face_pairs *list = &j->items[i].befores;
         if (fine && list->count)
             memcpy(befores->items + befores->count, list->items, list->count * sizeof *list->items);
         befores->count += fine ? list->count : 0;
@@ -304,12 +304,12 @@ static box find_boxes(search *s, size_t count)
     return all;
 }
 
-tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triangles, size_t count, tn_pairs *befores,
-                           tn_error *error)
+tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triangles, size_t count,
+                           tn_face_pairs *befores, tn_error *error)
 {
     jobs j = {.all = {.scene = scene, .triangles = triangles}};
     search *s = &j.all;
-    *befores = (tn_pairs){0};
+    *befores = (tn_face_pairs){0};
     s->boxes = malloc((count + 1) * sizeof *s->boxes);
     s->out_of_memory = !s->boxes;
     if (s->boxes && reserve(s, count + 1)) {

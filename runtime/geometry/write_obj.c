@@ -1,3 +1,4 @@
+/* Writes a mesh as Wavefront OBJ. */
 #include <math.h>
 #include <stdlib.h>
 

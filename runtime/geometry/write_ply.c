@@ -1,3 +1,4 @@
+/* Writes a mesh as PLY. */
 #include <stdlib.h>
 #include <string.h>
 

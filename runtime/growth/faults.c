@@ -1,8 +1,8 @@
 #include "runtime/growth/faults.h"
 
-#include <omp.h>
 #include <stdlib.h>
 
+#include "runtime/base/share.h"
 #include "runtime/geometry/outline.h"
 #include "runtime/geometry/vector.h"
 
@@ -171,7 +171,7 @@ static tn_fault fault_at(const search *s, uint32_t count, uint32_t side)
 tn_status tn_faults_find(const tn_growth *growth, tn_faults *faults, tn_error *error)
 {
     const tn_map *map = tn_growth_map(growth);
-    int wanted = tn_growth_settings(growth)->threads, threads = wanted > 0 ? wanted : omp_get_max_threads();
+    int wanted = tn_growth_settings(growth)->threads, threads = wanted > 0 ? wanted : tn_thread_count();
     uint32_t *face_of = NULL;
     search s = {.map = map, .normals = calloc(map->face_count, sizeof *s.normals)};
     tn_status status = s.normals ? tn_map_twins(map, NULL, &face_of, error) : tn_fail_memory(error);

@@ -1,11 +1,11 @@
 #include "runtime/growth/growth.h"
 
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
 #include "runtime/base/numeric.h"
+#include "runtime/base/share.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/pass/interpret.h"
 
@@ -160,7 +160,7 @@ static tn_status plant(tn_growth *growth, tn_error *error)
 {
     uint32_t n = growth->system->axiom_count;
     tn_map *map = &growth->map;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     int here = space->current;
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)n * sizeof(double)) ||
         !tn_pages_reserve(&space->states[here], n * sizeof(tn_edge_state)) ||
@@ -255,7 +255,7 @@ void tn_growth_free(tn_growth *growth)
 {
     if (!growth)
         return;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     tn_pages *all[] = {&space->positions, &space->states[0], &space->states[1], &space->darts[0], &space->darts[1],
                        &space->faces[0],  &space->faces[1],  &space->survey,    &space->choices,  &space->chunks,
                        &space->records,   &space->joints,    &space->cut_of,    &space->made};
@@ -356,7 +356,7 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                     .group_first = first,
                     .group_last = last,
                     .joins_last = last == growth->system->group_count,
-                    .threads = growth->options.threads > 0 ? growth->options.threads : omp_get_max_threads(),
+                    .threads = growth->options.threads > 0 ? growth->options.threads : tn_thread_count(),
                     .walks_vertices = walks_vertices(growth, first, last),
                     .branch_first = growth->branches};
     tn_watch *watch = growth->options.watch;

@@ -4,8 +4,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "runtime/mesh/openmesh.h"
-
 void tn_study_clear(tn_study *study)
 {
     for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
@@ -52,10 +50,10 @@ static char *beside(const char *file, const char *name)
     return path;
 }
 
-static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error *error)
+static tn_status read_mesh(tn_mesh_reader *reader, const char *path, tn_boundary_mesh **result, tn_error *error)
 {
     tn_mesh mesh;
-    tn_status status = tn_openmesh_read(path, &mesh, error);
+    tn_status status = reader(path, &mesh, error);
     if (status != TN_OK)
         return status;
     status = tn_mesh_triangulate(&mesh, error);
@@ -66,17 +64,17 @@ static tn_status read_mesh(const char *path, tn_boundary_mesh **result, tn_error
 }
 
 /* Beside what was opened, or where the study lay when it was compiled. */
-static tn_status find_mesh(const tn_module *module, const char *opened, const char *name, tn_boundary_mesh **result,
-                           tn_error *error)
+static tn_status find_mesh(const tn_module *module, tn_mesh_reader *reader, const char *opened, const char *name,
+                           tn_boundary_mesh **result, tn_error *error)
 {
     uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
     const char *study = source < module->SOURCE_count ? tn_text(module, module->SOURCE_records[source].path) : opened;
     char *near = beside(opened, name), *once = beside(study, name);
     tn_status status = near && once ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK && access(near, F_OK) == 0) {
-        status = read_mesh(near, result, error);
+        status = read_mesh(reader, near, result, error);
     } else if (status == TN_OK && access(once, F_OK) == 0) {
-        status = read_mesh(once, result, error);
+        status = read_mesh(reader, once, result, error);
     } else if (status == TN_OK) {
         status = tn_fail(error, TN_IO, E_CANNOT_READ, "there is no mesh %.200s", near);
         if (strcmp(near, once) == 0)
@@ -89,9 +87,10 @@ static tn_status find_mesh(const tn_module *module, const char *opened, const ch
     return status;
 }
 
-static tn_status read_boundary(const tn_module *module, const tn_boundary_record *record, const char *path,
-                               tn_study *study, uint32_t index, tn_error *error)
+static tn_status read_boundary(const tn_module *module, tn_mesh_reader *reader, const char *path, uint32_t index,
+                               tn_study *study, tn_error *error)
 {
+    const tn_boundary_record *record = &module->BOUNDARY_records[index];
     tn_boundary *boundary = &study->boundaries[index];
     *boundary = (tn_boundary){.kind = record->kind,
                               .mode = record->mode,
@@ -101,7 +100,7 @@ static tn_status read_boundary(const tn_module *module, const tn_boundary_record
                               .radius = record->radius};
     if (record->kind != TN_BOUNDARY_MESH)
         return TN_OK;
-    tn_status status = find_mesh(module, path, tn_text(module, record->mesh), &study->meshes[index], error);
+    tn_status status = find_mesh(module, reader, path, tn_text(module, record->mesh), &study->meshes[index], error);
     boundary->mesh = study->meshes[index];
     return status;
 }
@@ -128,7 +127,8 @@ static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *
     return TN_OK;
 }
 
-tn_status tn_study_read(const tn_module *module, const char *path, tn_study *study, tn_error *error)
+tn_status tn_study_read(const tn_module *module, const char *path, tn_mesh_reader *reader, tn_study *study,
+                        tn_error *error)
 {
     *study =
         (tn_study){.title = "", .steps = 4, .options = tn_growth_options_default()}; /* Genr8's own number of steps */
@@ -149,6 +149,6 @@ tn_status tn_study_read(const tn_module *module, const char *path, tn_study *stu
                                           (uint32_t)module->BOUNDARY_count};
     tn_status status = read_goals(module, study, error);
     for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
-        status = read_boundary(module, &module->BOUNDARY_records[i], path, study, i, error);
+        status = read_boundary(module, reader, path, i, study, error);
     return status;
 }

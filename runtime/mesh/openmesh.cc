@@ -1,3 +1,4 @@
+/* OpenMesh behind its C face: files, smoothing, subdividing, decimating. */
 extern "C" {
 #include "runtime/mesh/openmesh.h"
 }

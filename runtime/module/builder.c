@@ -11,13 +11,13 @@
 #include "runtime/module/records.h"
 
 /* A growing array of bytes or of records. */
-typedef struct tn_run {
+typedef struct tn_builder_run {
     void *items;
     size_t count, capacity;
-} tn_run;
+} tn_builder_run;
 
 struct tn_builder {
-    tn_run sections[TN_SECTION_COUNT]; /* strings and code hold bytes, the others their records' structs */
+    tn_builder_run sections[TN_SECTION_COUNT]; /* strings and code hold bytes, the others their records' structs */
     tn_string *interned;               /* hash table of offsets; 0 is a free place */
     size_t interned_count, interned_capacity;
     bool out_of_memory;
@@ -27,7 +27,7 @@ struct tn_builder {
 /* Room for `count` more items; the first of them, or NULL (remembered). */
 static void *extend(tn_builder *builder, tn_section section, size_t item_size, size_t count)
 {
-    tn_run *run = &builder->sections[section];
+    tn_builder_run *run = &builder->sections[section];
     if (count > UINT32_MAX - 1 - run->count) {
         builder->too_large = true;
         return NULL;
@@ -159,7 +159,7 @@ tn_string tn_builder_string(tn_builder *builder, const char *text)
     }                                                                                                                  \
     void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record)                                \
     {                                                                                                                  \
-        tn_run *run = &builder->sections[TN_SECTION_##NAME];                                                           \
+        tn_builder_run *run = &builder->sections[TN_SECTION_##NAME];                                                           \
         if (index < run->count)                                                                                        \
             ((TYPE *)run->items)[index] = *record;                                                                     \
     }
@@ -225,7 +225,7 @@ static uint8_t *write_header(const tn_builder *builder, uint8_t *bytes, size_t s
 
 static uint8_t *write_section(const tn_builder *builder, tn_section section, uint8_t *to)
 {
-    const tn_run *run = &builder->sections[section];
+    const tn_builder_run *run = &builder->sections[section];
     if (section != TN_SECTION_STRINGS && section != TN_SECTION_CODE)
         return tn_records_write(section, run->items, run->count, to);
     if (run->count > 0)

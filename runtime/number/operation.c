@@ -21,7 +21,7 @@
 
 const tn_operation tn_operations[TN_OPERATION_COUNT] = {
 #define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) {TN_OP_##NAME, WORD, TN_WORDS_##WORDS, ARITY, DOC},
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
 };
 
@@ -59,7 +59,7 @@ double tn_operation_apply(tn_opcode opcode, const double *operands)
     case TN_OP_##NAME: {                                                                                               \
         TAKE_##ARITY return VALUE;                                                                                     \
     }
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
     default:
         return 0;
@@ -92,7 +92,7 @@ static void compute_calls(tn_opcode opcode, const double *const *operands, doubl
 {
     switch (opcode) {
 #define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_CALL_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
     default:
         break;
@@ -103,7 +103,7 @@ TN_ANY_WIDTH static void compute(tn_opcode opcode, const double *const *operands
 {
     switch (opcode) {
 #define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_SIMPLE_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
     default:
         compute_calls(opcode, operands, out);

@@ -16,7 +16,7 @@
 enum {
     TN_OPERATION_COUNT = 0
 #define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) +1
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
 };
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: draw
 # draw: pictures of the kind that the name asks for, the same bytes each time, with what has to be on them.
 name=draw
 . "$(dirname "$0")/golden.bash"

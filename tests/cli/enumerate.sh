@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: store
 # enumerate: everything once, in order, any stretch of it, in every format.
 name=enumerate
 . "$(dirname "$0")/golden.bash"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: draw store
 # Every command explains itself: usage, every option, an example; in lines that fit a terminal.
 name=help
 . "$(dirname "$0")/golden.bash"

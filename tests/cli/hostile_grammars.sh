@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: store
 # Grammars made to explode: checking, mapping, inverting and evolving them ends, within limits that are told.
 name=hostile_grammars
 . "$(dirname "$0")/golden.bash"

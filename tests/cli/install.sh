@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: draw mesh store
 # What is installed serves a program elsewhere: by pkg-config and by CMake, shared and static; and it can be removed again.
 set -euo pipefail
 build=$(dirname "$TARTAN")
@@ -33,22 +34,34 @@ esac
 grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/base.h" || fail "the header is not of version $version"
 [ -e "$libdir/libtartan.so.${version%.*}" ] || fail 'the shared library has no versioned name'
 
-# Only the public interface is visible.
-for library in libtartan libtartan-runtime; do
-    other=$(nm -D --defined-only "$libdir/$library.so" | awk '{print $3}' | grep -vE '^tartan_|^TARTAN_|^_(init|fini)$|^__' || true)
-    [ -z "$other" ] || fail "$library.so exports more than tartan_*: $other"
+# Only the public interface is visible, and what the libraries call of one another.
+libraries=$(cd "$libdir" && ls libtartan*.so)
+for library in $libraries; do
+    other=$(nm -D --defined-only "$libdir/$library" | awk '{print $3}' |
+        grep -vE '^tartan_[a-z_]*@@TARTAN_0\.2$|^tn_[A-Za-z0-9_.]*@@TARTAN_PRIVATE$|^TARTAN_|^_(init|fini)$|^__' || true)
+    [ -z "$other" ] || fail "$library exports more than tartan_*: $other"
 done
 
-# Both export exactly what the header declares, the runtime all but compiling; an addition or a loss shows in the list.
+# Together they export exactly what the header declares, the runtime all but compiling; an addition or a loss shows in the list.
 grep -hoE 'tartan_[a-z_]+\(' <<<"$(sed -n '/^TARTAN_API/,/;/p' "$prefix"/include/tartan/*.h)" | tr -d '(' | sort >"$scratch/declared"
 exported() {
-    nm -D --defined-only "$1" | awk '$3 ~ /^tartan_/ {print $3}' | sed 's/@@TARTAN_0\.2$//' | sort
+    for library in "$@"; do
+        nm -D --defined-only "$libdir/$library"
+    done | awk '$3 ~ /^tartan_/ {sub("@.*", "", $3); print $3}' | sort
 }
-exported "$libdir/libtartan.so" >"$scratch/exported"
-cmp "$scratch/declared" "$scratch/exported" || fail "the header and libtartan differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
-diff -u tests/cli/install/exported "$scratch/exported" || fail 'libtartan exports other functions than tests/cli/install/exported says'
-grep -v '^tartan_compile_' "$scratch/exported" >"$scratch/running"
-exported "$libdir/libtartan-runtime.so" | cmp - "$scratch/running" || fail 'libtartan-runtime lacks a function, or has one too many'
+exported $libraries >"$scratch/exported"
+cmp "$scratch/declared" "$scratch/exported" || fail "the header and the libraries differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
+diff -u tests/cli/install/exported "$scratch/exported" || fail 'the libraries export other functions than tests/cli/install/exported says'
+exported libtartan-runtime.so libtartan-growth.so | comm -23 - <(exported libtartan.so) >"$scratch/running"
+grep -v '^tartan_compile_' "$scratch/exported" | cmp - "$scratch/running" || fail 'libtartan-runtime lacks a function, or has one too many'
+
+# Each needs what it is for, and no more.
+needs() {
+    objdump -p "$libdir/$1" | awk '/NEEDED/ {print $2}' | grep -oE '^lib(cairo|sqlite3|OpenMesh[A-Za-z]*|stdc\+\+|gmp|xxhash|jansson)' | sort | tr '\n' ' '
+}
+for library in libtartan-runtime libtartan-growth; do
+    [ -z "$(needs $library.so | sed 's/libgmp //; s/libxxhash //')" ] || fail "$library needs $(needs $library.so)"
+done
 
 # Manual pages and completion stand where man and the shells look.
 for command in $("$prefix/bin/tartan" help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
@@ -71,10 +84,10 @@ CC=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
 export CC
 read -ra flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:[^=]*=//p' "$build/CMakeCache.txt")"
 read -ra by_pkg_config <<<"$(pkg-config --cflags --libs tartan)"
-read -ra for_static <<<"$(pkg-config --cflags tartan) $(pkg-config --static --libs tartan | sed 's/-ltartan\b//')"
+read -ra for_static <<<"$(pkg-config --cflags tartan) $(pkg-config --static --libs tartan | sed -E "s:-l(tartan[a-z-]*):$libdir/lib\\1.a:g")"
 cp examples/embed/embed.c examples/embed/narrow.plan "$scratch"
 "$CC" "${flags[@]}" "$scratch/embed.c" "${by_pkg_config[@]}" -o "$scratch/shared"
-"$CC" "${flags[@]}" "$scratch/embed.c" "$libdir/libtartan.a" "${for_static[@]}" -o "$scratch/static"
+"$CC" "${flags[@]}" "$scratch/embed.c" "${for_static[@]}" -o "$scratch/static"
 
 cat >"$scratch/CMakeLists.txt" <<'LISTS'
 cmake_minimum_required(VERSION 3.16)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: store
 # An enumeration that is interrupted has written whole plans, says from where to go on, and shows right progress.
 name=interrupt
 . "$(dirname "$0")/golden.bash"

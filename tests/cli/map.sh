@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: draw
 # tartan map, and what check says of grammars.
 name=map
 source "$(dirname "$0")/golden.bash"

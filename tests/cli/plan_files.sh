@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: store
 # Files of plans: every error of docs/plan-files.md, and each format read back by whoever reads plans.
 name=plan_files
 . "$(dirname "$0")/golden.bash"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: draw store
 # A database that is killed while it is written goes on with --resume: nothing twice, nothing missing.
 name=resume
 . "$(dirname "$0")/golden.bash"

@@ -1,3 +1,4 @@
+/* Breeds a population: the first generation, each next one, and what a caller recalls or chooses. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The members of a generation, its first front, and its statistics. */
 #include <math.h>
 #include <stdlib.h>
 

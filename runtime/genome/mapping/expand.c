@@ -1,3 +1,4 @@
+/* Expands one symbol of a grammar: reads a codon at each choice and writes terminals. */
 #include "runtime/genome/mapping/mapper_edges.h"
 
 /* `Edge`: its number is the codon mod the number of types there are, and one more: that one is new (5.1). */

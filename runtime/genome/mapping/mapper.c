@@ -1,3 +1,4 @@
+/* Maps a genome through a grammar: turns codons into a sentence. */
 #include "runtime/genome/mapping/mapper_state.h"
 
 #define FIRST_IDS 2u /* edge types that there are to begin with: Edge0 and Edge1 (5.2) */

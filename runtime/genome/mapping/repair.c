@@ -1,3 +1,4 @@
+/* Adds a rule for each edge type that a sentence uses and does not rewrite. */
 #include "runtime/genome/mapping/mapper_edges.h"
 
 #define REPAIR_DEPTH 3u /* of a repairing rule's successor: below the start symbol and a rewrite rule */

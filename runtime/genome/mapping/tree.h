@@ -8,7 +8,6 @@
 
 #include <stdio.h>
 
-#include "runtime/draw/canvas.h"
 #include "runtime/genome/mapping/mapper.h"
 
 #define TN_TREE_NONE UINT32_MAX
@@ -47,12 +46,5 @@ bool tn_tree_write_json(const tn_grammar *grammar, const tn_event *events, const
 
 /* Writes a production as the grammar file has it. */
 void tn_production_write(const tn_grammar *grammar, uint32_t production, FILE *out);
-
-/* Draws the derivation as Fig. 7 does: non-terminals inside, terminals at the leaves, at most TN_TREE_DRAWN nodes
- * (TN_LIMIT, E1228). Errors of writing as tn_canvas_open has them. */
-tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, tn_picture *to,
-                       tn_error *error);
-
-#define TN_TREE_DRAWN 4000u
 
 #endif

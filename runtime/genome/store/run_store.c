@@ -1,3 +1,4 @@
+/* Makes, opens and writes a run's database. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+/* Reads a run's database: events, scores and statistics. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -53,7 +53,7 @@ static bool old_vertices_linked(const tn_pass *pass, uint32_t face, const tn_loo
 static bool next_to(const tn_pass *pass, const tn_loop_branch *new, uint32_t old_vertex)
 {
     uint32_t edge = pass->old->side[new->corner] / 2;
-    tn_run run = pass->runs ? pass->runs[edge] : (tn_run){edge, edge};
+    tn_edge_run run = pass->runs ? pass->runs[edge] : (tn_edge_run){edge, edge};
     uint32_t pieces = pass->growth->shapes[pass->records[edge].template].template->segment_count;
     return (new->point == 1 && pass->sides[2 * (size_t)run.first].origin == old_vertex) ||
            (new->point + 1 == pieces && pass->sides[2 * (size_t)run.last + 1].origin == old_vertex);

@@ -1,6 +1,5 @@
 #include "runtime/growth/join/decide.h"
 
-#include <omp.h>
 #include <stdlib.h>
 
 #include "runtime/base/share.h"
@@ -10,7 +9,7 @@
 
 /* ---- deciders */
 
-bool tn_deciders_prepare(tn_workspace *space, int count)
+bool tn_deciders_prepare(tn_growth_workspace *space, int count)
 {
     if (count > space->decider_count) {
         tn_decider *grown = realloc(space->deciders, (size_t)count * sizeof *grown);
@@ -30,13 +29,13 @@ bool tn_deciders_prepare(tn_workspace *space, int count)
     return true;
 }
 
-void tn_deciders_forget(tn_workspace *space)
+void tn_deciders_forget(tn_growth_workspace *space)
 {
     for (int i = 0; i < space->decider_count; i++)
         tn_patterns_forget(&space->deciders[i].patterns);
 }
 
-void tn_deciders_clear(tn_workspace *space)
+void tn_deciders_clear(tn_growth_workspace *space)
 {
     for (int i = 0; i < space->decider_count; i++) {
         tn_decider *one = &space->deciders[i];
@@ -232,10 +231,10 @@ static bool decide_face(const decision *d, uint32_t face)
 static void decide_chunk(void *context, uint32_t number)
 {
     tn_pass *pass = context;
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
-    int decider = pass->threads > 1 && pass->chunk_count > 1 ? omp_get_thread_num() : 0; /* as tn_share does */
+    int decider = pass->threads > 1 && pass->chunk_count > 1 ? tn_thread_number() : 0; /* as tn_share does */
     pass->chunks[number] = (tn_face_chunk){.decider = decider};
     decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
     for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
@@ -273,7 +272,7 @@ static void sort_by_rank(const uint32_t *rank, uint32_t *faces, size_t count)
 /* The faces that waited, in the order of their ranks. */
 static bool decide_later(tn_pass *pass)
 {
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     size_t count = 0;
     for (int i = 0; i < space->decider_count; i++)
         count += space->deciders[i].later_count;
@@ -303,7 +302,7 @@ static bool decide_later(tn_pass *pass)
 
 tn_status tn_pass_decide(tn_pass *pass, tn_error *error)
 {
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     pass->chunk_count = (pass->old->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES;
     if (!tn_pages_reserve(&space->chunks, pass->chunk_count * sizeof *pass->chunks) ||
         !tn_deciders_prepare(space, pass->threads))

@@ -22,11 +22,11 @@ typedef struct tn_face_chunk {
 } tn_face_chunk;
 
 /* As many deciders as threads, ready for a pass. False: out of memory. */
-bool tn_deciders_prepare(tn_workspace *space, int count);
+bool tn_deciders_prepare(tn_growth_workspace *space, int count);
 
 /* The next pass is another system's. */
-void tn_deciders_forget(tn_workspace *space);
-void tn_deciders_clear(tn_workspace *space);
+void tn_deciders_forget(tn_growth_workspace *space);
+void tn_deciders_clear(tn_growth_workspace *space);
 
 /* A face's cut, unless it is plain. */
 static inline const tn_cuts *tn_cuts_of(const tn_pass *pass, const tn_face_chunk *chunk, uint32_t *index)

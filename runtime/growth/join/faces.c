@@ -41,7 +41,7 @@ static void rank_faces(const tn_pass *pass)
 /* All deciders' branches by their old face, in the order of each face's loops. False: out of memory. */
 static bool gather_pending(const tn_pass *pass, tn_pending *items)
 {
-    const tn_workspace *space = &pass->growth->space;
+    const tn_growth_workspace *space = &pass->growth->space;
     uint32_t faces = pass->old->face_count;
     uint32_t *next = calloc((size_t)faces + 1, sizeof *next);
     if (!next)
@@ -87,7 +87,7 @@ static void place_pending(const tn_pass *pass, tn_pending_list *list)
 static tn_status hand_over_pending(const tn_pass *pass, tn_error *error)
 {
     tn_pending_list *list = &pass->growth->pending;
-    const tn_workspace *space = &pass->growth->space;
+    const tn_growth_workspace *space = &pass->growth->space;
     free(list->items);
     free(list->face_first);
     *list = (tn_pending_list){0};
@@ -109,7 +109,7 @@ static tn_status hand_over_pending(const tn_pass *pass, tn_error *error)
 
 static tn_status prepare(tn_pass *pass, tn_error *error)
 {
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     size_t branches = (size_t)pass->branch_first + pass->branch_count, faces = pass->old->face_count;
     bool ranked = pass->growth->ranked;
     if (!tn_pages_reserve(&space->joints, branches * sizeof *pass->joints) ||
@@ -126,7 +126,7 @@ static tn_status prepare(tn_pass *pass, tn_error *error)
 static tn_status make_map(tn_pass *pass, const tn_face_chunk *total, tn_error *error)
 {
     tn_map *new = pass->new;
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     tn_status status = tn_growth_check_edges(pass->growth, pass->edges + total->joins, error);
     if (status != TN_OK)
         return status;

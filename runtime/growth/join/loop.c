@@ -54,7 +54,7 @@ static void turn_branches(tn_loop *loop, const tn_pass *pass, uint32_t edge, uin
     if (first == loop->branch_count)
         return;
     const tn_record *record = &pass->records[edge];
-    tn_run run = pass->runs ? pass->runs[edge] : (tn_run){edge, edge};
+    tn_edge_run run = pass->runs ? pass->runs[edge] : (tn_edge_run){edge, edge};
     tn_vector heading, up;
     double length;
     tn_pass_frame(pass, run.first, run.last, &heading, &up, &length);

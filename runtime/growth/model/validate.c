@@ -1,3 +1,4 @@
+/* Checks that a map is whole: that its darts, edges and vertices agree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

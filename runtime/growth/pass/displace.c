@@ -1,6 +1,5 @@
 /* Growing in size: every vertex moves away from the centre by the scale, and by the forces, as far as the boundaries
  * let it ("Genr8", 4.3 and 4.7). */
-#include <omp.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -9,7 +8,7 @@
 
 static int thread_count(const tn_growth *growth)
 {
-    return growth->options.threads > 0 ? growth->options.threads : omp_get_max_threads();
+    return growth->options.threads > 0 ? growth->options.threads : tn_thread_count();
 }
 
 static uint32_t chunk_count(const tn_map *map)

@@ -217,7 +217,7 @@ static tn_status match_edge(interpreter *in, const tn_growth_group *group, uint3
     for (uint32_t i = 0; i < in->length; i++)
         in->taken[in->chain[i]] = 1;
     uint16_t template = (uint16_t)tn_growth_template_of(pass->growth->system, successor);
-    pass->list[pass->list_count++] = (tn_replacement){edge, in->chain[in->length - 1], in->length, template};
+    pass->list[pass->list_count++] = (tn_edge_replacement){edge, in->chain[in->length - 1], in->length, template};
     return TN_OK;
 }
 
@@ -228,7 +228,7 @@ static void refuse_small_faces(interpreter *in)
     tn_pass *pass = in->pass;
     size_t kept = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
-        tn_replacement one = pass->list[i];
+        tn_edge_replacement one = pass->list[i];
         uint32_t left = pass->sides[2 * (size_t)one.first].face, right = pass->sides[2 * (size_t)one.last + 1].face;
         int64_t gain = (int64_t)draw(in, one.template).segment_count - one.length;
         if (gain < 0 && (in->size[left] + gain < 3 || in->size[right] + gain < 3)) {
@@ -261,7 +261,7 @@ tn_status tn_interpret_match(tn_pass *pass, tn_error *error)
 
 /* ---- rewriting */
 
-static tn_axes frame_of(const tn_pass *pass, const tn_replacement *one, tn_vector *start)
+static tn_axes frame_of(const tn_pass *pass, const tn_edge_replacement *one, tn_vector *start)
 {
     tn_edge_side from = pass->sides[2 * (size_t)one->first], to = pass->sides[2 * (size_t)one->last + 1];
     *start = tn_vector_at(pass->old->positions + 3 * (size_t)from.origin);
@@ -303,8 +303,8 @@ static bool set_states(const tn_pass *pass, const tn_template *drawn, int32_t ol
     return true;
 }
 
-static void aim_branches(const tn_pass *pass, const tn_replacement *one, const tn_axes *axes, const tn_template *drawn,
-                         tn_aim *aims)
+static void aim_branches(const tn_pass *pass, const tn_edge_replacement *one, const tn_axes *axes,
+                         const tn_template *drawn, tn_aim *aims)
 {
     uint32_t left = pass->sides[2 * (size_t)one->first].face, right = pass->sides[2 * (size_t)one->last + 1].face;
     for (uint32_t b = 0; b < drawn->branch_count; b++) {
@@ -314,7 +314,7 @@ static void aim_branches(const tn_pass *pass, const tn_replacement *one, const t
     }
 }
 
-static void count(const tn_template *drawn, tn_tally *so_far)
+static void count(const tn_template *drawn, tn_rewrite_tally *so_far)
 {
     so_far->rewrites++;
     so_far->pieces += drawn->segment_count;
@@ -323,7 +323,7 @@ static void count(const tn_template *drawn, tn_tally *so_far)
 }
 
 /* Draws what replaces an edge or a chain, and puts it where the numbers say. */
-static bool replace(interpreter *in, const tn_replacement *one, tn_tally *at)
+static bool replace(interpreter *in, const tn_edge_replacement *one, tn_rewrite_tally *at)
 {
     tn_pass *pass = in->pass;
     tn_template drawn = draw(in, one->template);
@@ -343,7 +343,7 @@ static tn_status rewrite(interpreter *in, tn_error *error)
 {
     tn_pass *pass = in->pass;
     uint32_t edges = pass->old->edge_count, kept = 0;
-    tn_tally total = {.kept = edges};
+    tn_rewrite_tally total = {.kept = edges};
     for (size_t i = 0; i < pass->list_count; i++) {
         tn_template drawn = draw(in, pass->list[i].template);
         count(&drawn, &total);
@@ -356,7 +356,7 @@ static tn_status rewrite(interpreter *in, tn_error *error)
     if (!pass->runs)
         return tn_fail_memory(error);
     memset(pass->runs, 0xff, edges * sizeof *pass->runs);
-    tn_tally at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
+    tn_rewrite_tally at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
     for (size_t i = 0; i < pass->list_count; i++) {
         if (!replace(in, &pass->list[i], &at))
             return tn_rewrite_out_of_range(pass, error);

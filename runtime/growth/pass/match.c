@@ -273,12 +273,13 @@ static tn_status add_replacement(chain_search *search, uint32_t length, uint16_t
     tn_pass *pass = search->pass;
     if (pass->list_count == search->capacity) {
         search->capacity = 2 * search->capacity + 64;
-        tn_replacement *grown = realloc(pass->list, search->capacity * sizeof *grown);
+        tn_edge_replacement *grown = realloc(pass->list, search->capacity * sizeof *grown);
         if (!grown)
             return tn_fail_memory(error);
         pass->list = grown;
     }
-    pass->list[pass->list_count++] = (tn_replacement){search->chain[0], search->chain[length - 1], length, template};
+    pass->list[pass->list_count++] =
+        (tn_edge_replacement){search->chain[0], search->chain[length - 1], length, template};
     return TN_OK;
 }
 
@@ -289,7 +290,7 @@ static void refuse_small_faces(chain_search *search)
     tn_pass *pass = search->pass;
     size_t kept = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
-        tn_replacement *one = &pass->list[i];
+        tn_edge_replacement *one = &pass->list[i];
         uint32_t left = pass->sides[2 * (size_t)one->first].face, right = pass->sides[2 * (size_t)one->last + 1].face;
         uint32_t pieces = pass->growth->system->templates[one->template].segment_count;
         if (one->length > pieces) {

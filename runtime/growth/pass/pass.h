@@ -75,9 +75,9 @@ typedef struct tn_edge_side {
     uint32_t face;   /* that it is on */
 } tn_edge_side;
 
-typedef struct tn_run {
+typedef struct tn_edge_run {
     uint32_t first, last; /* edges of a chain */
-} tn_run;
+} tn_edge_run;
 
 /* A branch that did not join yet. */
 typedef struct tn_pending {
@@ -98,13 +98,13 @@ typedef struct tn_pending_list {
 
 /* Memory that steps use again and again. Of what is read and written anew, two each: `current` says which is the map's.
  */
-typedef struct tn_workspace {
+typedef struct tn_growth_workspace {
     tn_pages positions, states[2], darts[2], faces[2];
     tn_pages survey, choices, chunks, records, joints, cut_of, made;
     int current;
     struct tn_decider *deciders; /* [decider_count] one for each thread */
     int decider_count;
-} tn_workspace;
+} tn_growth_workspace;
 
 struct tn_growth {
     const tn_growth_system *system;
@@ -121,7 +121,7 @@ struct tn_growth {
     bool waited;           /* some face has had to wait for others: they are needed */
     bool needs_ranks;      /* one has to, and faces have no ranks any more */
     bool hard;             /* some boundary moves vertices */
-    tn_workspace space;
+    tn_growth_workspace space;
     tn_map map;
     uint32_t steps;
     double length;  /* start_length times the mean scale to the power of the steps */
@@ -150,12 +150,12 @@ typedef struct tn_pass {
     /* match */
     const uint16_t *template_of; /* [label] template or TN_NO_TEMPLATE, where labels alone decide; otherwise NULL */
     uint16_t *choice;            /* [edge] the same, where they do not and no chains are replaced */
-    struct tn_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
+    struct tn_edge_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
     size_t list_count;
     /* rewrite */
     tn_record *records;       /* [edge] */
     tn_aim *aims;             /* [branch - branch_first]; behind the sides */
-    tn_run *runs;             /* [edge] the chain that it was in; only where chains are replaced */
+    tn_edge_run *runs;        /* [edge] the chain that it was in; only where chains are replaced */
     uint32_t vertices, edges; /* of the new map, without joined edges */
     uint64_t rewrites;
     uint32_t branch_first, branch_count; /* numbers of this pass's branches: [first, first + count) */
@@ -191,10 +191,10 @@ static inline int32_t tn_changed_age(uint8_t change, int32_t age)
     return change == TN_AGE_KEEP ? age : change == TN_AGE_MORE ? age + 1 : change == TN_AGE_LESS ? age - 1 : 0;
 }
 
-typedef struct tn_replacement {
+typedef struct tn_edge_replacement {
     uint32_t first, last, length; /* edges of the chain */
     uint16_t template;
-} tn_replacement;
+} tn_edge_replacement;
 
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
 

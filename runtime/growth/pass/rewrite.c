@@ -174,7 +174,8 @@ static bool ages_stay_in_range(const tn_template *template, int32_t age)
 
 /* Replaces the edges first .. last, of which `first` gets the record; `at` holds the numbers that come next. False
  * where an age leaves its range. */
-static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tn_tally *at, placing *some)
+static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tn_rewrite_tally *at,
+                           placing *some)
 {
     const tn_shape *shape = &pass->growth->shapes[chosen];
     const tn_template *template = shape->template;
@@ -195,7 +196,7 @@ static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_
     return true;
 }
 
-static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tn_tally *so_far)
+static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tn_rewrite_tally *so_far)
 {
     const tn_template *template = &pass->growth->system->templates[chosen];
     so_far->rewrites += times;
@@ -204,7 +205,7 @@ static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tn_tally
     so_far->branches += times * template->branch_count;
 }
 
-tn_status tn_rewrite_make_room(tn_pass *pass, const tn_tally *total, tn_error *error)
+tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_error *error)
 {
     tn_growth *growth = pass->growth;
     const tn_map *old = pass->old;
@@ -234,7 +235,7 @@ tn_status tn_rewrite_make_room(tn_pass *pass, const tn_tally *total, tn_error *e
     pass->edges = (uint32_t)edges;
     pass->branch_count = (uint32_t)total->branches;
     pass->rewrites = total->rewrites;
-    tn_workspace *space = &growth->space;
+    tn_growth_workspace *space = &growth->space;
     if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
         !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
         !tn_pages_reserve(&space->records, (size_t)old->edge_count * sizeof *pass->records) ||
@@ -257,7 +258,7 @@ static uint32_t group_at(const tn_pass *pass, uint32_t edge)
 }
 
 /* Counted by runs of edges replaced alike: one after another, each would wait for the sums of the last. */
-static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tn_tally *by_group)
+static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tn_rewrite_tally *by_group)
 {
     for (uint32_t e = begin, next; e < end; e = next) {
         uint16_t chosen = tn_choice(pass, e);
@@ -272,7 +273,7 @@ static void count_chunk(const tn_pass *pass, uint32_t begin, uint32_t end, tn_ta
     }
 }
 
-static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tn_tally *by_group)
+static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tn_rewrite_tally *by_group)
 {
     placing some;
     start_placing(&some);
@@ -289,12 +290,12 @@ static bool rewrite_chunk(tn_pass *pass, uint32_t begin, uint32_t end, tn_tally 
 }
 
 /* Counts become first numbers: groups in order, chunks of edges in order within each. Returns the totals. */
-static tn_tally number(tn_pass *pass, tn_tally *counts, uint32_t chunks, uint32_t groups)
+static tn_rewrite_tally number(tn_pass *pass, tn_rewrite_tally *counts, uint32_t chunks, uint32_t groups)
 {
-    tn_tally next = {0};
+    tn_rewrite_tally next = {0};
     for (uint32_t g = 0; g < groups; g++) {
         for (uint32_t c = 0; c < chunks; c++) {
-            tn_tally *one = &counts[(size_t)c * groups + g], here = *one;
+            tn_rewrite_tally *one = &counts[(size_t)c * groups + g], here = *one;
             *one = next;
             next.rewrites += here.rewrites;
             next.kept += here.kept;
@@ -313,7 +314,7 @@ static tn_tally number(tn_pass *pass, tn_tally *counts, uint32_t chunks, uint32_
 
 typedef struct single_rewrite {
     tn_pass *pass;
-    tn_tally *counts; /* by chunk, then group */
+    tn_rewrite_tally *counts; /* by chunk, then group */
     atomic_bool out_of_range;
 } single_rewrite;
 
@@ -323,7 +324,7 @@ static uint32_t chunk_end(const tn_pass *pass, uint32_t chunk)
     return edges - begin < TN_CHUNK_EDGES ? edges : begin + TN_CHUNK_EDGES;
 }
 
-static tn_tally *counts_of(const single_rewrite *r, uint32_t chunk)
+static tn_rewrite_tally *counts_of(const single_rewrite *r, uint32_t chunk)
 {
     return r->counts + (size_t)chunk * (r->pass->group_last - r->pass->group_first);
 }
@@ -349,7 +350,7 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
     if (!r.counts)
         return tn_fail_memory(error);
     tn_share(pass->threads, chunks, TN_SHARE_EVENLY, count_piece, &r);
-    tn_tally total = number(pass, r.counts, chunks, groups);
+    tn_rewrite_tally total = number(pass, r.counts, chunks, groups);
     tn_status status = tn_rewrite_make_room(pass, &total, error);
     if (status == TN_OK)
         tn_share(pass->threads, chunks, TN_SHARE_EVENLY, rewrite_piece, &r);
@@ -360,20 +361,20 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
 
 /* ---- chains */
 
-void tn_rewrite_along(tn_pass *pass, const tn_replacement *chain)
+void tn_rewrite_along(tn_pass *pass, const tn_edge_replacement *chain)
 {
     uint32_t d = pass->dart[2 * (size_t)chain->first], f = pass->sides[2 * (size_t)chain->first].face;
     uint32_t first = pass->old->face_first[f], size = tn_face_size(pass->old, f);
     for (uint32_t j = 0; j < chain->length; j++) {
         uint32_t edge = pass->old->side[first + (d - first + j) % size] / 2;
         pass->records[edge] = pass->records[chain->first];
-        pass->runs[edge] = (tn_run){chain->first, chain->last};
+        pass->runs[edge] = (tn_edge_run){chain->first, chain->last};
     }
 }
 
 static tn_status rewrite_list(tn_pass *pass, tn_error *error)
 {
-    tn_tally total = {0};
+    tn_rewrite_tally total = {0};
     uint32_t edges = pass->old->edge_count, replaced = 0;
     for (size_t i = 0; i < pass->list_count; i++) {
         count(pass, pass->list[i].template, 1, &total);
@@ -387,12 +388,12 @@ static tn_status rewrite_list(tn_pass *pass, tn_error *error)
     if (!pass->runs)
         return tn_fail_memory(error);
     memset(pass->runs, 0xff, edges * sizeof *pass->runs);
-    tn_tally at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
+    tn_rewrite_tally at = {.pieces = total.kept, .vertices = pass->old->vertex_count, .branches = pass->branch_first};
     placing some;
     start_placing(&some);
     bool fine = true;
     for (size_t i = 0; i < pass->list_count && fine; i++) {
-        const tn_replacement *one = &pass->list[i];
+        const tn_edge_replacement *one = &pass->list[i];
         fine = replace(pass, one->first, one->last, one->template, &at, &some);
         tn_rewrite_along(pass, one);
     }

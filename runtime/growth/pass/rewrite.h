@@ -6,12 +6,12 @@
 #include "runtime/growth/pass/pass.h"
 
 /* How many of each, so far or in a chunk. */
-typedef struct tn_tally {
+typedef struct tn_rewrite_tally {
     uint64_t rewrites, kept, pieces, vertices, branches;
-} tn_tally;
+} tn_rewrite_tally;
 
 /* Memory for what the counts say, and the first numbers of each kind. */
-tn_status tn_rewrite_make_room(tn_pass *pass, const tn_tally *total, tn_error *error);
+tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_error *error);
 
 /* An edge that is not replaced gets this number. */
 static inline void tn_rewrite_keep(tn_pass *pass, uint32_t edge, uint32_t number)
@@ -22,7 +22,7 @@ static inline void tn_rewrite_keep(tn_pass *pass, uint32_t edge, uint32_t number
 }
 
 /* The record of a chain's first edge becomes that of all. */
-void tn_rewrite_along(tn_pass *pass, const tn_replacement *chain);
+void tn_rewrite_along(tn_pass *pass, const tn_edge_replacement *chain);
 
 /* TN_LIMIT: an age or a coordinate left its range. */
 tn_status tn_rewrite_out_of_range(const tn_pass *pass, tn_error *error);

@@ -1,3 +1,4 @@
+/* Surveys a map before a pass: each edge side's vertex and face, each face's normal. */
 #include "runtime/base/share.h"
 #include "runtime/growth/pass/normals.h"
 #include "runtime/growth/pass/pass.h"
@@ -51,7 +52,7 @@ static void survey_chunk(void *context, uint32_t chunk)
 
 bool tn_pass_reserve_aims(tn_pass *pass, size_t count)
 {
-    tn_workspace *space = &pass->growth->space;
+    tn_growth_workspace *space = &pass->growth->space;
     size_t sides = (2 * (size_t)pass->old->edge_count + 7) & ~(size_t)7; /* so that no aim is in two cache lines */
     tn_pages *pages = &space->darts[!space->current];
     if (!tn_pages_reserve(pages, sides * sizeof *pass->sides + count * sizeof *pass->aims))

@@ -1,12 +1,13 @@
 #include "runtime/growth/picture/draw.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/numeric.h"
+#include "runtime/base/share.h"
+#include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 #include "runtime/geometry/hidden.h"
 #include "runtime/geometry/mesh.h"
@@ -197,7 +198,7 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
     tn_painting painting = {0};
     tn_status status = look(map, &eye, &seen, error);
     int threads = tn_growth_settings(growth)->threads;
-    seen.scene.threads = threads > 0 ? threads : omp_get_max_threads();
+    seen.scene.threads = threads > 0 ? threads : tn_thread_count();
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)

@@ -2,7 +2,7 @@
 #ifndef TARTAN_GROWTH_PICTURE_DRAW_H
 #define TARTAN_GROWTH_PICTURE_DRAW_H
 
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/growth/growth.h"
 
 #define TN_DRAWN_FACES_MAX 2000000u

@@ -1,3 +1,4 @@
+/* Searches for plans that decide between rules, and checks each answer with the interpreter. */
 #include "runtime/plan/analysis/analysis_data.h"
 
 #include <stdlib.h>

@@ -149,7 +149,7 @@ static tn_status add_shortest(tn_explaining *e, const uint64_t *relation, tn_str
     uint32_t first = e->result->stretch_count;
     tn_status status = TN_OK;
     for (uint32_t i = region.end; status == TN_OK && i-- > region.begin;) {
-        size_t end = tn_row_next(relation + i * e->words, i + 1, e->words);
+        size_t end = tn_relation_row_next(relation + i * e->words, i + 1, e->words);
         if (end == TN_NO_BIT || end > region.end || end >= least)
             continue;
         least = end;
@@ -168,7 +168,7 @@ static tn_status add_shortest(tn_explaining *e, const uint64_t *relation, tn_str
 static bool occurrence(const tn_explaining *e, const uint64_t *relation, tn_stretch region, bool mirrored, uint32_t k,
                        tn_stretch *found)
 {
-    size_t end = mirrored ? TN_NO_BIT : tn_row_next(relation + k * e->words, k + 1, e->words);
+    size_t end = mirrored ? TN_NO_BIT : tn_relation_row_next(relation + k * e->words, k + 1, e->words);
     *found = (tn_stretch){k, (uint32_t)end};
     for (uint32_t i = k + 1; mirrored && i-- > region.begin;) {
         *found = (tn_stretch){i, k + 1};

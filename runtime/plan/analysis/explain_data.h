@@ -40,7 +40,7 @@ tn_status tn_explain_tree(tn_explaining *e, uint32_t function, uint32_t *tree);
 
 static inline bool tn_in(const tn_explaining *e, const uint64_t *relation, tn_stretch s)
 {
-    return tn_row_has(relation + s.begin * e->words, s.end);
+    return tn_relation_row_has(relation + s.begin * e->words, s.end);
 }
 
 tn_status tn_explain_stretch(tn_explaining *e, uint32_t node, tn_stretch stretch); /* adds one where it matched */

@@ -37,8 +37,8 @@ static tn_status look_from(const looking *l, tn_stretch source)
     tn_stretch left = {0, 0}, right = {0, 0};
     for (uint32_t a = 0; a < length; a++) {
         const uint64_t *row = l->destination + a * l->e->words;
-        for (size_t b = tn_row_next(row, a + 1, l->e->words); b != TN_NO_BIT;
-             b = tn_row_next(row, b + 1, l->e->words)) {
+        for (size_t b = tn_relation_row_next(row, a + 1, l->e->words); b != TN_NO_BIT;
+             b = tn_relation_row_next(row, b + 1, l->e->words)) {
             tn_stretch destination = {a, (uint32_t)b};
             if (!tn_in(l->e, l->between, between(source, destination)))
                 return add_gap(l, source, destination);

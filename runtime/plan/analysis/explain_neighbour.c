@@ -44,7 +44,8 @@ static uint32_t next_cut(const tn_explaining *e, const row_of_parts *row, const 
                          uint32_t places)
 {
     const uint64_t *bits = row->relation[k] + i * e->words;
-    for (size_t end = tn_row_next(bits, i + 1, e->words); end != TN_NO_BIT; end = tn_row_next(bits, end + 1, e->words))
+    for (size_t end = tn_relation_row_next(bits, i + 1, e->words); end != TN_NO_BIT;
+         end = tn_relation_row_next(bits, end + 1, e->words))
         if (fits[(size_t)(k + 1) * places + end])
             return (uint32_t)end;
     return UINT32_MAX;
@@ -106,8 +107,8 @@ static uint32_t run_from(const tn_explaining *e, const row_of_parts *row, uint32
             if (!now[p])
                 continue;
             const uint64_t *bits = row->relation[k] + p * e->words;
-            for (size_t to = tn_row_next(bits, p + 1, e->words); to != TN_NO_BIT && to <= limit;
-                 to = tn_row_next(bits, to + 1, e->words)) {
+            for (size_t to = tn_relation_row_next(bits, p + 1, e->words); to != TN_NO_BIT && to <= limit;
+                 to = tn_relation_row_next(bits, to + 1, e->words)) {
                 reached = any ? reached : (uint32_t)to;
                 any = true;
                 next[to] = 1;

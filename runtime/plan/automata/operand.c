@@ -67,15 +67,15 @@ void tn_operand_clear(tn_operand *operand)
 
 /* ---- inclusion */
 
-typedef struct tn_comparison {
+typedef struct tn_set_comparison {
     tn_operand *operand;
     uint32_t *first;   /* [columns][states + 1] */
     uint32_t *source;  /* [columns][states] */
     uint32_t *pending; /* pairs p * states + q */
     size_t pending_count;
-} tn_comparison;
+} tn_set_comparison;
 
-static void comparison_invert(tn_comparison *comparison)
+static void comparison_invert(tn_set_comparison *comparison)
 {
     const tn_dfa *dfa = comparison->operand->dfa;
     uint32_t n = dfa->states;
@@ -94,7 +94,7 @@ static void comparison_invert(tn_comparison *comparison)
 
 /* p accepts something that q does not. Pairs of different phases are never asked for, but the dead state goes with
  * every phase. */
-static void comparison_add(tn_comparison *comparison, uint32_t p, uint32_t q)
+static void comparison_add(tn_set_comparison *comparison, uint32_t p, uint32_t q)
 {
     tn_operand *operand = comparison->operand;
     if (operand->phase[p] != operand->phase[q] && q != operand->dead)
@@ -106,7 +106,7 @@ static void comparison_add(tn_comparison *comparison, uint32_t p, uint32_t q)
     comparison->pending[comparison->pending_count++] = p * operand->dfa->states + q;
 }
 
-static void comparison_run(tn_comparison *comparison)
+static void comparison_run(tn_set_comparison *comparison)
 {
     const tn_dfa *dfa = comparison->operand->dfa;
     uint32_t n = dfa->states;
@@ -136,7 +136,7 @@ bool tn_operand_compare(tn_operand *operand)
         return true;
     operand->words = (uint32_t)(n / 64 + 1);
     operand->exceeds = calloc(n * operand->words, sizeof *operand->exceeds);
-    tn_comparison comparison = {.operand = operand};
+    tn_set_comparison comparison = {.operand = operand};
     comparison.first = calloc(k * (n + 1), sizeof *comparison.first);
     comparison.source = malloc(k * n * sizeof *comparison.source);
     comparison.pending = malloc(n * n * sizeof *comparison.pending);

@@ -32,10 +32,10 @@ typedef struct tn_visit {
 } tn_visit;
 
 /* All edges of a column: a hash of them, and how many. */
-typedef struct tn_column_look {
+typedef struct tn_fold_column {
     uint64_t hash;
     size_t edges;
-} tn_column_look;
+} tn_fold_column;
 
 typedef struct tn_folding {
     const tn_sparse *a;
@@ -59,7 +59,7 @@ typedef struct tn_folding {
     uint32_t states, state_capacity;
     uint32_t *slots; /* state + 1 by hash; 0 is free */
     uint32_t slot_capacity;
-    tn_column_look *looks; /* [columns] */
+    tn_fold_column *looks; /* [columns] */
     uint64_t work;
 } tn_folding;
 
@@ -154,7 +154,7 @@ static bool reserve_state(tn_folding *f, size_t edges)
     return grow((void **)&f->edges, &f->edge_capacity, f->edge_count + edges, sizeof *f->edges);
 }
 
-static void look_at(tn_column_look *look, uint32_t state, uint32_t target)
+static void look_at(tn_fold_column *look, uint32_t state, uint32_t target)
 {
     look->hash = mix(look->hash, (uint64_t)state << 32 | target);
     look->edges++;

@@ -99,16 +99,16 @@ static void refiner_clear(tn_sparse_refiner *refiner)
 /* ---- the quotient */
 
 /* Columns as they look in the quotient: a hash of all of a column's edges, and how many there are. */
-typedef struct tn_column_look {
+typedef struct tn_column_hash {
     uint64_t hash;
     size_t edges;
-} tn_column_look;
+} tn_column_hash;
 
-static void look_at_columns(const tn_sparse *sparse, tn_column_look *looks)
+static void look_at_columns(const tn_sparse *sparse, tn_column_hash *looks)
 {
     for (uint32_t s = 0; s < sparse->states; s++)
         for (size_t e = sparse->first[s]; e < sparse->first[s + 1]; e++) {
-            tn_column_look *look = &looks[sparse->label[e]];
+            tn_column_hash *look = &looks[sparse->label[e]];
             uint64_t edge = (uint64_t)s << 32 | sparse->target[e];
             look->hash = (look->hash ^ edge) * UINT64_C(0x9e3779b97f4a7c15) + (look->hash >> 29);
             look->edges++;
@@ -135,7 +135,7 @@ static void check_merges(const tn_sparse *sparse, uint32_t *same, uint32_t *row)
  * equal columns. */
 static bool find_merges(const tn_sparse *sparse, uint32_t *same)
 {
-    tn_column_look *looks = calloc((size_t)sparse->columns + 1, sizeof *looks);
+    tn_column_hash *looks = calloc((size_t)sparse->columns + 1, sizeof *looks);
     uint32_t *row = malloc(((size_t)sparse->columns + 1) * sizeof *row);
     tn_numbering hashes = {0};
     bool ok = looks && row;

@@ -108,21 +108,21 @@ void tn_edges_clear(tn_edges *edges)
 
 /* ---- rows */
 
-static tn_status row_allocate(const tn_edges *edges, size_t limbs, tn_row *row, tn_error *error)
+static tn_status row_allocate(const tn_edges *edges, size_t limbs, tn_count_row *row, tn_error *error)
 {
     row->limbs = limbs;
     row->value = calloc((size_t)edges->states * limbs + 1, sizeof *row->value);
     return row->value ? TN_OK : tn_fail_memory(error);
 }
 
-void tn_row_clear(tn_row *row)
+void tn_count_row_clear(tn_count_row *row)
 {
     free(row->value);
-    *row = (tn_row){0};
+    *row = (tn_count_row){0};
 }
 
 /* Drops the last limb of every count where none needs it. */
-static void row_shrink(const tn_edges *edges, tn_row *row)
+static void row_shrink(const tn_edges *edges, tn_count_row *row)
 {
     size_t limbs = row->limbs;
     if (limbs == 1)
@@ -138,7 +138,7 @@ static void row_shrink(const tn_edges *edges, tn_row *row)
         row->value = less;
 }
 
-tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error)
+tn_status tn_count_row_first(const tn_edges *edges, tn_count_row *row, tn_error *error)
 {
     tn_status status = row_allocate(edges, 1, row, error);
     for (uint32_t s = 0; status == TN_OK && s < edges->states; s++)
@@ -148,7 +148,7 @@ tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error)
 
 /* A sum of counts of one row, each times a number of trays that add up to less than 2^32, needs one limb more at most.
  */
-tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error)
+tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_count_row *next, tn_error *error)
 {
     size_t limbs = row->limbs;
     tn_status status = row_allocate(edges, limbs + 1, next, error);
@@ -157,43 +157,44 @@ tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn
     for (uint32_t s = 0; s < edges->states; s++) {
         mp_limb_t *sum = next->value + (size_t)s * next->limbs;
         for (size_t e = edges->first[s]; e < edges->first[s + 1]; e++)
-            sum[limbs] += tn_limbs_add(sum, tn_row_at(row, edges->target[e]), limbs, edges->weight[e]);
+            sum[limbs] += tn_limbs_add(sum, tn_count_row_at(row, edges->target[e]), limbs, edges->weight[e]);
     }
     row_shrink(edges, next);
     return TN_OK;
 }
 
-void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count)
+void tn_count_row_add(const tn_count_row *row, uint32_t state, uint64_t times, mpz_t count)
 {
     mpz_t value;
-    mpz_roinit_n(value, tn_row_at(row, state), (mp_size_t)row->limbs);
+    mpz_roinit_n(value, tn_count_row_at(row, state), (mp_size_t)row->limbs);
     mpz_addmul_ui(count, value, times);
 }
 
 /* ---- counts */
 
 /* How many plans of the length reached lead to each state; only to those `active` there are any. */
-typedef struct tn_front {
+typedef struct count_front {
     mp_limb_t *value; /* [states][limbs] */
     uint32_t *active; /* [states] */
     uint32_t count;
-} tn_front;
+} count_front;
 
-static bool front_make(tn_front *front, uint32_t states, size_t limbs)
+static bool front_make(count_front *front, uint32_t states, size_t limbs)
 {
     front->value = calloc((size_t)states * limbs + 1, sizeof *front->value);
     front->active = malloc(((size_t)states + 1) * sizeof *front->active);
     return front->value && front->active;
 }
 
-static void front_clear(tn_front *front)
+static void front_clear(count_front *front)
 {
     free(front->value);
     free(front->active);
 }
 
 /* Moves the plans on by one tray, and empties the front they were in. Values of active states are not zero. */
-static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, tn_front *from, tn_front *to)
+static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, count_front *from,
+                       count_front *to)
 {
     to->count = 0;
     for (uint32_t i = 0; i < from->count; i++) {
@@ -217,7 +218,7 @@ static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t 
 static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, uint32_t max,
                                mpz_t *counts, tn_error *error)
 {
-    tn_front from = {0}, to = {0};
+    count_front from = {0}, to = {0};
     bool ok = front_make(&from, sparse->states, limbs) && front_make(&to, sparse->states, limbs);
     if (ok && sparse->states > 0) {
         from.value[0] = 1;
@@ -234,7 +235,7 @@ static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights,
         if (length == max)
             break; /* `limbs` hold no more */
         front_move(sparse, weights, limbs, &from, &to);
-        tn_front swap = from;
+        count_front swap = from;
         from = to;
         to = swap;
     }
@@ -257,22 +258,22 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
                                 tn_error *error)
 {
     tn_edges edges = {0};
-    tn_row row = {0};
+    tn_count_row row = {0};
     tn_status status = tn_edges_make(&edges, sparse, weights, error);
     if (status == TN_OK)
-        status = tn_row_first(&edges, &row, error);
+        status = tn_count_row_first(&edges, &row, error);
     for (uint32_t length = 0; status == TN_OK; length++) {
         mpz_set_ui(counts[length], 0);
         if (sparse->states > 0)
-            tn_row_add(&row, 0, 1, counts[length]);
+            tn_count_row_add(&row, 0, 1, counts[length]);
         if (length == max)
             break;
-        tn_row next = {0};
-        status = tn_row_next(&edges, &row, &next, error);
-        tn_row_clear(&row);
+        tn_count_row next = {0};
+        status = tn_count_row_next(&edges, &row, &next, error);
+        tn_count_row_clear(&row);
         row = next;
     }
-    tn_row_clear(&row);
+    tn_count_row_clear(&row);
     tn_edges_clear(&edges);
     return status;
 }

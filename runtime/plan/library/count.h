@@ -32,32 +32,32 @@ void tn_edges_clear(tn_edges *edges);
 tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
                             tn_error *error);
 
-typedef struct tn_row {
+typedef struct tn_count_row {
     size_t limbs;     /* of a count, at least 1 */
     mp_limb_t *value; /* [states][limbs], owned */
-} tn_row;
+} tn_count_row;
 
 /* Bytes that a row takes. */
-static inline uint64_t tn_row_bytes(const tn_edges *edges, const tn_row *row)
+static inline uint64_t tn_count_row_bytes(const tn_edges *edges, const tn_count_row *row)
 {
     return (uint64_t)edges->states * row->limbs * sizeof(mp_limb_t);
 }
 
 /* The row of length 0. */
-tn_status tn_row_first(const tn_edges *edges, tn_row *row, tn_error *error);
+tn_status tn_count_row_first(const tn_edges *edges, tn_count_row *row, tn_error *error);
 
 /* The row of the next length: plans of one tray more, counted from the state before that tray. */
-tn_status tn_row_next(const tn_edges *edges, const tn_row *row, tn_row *next, tn_error *error);
+tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_count_row *next, tn_error *error);
 
-void tn_row_clear(tn_row *row);
+void tn_count_row_clear(tn_count_row *row);
 
-static inline const mp_limb_t *tn_row_at(const tn_row *row, uint32_t state)
+static inline const mp_limb_t *tn_count_row_at(const tn_count_row *row, uint32_t state)
 {
     return row->value + (size_t)state * row->limbs;
 }
 
 /* count += times * the row's count at a state. */
-void tn_row_add(const tn_row *row, uint32_t state, uint64_t times, mpz_t count);
+void tn_count_row_add(const tn_count_row *row, uint32_t state, uint64_t times, mpz_t count);
 
 /* ---- counts of limbs, for the files that count */
 

@@ -1,3 +1,4 @@
+/* Makes the automaton of a plan library, and counts its plans. */
 #include "runtime/plan/library/library_data.h"
 
 #include <stdio.h>
@@ -362,7 +363,7 @@ void tn_library_free(tn_library *library)
     for (size_t i = 0; library->clauses && i < library->record->clause_count; i++)
         tn_dfa_free(library->clauses[i]);
     for (size_t left = 0; library->rows && left <= library->max; left++)
-        tn_row_clear(&library->rows[left]);
+        tn_count_row_clear(&library->rows[left]);
     forget_combined(library);
     tn_dfa_free(library->kept);
     tn_classes_free(library->classes);

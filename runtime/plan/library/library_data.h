@@ -53,7 +53,7 @@ struct tn_library {
     mpz_t *generated;       /* [max + 1]: by length */
     uint32_t *tray_column;  /* [trays]: column of `kept` */
     tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
-    tn_row *rows;           /* [max + 1]: kept plans by trays to come */
+    tn_count_row *rows;           /* [max + 1]: kept plans by trays to come */
     double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;

@@ -13,16 +13,16 @@ static uint32_t marked(const tn_library *library, tn_tray tray, uint32_t column)
 static void plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
 {
     const tn_dfa *kept = library->kept;
-    const tn_row *row = &library->rows[left];
+    const tn_count_row *row = &library->rows[left];
     const uint32_t *next = kept->delta + (size_t)state * kept->columns;
     mpz_set_ui(sum, 0);
     for (uint32_t c = 0; c < kept->columns; c++) {
         uint32_t trays = marked(library, tray, c);
         if (trays > 0 && tn_library_alive(library, left, next[c]))
-            tn_row_add(row, next[c], trays, sum);
+            tn_count_row_add(row, next[c], trays, sum);
     }
     for (tn_tray t = tray - tray % library->stride; t < tray; t++)
-        tn_row_add(row, next[library->tray_column[t]], 1, sum);
+        tn_count_row_add(row, next[library->tray_column[t]], 1, sum);
 }
 
 bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank)
@@ -74,19 +74,19 @@ static tn_tray guess_tray(const tn_library *library, const uint32_t *next, uint3
 static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t left, mpz_t rest, mpz_t sum, mpz_t one)
 {
     const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
-    const tn_row *row = &library->rows[left];
+    const tn_count_row *row = &library->rows[left];
     tn_tray tray = guess_tray(library, next, left, rest);
     plans_before(library, state, tray, left, sum);
     while (mpz_cmp(sum, rest) > 0) {
         tray--;
         mpz_set_ui(one, 0);
-        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        tn_count_row_add(row, next[library->tray_column[tray]], 1, one);
         mpz_sub(sum, sum, one);
     }
     mpz_sub(rest, rest, sum);
     for (;; tray++) { /* rest is below the plans that start with this tray or a later one */
         mpz_set_ui(one, 0);
-        tn_row_add(row, next[library->tray_column[tray]], 1, one);
+        tn_count_row_add(row, next[library->tray_column[tray]], 1, one);
         if (mpz_cmp(rest, one) < 0)
             return tray;
         mpz_sub(rest, rest, one);

@@ -130,7 +130,7 @@ tn_status tn_sequence_before(const tn_sequence *sequence, size_t number, tn_boun
 static tn_status apply_run(const tn_sequence *sequence, size_t *number, tn_bounds *bounds, tn_sparse **base,
                            tn_error *error)
 {
-    const tn_run *run = &sequence->runs[*number];
+    const tn_clause_run *run = &sequence->runs[*number];
     tn_status status = TN_LIMIT;
     if (run->keeps)
         status = tn_sparse_apply(base, run->keeps, TN_DFA_AND, sequence->what, bounds, error);
@@ -157,7 +157,7 @@ tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const tn_c
     tn_status status = TN_OK;
     size_t i = from;
     while (status == TN_OK && (*base)->states > 0) {
-        const tn_run *run = &sequence->runs[i];
+        const tn_clause_run *run = &sequence->runs[i];
         tn_bounds own = *last;
         if (run->keeps && run->end == sequence->count)
             status =

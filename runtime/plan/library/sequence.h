@@ -15,18 +15,18 @@ typedef struct tn_sequence_clause {
 } tn_sequence_clause;
 
 /* What clauses keep, from one of them to the end of its run. */
-typedef struct tn_run {
+typedef struct tn_clause_run {
     tn_dfa *keeps; /* NULL: of one clause alone, or too large */
     size_t end;
-} tn_run;
+} tn_clause_run;
 
 typedef struct tn_sequence {
     tn_sequence_clause *clauses; /* [count], in the order in which they are applied */
     size_t count;
-    size_t saved;      /* automata kept */
-    tn_sparse **after; /* [saved + 1]: the plans that the first clauses keep */
-    tn_run *runs;      /* [count]: from each clause on */
-    const char *what;  /* they are called in an error */
+    size_t saved;        /* automata kept */
+    tn_sparse **after;   /* [saved + 1]: the plans that the first clauses keep */
+    tn_clause_run *runs; /* [count]: from each clause on */
+    const char *what;    /* they are called in an error */
 } tn_sequence;
 
 /* Room for so many clauses, which the caller fills in; `all` are the plans to begin with and are taken over, also after

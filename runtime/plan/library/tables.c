@@ -20,9 +20,9 @@ static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error 
 {
     uint64_t bytes = (uint64_t)library->kept->states * library->kept->columns * sizeof *library->kept->delta;
     for (uint32_t left = 0; left <= library->max; left++) {
-        tn_row *row = &library->rows[left];
-        tn_status status = left ? tn_row_next(edges, row - 1, row, error) : tn_row_first(edges, row, error);
-        bytes += tn_row_bytes(edges, row) + edges->states * sizeof(double);
+        tn_count_row *row = &library->rows[left];
+        tn_status status = left ? tn_count_row_next(edges, row - 1, row, error) : tn_count_row_first(edges, row, error);
+        bytes += tn_count_row_bytes(edges, row) + edges->states * sizeof(double);
         if (status == TN_OK)
             status = pass_table(library, bytes, left, error);
         if (status != TN_OK)
@@ -41,9 +41,9 @@ static bool is_zero(const mp_limb_t *value, size_t limbs)
 /* What the other tables say of a row. */
 static void note_row(tn_library *library, uint32_t left)
 {
-    const tn_row *row = &library->rows[left];
+    const tn_count_row *row = &library->rows[left];
     for (uint32_t s = 0; s < library->kept->states; s++) {
-        const mp_limb_t *value = tn_row_at(row, s);
+        const mp_limb_t *value = tn_count_row_at(row, s);
         if (is_zero(value, row->limbs))
             continue;
         mpz_t count;
@@ -89,7 +89,7 @@ static tn_status make_totals(tn_library *library, tn_error *error)
     for (uint32_t length = 0; length < lengths; length++) {
         mpz_set(library->before[length + 1], library->before[length]);
         if (length >= library->min)
-            tn_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
+            tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
     }
     return tn_count_lengths(library->generator, library->classes, library->max, library->generated, error);
 }

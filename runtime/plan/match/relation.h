@@ -35,28 +35,28 @@ TN_RELATION_INLINE uint64_t tn_bits_to(size_t last, size_t word)
     return last >= base + 63 ? ~UINT64_C(0) : ~UINT64_C(0) >> (63 - (last - base));
 }
 
-TN_RELATION_INLINE uint64_t *tn_row(uint64_t *relation, size_t row, size_t words)
+TN_RELATION_INLINE uint64_t *tn_relation_row(uint64_t *relation, size_t row, size_t words)
 {
     return relation + row * words;
 }
 
-TN_RELATION_INLINE bool tn_row_has(const uint64_t *row, size_t bit)
+TN_RELATION_INLINE bool tn_relation_row_has(const uint64_t *row, size_t bit)
 {
     return row[bit / 64] >> (bit % 64) & 1;
 }
 
-TN_RELATION_INLINE void tn_row_set(uint64_t *row, size_t bit)
+TN_RELATION_INLINE void tn_relation_row_set(uint64_t *row, size_t bit)
 {
     row[bit / 64] |= UINT64_C(1) << (bit % 64);
 }
 
-TN_RELATION_INLINE void tn_row_clear(uint64_t *row, size_t bit)
+TN_RELATION_INLINE void tn_relation_row_clear(uint64_t *row, size_t bit)
 {
     row[bit / 64] &= ~(UINT64_C(1) << (bit % 64));
 }
 
 /* The least bit >= first, or TN_NO_BIT. */
-TN_RELATION_INLINE size_t tn_row_next(const uint64_t *row, size_t first, size_t words)
+TN_RELATION_INLINE size_t tn_relation_row_next(const uint64_t *row, size_t first, size_t words)
 {
     for (size_t w = first / 64; w < words; w++) {
         uint64_t bits = row[w] & tn_bits_from(first, w);
@@ -86,7 +86,7 @@ TN_RELATION_INLINE void tn_row_range(uint64_t *row, size_t first, size_t last, s
 /* Is [k, k + 1) in the relation? */
 TN_RELATION_INLINE bool tn_relation_single(const uint64_t *relation, size_t k, size_t words)
 {
-    return tn_row_has(relation + k * words, k + 1);
+    return tn_relation_row_has(relation + k * words, k + 1);
 }
 
 TN_RELATION_INLINE void tn_relation_and(uint64_t *into, const uint64_t *other, size_t trays, size_t words)
@@ -104,7 +104,7 @@ TN_RELATION_INLINE void tn_relation_or(uint64_t *into, const uint64_t *other, si
 TN_RELATION_INLINE void tn_relation_not(uint64_t *relation, size_t trays, size_t words)
 {
     for (size_t i = 0; i <= trays; i++) {
-        uint64_t *row = tn_row(relation, i, words);
+        uint64_t *row = tn_relation_row(relation, i, words);
         for (size_t w = 0; w < words; w++)
             row[w] = ~row[w] & tn_bits_from(i, w) & tn_bits_to(trays, w);
     }
@@ -116,8 +116,8 @@ TN_RELATION_INLINE void tn_relation_somewhere(uint64_t *relation, size_t trays, 
 {
     size_t first_end = TN_NO_BIT;
     for (size_t i = trays + 1; i-- > 0;) {
-        uint64_t *row = tn_row(relation, i, words);
-        size_t end = tn_row_next(row, i + 1, words);
+        uint64_t *row = tn_relation_row(relation, i, words);
+        size_t end = tn_relation_row_next(row, i + 1, words);
         first_end = end < first_end ? end : first_end;
         tn_row_range(row, first_end, trays, words);
     }
@@ -126,13 +126,13 @@ TN_RELATION_INLINE void tn_relation_somewhere(uint64_t *relation, size_t trays, 
 TN_RELATION_INLINE void tn_relation_nonempty(uint64_t *relation, size_t trays, size_t words)
 {
     for (size_t i = 0; i <= trays; i++)
-        tn_row_clear(tn_row(relation, i, words), i);
+        tn_relation_row_clear(tn_relation_row(relation, i, words), i);
 }
 
 TN_RELATION_INLINE void tn_relation_optional(uint64_t *relation, size_t trays, size_t words)
 {
     for (size_t i = 0; i <= trays; i++)
-        tn_row_set(tn_row(relation, i, words), i);
+        tn_relation_row_set(tn_relation_row(relation, i, words), i);
 }
 
 /* lower := { [i, j) : some c has [i, c) in lower and [c, j) in upper }. `row_room` is room for one row. */
@@ -140,7 +140,7 @@ TN_RELATION_INLINE void tn_relation_chain(uint64_t *lower, const uint64_t *upper
                                           uint64_t *row_room)
 {
     for (size_t i = 0; i <= trays; i++) {
-        uint64_t *row = tn_row(lower, i, words);
+        uint64_t *row = tn_relation_row(lower, i, words);
         memset(row_room, 0, words * sizeof *row_room);
         for (size_t w = 0; w < words; w++) {
             for (uint64_t cuts = row[w]; cuts; cuts &= cuts - 1) {
@@ -161,11 +161,11 @@ TN_RELATION_INLINE void tn_relation_beginning(uint64_t *relation, size_t trays, 
 TN_RELATION_INLINE void tn_relation_end(uint64_t *relation, size_t trays, size_t words)
 {
     for (size_t i = 0; i <= trays; i++) {
-        uint64_t *row = tn_row(relation, i, words);
-        bool ends = tn_row_has(row, trays);
+        uint64_t *row = tn_relation_row(relation, i, words);
+        bool ends = tn_relation_row_has(row, trays);
         memset(row, 0, words * sizeof *row);
         if (ends)
-            tn_row_set(row, trays);
+            tn_relation_row_set(row, trays);
     }
 }
 
@@ -174,10 +174,10 @@ TN_RELATION_INLINE void tn_relation_end(uint64_t *relation, size_t trays, size_t
 TN_RELATION_INLINE void tn_relation_many(uint64_t *relation, size_t trays, size_t words)
 {
     size_t run_end = 0; /* of the run that tray i + 1 is in; 0 where it is in none */
-    memset(tn_row(relation, trays, words), 0, words * sizeof *relation);
+    memset(tn_relation_row(relation, trays, words), 0, words * sizeof *relation);
     for (size_t i = trays; i-- > 0;) {
-        uint64_t *row = tn_row(relation, i, words);
-        if (!tn_row_has(row, i + 1))
+        uint64_t *row = tn_relation_row(relation, i, words);
+        if (!tn_relation_row_has(row, i + 1))
             run_end = 0;
         else if (run_end == 0)
             run_end = i + 1;
@@ -210,7 +210,7 @@ TN_RELATION_INLINE void tn_gaps_find(const tn_gaps *gaps, const uint64_t *destin
         }
         if (!begins)
             continue;
-        tn_row_set(gaps->begins, a);
+        tn_relation_row_set(gaps->begins, a);
         for (size_t last = tn_row_last(row, words); covered < last; covered++)
             gaps->overlap_from[covered] = a;
     }
@@ -221,7 +221,7 @@ TN_RELATION_INLINE void tn_gaps_find(const tn_gaps *gaps, const uint64_t *destin
     memset(gaps->left_bad, 0, words * sizeof(uint64_t));
     for (size_t j = 0; j <= trays; j++) {
         const uint64_t *row = separator + j * words;
-        bool fine = true, ends_here = tn_row_has(gaps->ends, j);
+        bool fine = true, ends_here = tn_relation_row_has(gaps->ends, j);
         for (size_t w = 0; w < words; w++) {
             uint64_t missing = ~row[w] & tn_bits_from(j, w) & tn_bits_to(trays, w);
             fine = fine && !(gaps->begins[w] & missing);
@@ -229,7 +229,7 @@ TN_RELATION_INLINE void tn_gaps_find(const tn_gaps *gaps, const uint64_t *destin
                 gaps->left_bad[w] |= missing;
         }
         if (fine)
-            tn_row_set(gaps->right_fine, j);
+            tn_relation_row_set(gaps->right_fine, j);
     }
 }
 
@@ -239,9 +239,9 @@ TN_RELATION_INLINE void tn_relation_distance(uint64_t *source, const uint64_t *d
 {
     tn_gaps_find(gaps, destination, separator, trays, words);
     for (size_t i = 0; i <= trays; i++) {
-        uint64_t *row = tn_row(source, i, words);
-        bool fine = !tn_row_has(gaps->left_bad, i);
-        bool may_overlap = gaps->overlap_from[i] == TN_NO_BIT || tn_row_has(separator + i * words, i);
+        uint64_t *row = tn_relation_row(source, i, words);
+        bool fine = !tn_relation_row_has(gaps->left_bad, i);
+        bool may_overlap = gaps->overlap_from[i] == TN_NO_BIT || tn_relation_row_has(separator + i * words, i);
         size_t last = may_overlap ? trays : gaps->overlap_from[i];
         for (size_t w = 0; w < words; w++)
             row[w] &= fine ? gaps->right_fine[w] & tn_bits_from(i + 1, w) & tn_bits_to(last, w) : 0;
@@ -257,7 +257,7 @@ TN_RELATION_INLINE void tn_relation_turn(uint64_t *turned, const uint64_t *relat
         for (size_t w = 0; w < words; w++) {
             for (uint64_t bits = row[w]; bits; bits &= bits - 1) {
                 size_t j = w * 64 + (size_t)__builtin_ctzll(bits);
-                tn_row_set(turned + (trays - j) * words, trays - i);
+                tn_relation_row_set(turned + (trays - j) * words, trays - i);
             }
         }
     }

@@ -52,7 +52,8 @@ static tn_status fall_back(tn_rules *rules, size_t i, const tn_error *why, tn_er
     return TN_OK;
 }
 
-static tn_status lower_rules(tn_rules *rules, tn_lowering *lowering, tn_engine engine, tn_dfa **dfas, tn_error *error)
+static tn_status lower_rules(tn_rules *rules, tn_lowering *lowering, tn_matching_engine engine, tn_dfa **dfas,
+                             tn_error *error)
 {
     for (size_t i = 0; i < rules->count; i++) {
         tn_error why;

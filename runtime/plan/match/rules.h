@@ -10,12 +10,12 @@
 
 #include "runtime/plan/match/match_shuffle.h"
 
-typedef enum tn_engine { TN_ENGINE_AUTO, TN_ENGINE_VM, TN_ENGINE_DFA } tn_engine;
+typedef enum tn_matching_engine { TN_ENGINE_AUTO, TN_ENGINE_VM, TN_ENGINE_DFA } tn_matching_engine;
 
 #define TN_STATES_DEFAULT 20000u
 
 typedef struct tn_rules_options {
-    tn_engine engine;
+    tn_matching_engine engine;
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT */
     size_t max_length;   /* of a plan, for the reference engine; 0: its default */
     bool any;            /* tn_match_any will be asked: makes the automaton of the rules' union where that is small */

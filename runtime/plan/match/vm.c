@@ -291,7 +291,7 @@ tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, s
     const uint64_t *relation = NULL;
     tn_status status = evaluate(vm, function, &relation, error);
     if (status == TN_OK)
-        *in = tn_row_has(relation + begin * vm->words, end);
+        *in = tn_relation_row_has(relation + begin * vm->words, end);
     return status;
 }
 

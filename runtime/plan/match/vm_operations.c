@@ -21,7 +21,7 @@ TN_RELATION_INLINE void run_tray(const tn_plan_vm *vm, uint64_t *relation, uint3
         for (uint32_t w = 0; w < vm->schema->mask_words; w++)
             missing |= bits[w] & ~(uint64_t)mask[w].bits;
         if (!missing)
-            tn_row_set(relation + k * words, k + 1);
+            tn_relation_row_set(relation + k * words, k + 1);
     }
 }
 
@@ -62,7 +62,7 @@ TN_RELATION_INLINE void run_occurrences(tn_plan_vm *vm, uint64_t *relation, uint
     memset(vm->places, 0, (trays + 1) * sizeof *vm->places); /* per end: the starts from i on that first end there */
     for (size_t i = trays + 1; i-- > 0;) {
         uint64_t *row = relation + i * words;
-        size_t end = tn_row_next(row, i + 1, words);
+        size_t end = tn_relation_row_next(row, i + 1, words);
         if (end != TN_NO_BIT)
             vm->places[end]++;
         memset(row, 0, words * sizeof *row);

@@ -3,7 +3,7 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
 #define TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
 
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/analysis/explain.h"
 #include "runtime/plan/picture/draw.h"
 

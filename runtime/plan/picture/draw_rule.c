@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/picture/draw_rule_data.h"
 

@@ -7,9 +7,9 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_RULE_H
 #define TARTAN_PLAN_PICTURE_DRAW_RULE_H
 
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/match/parts.h"
-#include "runtime/plan/picture/draw_parts.h"
+#include "runtime/plan/schema/schema.h"
 
 /* The longest side of a picture, in points (E0820 past it): 200 inches, the most that a PDF page may have. */
 #define TN_DRAW_RULE_SIDE_MAX 14400.0
@@ -25,11 +25,5 @@ tn_drawn_rule tn_drawn_rule_of(const tn_module *module, uint32_t rule); /* a RUL
 /* Draws rules (of the schema) one below the other. Errors as in tn_plans_draw, and as in tn_parts_read. */
 tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, size_t count, tn_picture *to,
                         tn_error *error);
-
-/* ---- tray specifiers (draw_rule_tray.c) */
-
-/* How much room the symbol of a specifier needs. */
-void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
-void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
 
 #endif

@@ -3,6 +3,7 @@
 #define TARTAN_PLAN_PICTURE_DRAW_RULE_DATA_H
 
 #include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/picture/draw_parts.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 #define TN_RULE_SIGN_SIZE 8.0
@@ -52,5 +53,11 @@ void tn_draw_tag(cairo_t *context, const char *name, double x, double y, tn_size
 
 /* Brackets, and that it may be left out. */
 void tn_draw_optional(cairo_t *context, double x, double y, tn_size s);
+
+/* ---- tray specifiers (draw_rule_tray.c) */
+
+/* How much room the symbol of a specifier needs. */
+void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
+void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
 
 #endif

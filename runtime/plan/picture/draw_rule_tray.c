@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/draw/type.h"
-#include "runtime/plan/picture/draw_rule.h"
+#include "runtime/plan/picture/draw_rule_data.h"
 
 #define TRAY_WIDTH 34.0
 #define SPINE_HEIGHT 30.0

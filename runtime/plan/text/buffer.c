@@ -1,3 +1,4 @@
+/* A text that grows as it is appended to. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "runtime/base/file_error.h"
+#include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
 
 #define INPUT_BYTES (size_t)(256u << 10) /* read at a time */
@@ -195,6 +196,12 @@ static tn_status open_text(tn_plan_reader *reader, tn_error *error)
     return TN_OK;
 }
 
+static tn_status open_sqlite(tn_plan_reader *reader, tn_error *error)
+{
+    return reader->sqlite ? reader->sqlite->open_reader(reader, error)
+                          : tn_part_absent(TN_WITH_STORE, "reading a SQLite library", error);
+}
+
 /* Finds the format from the first bytes, where it is not given. */
 static tn_status open_format(tn_plan_reader *reader, tn_error *error)
 {
@@ -211,7 +218,7 @@ static tn_status open_format(tn_plan_reader *reader, tn_error *error)
     if (reader->format == TN_FORMAT_BIN && !bin)
         return refuse_text(reader, "is no file of packed plans", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_SQLITE)
-        return tn_reader_sqlite_open(reader, error);
+        return open_sqlite(reader, error);
     return reader->format == TN_FORMAT_BIN ? tn_reader_bin_open(reader, error) : open_text(reader, error);
 }
 
@@ -240,6 +247,7 @@ tn_status tn_plan_reader_open(const tn_schema *schema, const char *path, const t
     reader->schema = schema;
     reader->file = -1;
     reader->format = given.format;
+    reader->sqlite = given.sqlite;
     reader->max_length = given.max_length > 0 ? given.max_length : LENGTH_DEFAULT;
     reader->max_line = given.max_line > 0 ? given.max_line : LINE_DEFAULT;
     tn_status status = open_reader(reader, path, error);
@@ -255,8 +263,8 @@ void tn_plan_reader_free(tn_plan_reader *reader)
 {
     if (!reader)
         return;
-    sqlite3_finalize(reader->rows);
-    sqlite3_close(reader->database);
+    if (reader->sqlite)
+        reader->sqlite->close_reader(reader);
     if (reader->file > STDIN_FILENO)
         close(reader->file);
     tn_plan_scanner_free(reader->scanner);
@@ -286,7 +294,7 @@ static tn_status next_plan(tn_plan_reader *reader, bool *found, tn_error *error)
     case TN_FORMAT_BIN:
         return tn_reader_bin_next(reader, found, error);
     case TN_FORMAT_SQLITE:
-        return tn_reader_sqlite_next(reader, found, error);
+        return reader->sqlite->next(reader, found, error);
     default:
         return next_text(reader, found, error);
     }

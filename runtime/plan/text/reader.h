@@ -2,8 +2,7 @@
 #ifndef TARTAN_PLAN_TEXT_READER_H
 #define TARTAN_PLAN_TEXT_READER_H
 
-#include <sqlite3.h>
-
+#include "runtime/plan/text/database.h"
 #include "runtime/plan/text/scanner.h"
 #include "runtime/plan/text/stream.h"
 
@@ -33,8 +32,9 @@ struct tn_plan_reader {
 
     unsigned tray_bytes; /* packed */
 
-    sqlite3 *database;
-    sqlite3_stmt *rows;
+    const tn_plan_database *sqlite; /* where it is SQLite that is read */
+    struct sqlite3 *database;
+    struct sqlite3_stmt *rows;
     bool packed; /* the library's packed plans are of this schema */
 };
 
@@ -58,9 +58,6 @@ tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *erro
 
 tn_status tn_reader_bin_open(tn_plan_reader *reader, tn_error *error);
 tn_status tn_reader_bin_next(tn_plan_reader *reader, bool *found, tn_error *error);
-
-tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error);
-tn_status tn_reader_sqlite_next(tn_plan_reader *reader, bool *found, tn_error *error);
 
 /* E0805 for a plan of so many trays. */
 tn_status tn_reader_too_long(const tn_plan_reader *reader, uint64_t length, tn_error *error);

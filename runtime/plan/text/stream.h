@@ -24,10 +24,15 @@ typedef enum tn_plan_format {
 
 typedef struct tn_plan_reader tn_plan_reader;
 
+/* What reads and writes SQLite: tn_plan_sqlite of runtime/plan/store/sqlite.h. NULL: nothing does, and asking for it is
+ * E0907. */
+typedef struct tn_plan_database tn_plan_database;
+
 typedef struct tn_reader_options {
     tn_plan_format format;
     size_t max_length; /* trays of a plan; 0: 4,096. E0805 past it */
     size_t max_line;   /* bytes of a line; 0: 1 MiB. E0605 past it */
+    const tn_plan_database *sqlite;
 } tn_reader_options;
 
 /* Opens a file ("-": standard input, not for SQLite). `options` may be NULL. E0901 where it cannot be read, E0604 where
@@ -98,6 +103,7 @@ typedef struct tn_writer_options {
     tn_plan_metadata metadata;
     bool resume;    /* go on with the SQLite library at the path, if there is one */
     uint32_t batch; /* plans a transaction; 0: 100,000 */
+    const tn_plan_database *sqlite;
 } tn_writer_options;
 
 /* Opens a file to write plans to ("-": standard output, not for SQLite). A SQLite library that is there is replaced, or

@@ -6,6 +6,7 @@
 
 #include "runtime/base/bytes.h"
 #include "runtime/base/file_error.h"
+#include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
 
 #define BATCH_DEFAULT 100000u
@@ -147,8 +148,10 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
     }
     if (!make_tray_texts(writer))
         return tn_fail_memory(error);
-    return writer->format == TN_FORMAT_SQLITE ? tn_writer_sqlite_open(writer, options, error)
-                                              : open_file(writer, options, error);
+    if (writer->format != TN_FORMAT_SQLITE)
+        return open_file(writer, options, error);
+    return writer->sqlite ? writer->sqlite->open_writer(writer, options, error)
+                          : tn_part_absent(TN_WITH_STORE, "writing a SQLite library", error);
 }
 
 tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const tn_writer_options *options,
@@ -160,6 +163,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->sqlite = options->sqlite;
     writer->length_field = tn_schema_length_field(schema);
     if (writer->length_field != UINT32_MAX)
         writer->total_style = tn_length_style_of(
@@ -245,7 +249,7 @@ static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn
                               tn_error *error)
 {
     if (writer->format == TN_FORMAT_SQLITE)
-        return tn_writer_sqlite_write(writer, rank, trays, length, error);
+        return writer->sqlite->write(writer, rank, trays, length, error);
     return append_plan(writer, rank, trays, length) ? flush_text(writer, error) : tn_fail_memory(error);
 }
 
@@ -281,7 +285,7 @@ tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
 {
     writer->closed = true;
     if (writer->format == TN_FORMAT_SQLITE)
-        return tn_writer_sqlite_close(writer, error);
+        return writer->sqlite->close_writer(writer, error);
     return tn_output_commit(&writer->output, error);
 }
 
@@ -291,8 +295,8 @@ void tn_plan_writer_free(tn_plan_writer *writer)
         return;
     if (!writer->closed && writer->output.stream)
         tn_output_discard(&writer->output);
-    tn_writer_sqlite_finalize(writer);
-    sqlite3_close(writer->database); /* rolls back the batch in hand */
+    if (writer->sqlite)
+        writer->sqlite->free_writer(writer);
     free(writer->text.data);
     free(writer->packed.data);
     free(writer->last_rank.data);

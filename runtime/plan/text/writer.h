@@ -2,11 +2,9 @@
 #ifndef TARTAN_PLAN_TEXT_WRITER_H
 #define TARTAN_PLAN_TEXT_WRITER_H
 
-#include <sqlite3.h>
-
 #include "runtime/base/file.h"
 #include "runtime/base/length_style.h"
-#include "runtime/plan/text/stream.h"
+#include "runtime/plan/text/database.h"
 
 /* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
 #define TN_LIBRARY_APPLICATION_ID 0x54415254
@@ -44,8 +42,9 @@ struct tn_plan_writer {
     size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
     tn_buffer packed;
 
-    sqlite3 *database;
-    sqlite3_stmt *insert_one, *insert_waiting; /* one plan, TN_WAITING_MAX of them */
+    const tn_plan_database *sqlite; /* where it is SQLite that is written */
+    struct sqlite3 *database;
+    struct sqlite3_stmt *insert_one, *insert_waiting; /* one plan, TN_WAITING_MAX of them */
     tn_waiting_plan waiting[TN_WAITING_MAX];
     size_t waiting_count;
     uint32_t batch, in_batch;
@@ -66,11 +65,5 @@ bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t l
 
 /* The plan's lengths added up, in nanometres. */
 int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length);
-
-tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error);
-tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
-                                 tn_error *error);
-tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error);
-void tn_writer_sqlite_finalize(tn_plan_writer *writer);
 
 #endif

@@ -129,7 +129,7 @@ static void test_resolved_source(void **state)
 
 /* ---- running */
 
-static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits)
+static tn_status match(const tn_module *module, tn_matching_engine engine, uint64_t *bits)
 {
     static const tn_tray trays[] = {0, 5, 9, 3};
     tn_schema *schema = NULL;
@@ -155,7 +155,7 @@ static tn_status match(const tn_module *module, tn_engine engine, uint64_t *bits
     return status;
 }
 
-static void match_with_failures(tn_engine engine)
+static void match_with_failures(tn_matching_engine engine)
 {
     tn_compilation compilation;
     tn_module *module;

@@ -17,6 +17,7 @@
 #include "runtime/growth/model/turtle.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
+#include "runtime/mesh/openmesh.h"
 #include "runtime/module/builder.h"
 #include "tests/support/compile_file.h"
 #include "tests/support/test_system.h"
@@ -330,7 +331,7 @@ static void grow_both_ways(const tn_module *module, uint32_t steps)
     tn_study study;
     tn_error error;
     assert_int_equal(tn_growth_system_read(module, &system, &error), TN_OK);
-    assert_int_equal(tn_study_read(module, "t.study", &study, &error), TN_OK);
+    assert_int_equal(tn_study_read(module, "t.study", tn_openmesh_read, &study, &error), TN_OK);
     tn_growth *growths[2];
     study.options.edge_limit = 400;
     study.options.threads = 1;

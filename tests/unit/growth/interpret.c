@@ -13,6 +13,7 @@
 #include "runtime/growth/growth.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
+#include "runtime/mesh/openmesh.h"
 #include "tests/support/compile_file.h"
 #include "tests/support/test_system.h"
 
@@ -44,7 +45,7 @@ static void plant(pair *p, const char *path, const char *text)
     if (status == TN_OK)
         status = tn_growth_system_read(p->module, &p->system, &error);
     if (status == TN_OK)
-        status = tn_study_read(p->module, path, &p->study, &error);
+        status = tn_study_read(p->module, path, tn_openmesh_read, &p->study, &error);
     if (status != TN_OK)
         fail_msg("%s\n%s", error.message, text);
 }

@@ -1,4 +1,6 @@
 /* Derivation trees as pictures. */
+#include "runtime/genome/picture/tree_draw.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +8,6 @@
 
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
-#include "runtime/genome/mapping/tree.h"
 
 /* In points. */
 #define MARGIN 24.0

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include <cmocka.h>
-#include <omp.h>
 
+#include "runtime/base/share.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/library/diff.h"
 #include "runtime/plan/match/rules.h"
@@ -187,7 +187,7 @@ static void memory_runs_out(void **state)
 
 int main(void)
 {
-    omp_set_num_threads(1); /* allocations are numbered */
+    tn_threads_limit(1); /* allocations are numbered */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(comparing_runs_out_of_memory),

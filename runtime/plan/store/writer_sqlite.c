@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "runtime/base/file_error.h"
+#include "runtime/plan/store/sqlite_data.h"
 #include "runtime/plan/text/pack.h"
-#include "runtime/plan/text/writer.h"
 
 #define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
 
@@ -311,6 +311,13 @@ tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const
     return run(writer, "COMMIT", error);
 }
 
+static void finalize(tn_plan_writer *writer)
+{
+    sqlite3_finalize(writer->insert_one);
+    sqlite3_finalize(writer->insert_waiting);
+    writer->insert_one = writer->insert_waiting = NULL;
+}
+
 tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
 {
     tn_status status = writer->in_batch > 0 ? flush(writer, error) : run(writer, "BEGIN IMMEDIATE", error);
@@ -321,7 +328,7 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
         status = set_metadata(writer, "complete", "1", error);
     if (status == TN_OK)
         status = run(writer, "COMMIT", error);
-    tn_writer_sqlite_finalize(writer);
+    finalize(writer);
     if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
         return failed(writer, error);
     if (status == TN_OK)
@@ -329,9 +336,8 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
     return status;
 }
 
-void tn_writer_sqlite_finalize(tn_plan_writer *writer)
+void tn_writer_sqlite_free(tn_plan_writer *writer)
 {
-    sqlite3_finalize(writer->insert_one);
-    sqlite3_finalize(writer->insert_waiting);
-    writer->insert_one = writer->insert_waiting = NULL;
+    finalize(writer);
+    sqlite3_close(writer->database);
 }

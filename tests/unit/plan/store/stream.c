@@ -9,6 +9,7 @@
 #include <cmocka.h>
 #include <sqlite3.h>
 
+#include "runtime/plan/store/sqlite.h"
 #include "runtime/plan/text/reader.h"
 #include "runtime/plan/text/stream.h"
 #include "tests/support/test_rule.h"
@@ -80,13 +81,29 @@ static const tn_writer_options sqlite_options = {.format = TN_FORMAT_SQLITE,
                                                               .command = "enumerate"},
                                                  .batch = 100};
 
+static tn_status open_reader(const tn_schema *schema, const char *path, const tn_reader_options *given,
+                             tn_plan_reader **reader, tn_error *error)
+{
+    tn_reader_options options = given ? *given : (tn_reader_options){0};
+    options.sqlite = tn_plan_sqlite();
+    return tn_plan_reader_open(schema, path, &options, reader, error);
+}
+
+static tn_status open_writer(const tn_schema *schema, const char *path, const tn_writer_options *given,
+                             tn_plan_writer **writer, tn_error *error)
+{
+    tn_writer_options options = *given;
+    options.sqlite = tn_plan_sqlite();
+    return tn_plan_writer_open(schema, path, &options, writer, error);
+}
+
 static void write_plans(const tn_schema *schema, const char *path, const tn_writer_options *options, uint32_t count)
 {
     tn_plan_writer *writer = NULL;
     tn_error error;
     mpz_t rank;
     mpz_init(rank);
-    test_ok(tn_plan_writer_open(schema, path, options, &writer, &error), &error);
+    test_ok(open_writer(schema, path, options, &writer, &error), &error);
     for (uint32_t n = 0; n < count; n++) {
         tn_tray trays[8];
         uint32_t length = plan_of(schema, n, trays, rank);
@@ -104,7 +121,7 @@ static void expect_plans(const tn_schema *schema, const char *path, tn_plan_form
     tn_error error;
     mpz_t rank, found;
     mpz_inits(rank, found, NULL);
-    test_ok(tn_plan_reader_open(schema, path, NULL, &reader, &error), &error);
+    test_ok(open_reader(schema, path, NULL, &reader, &error), &error);
     assert_int_equal(reader->format, format);
     for (uint32_t n = 0; n < count; n++) {
         tn_tray trays[8];
@@ -165,7 +182,7 @@ static void expect_stream(const fixture *f, const char *text, size_t size, const
     tn_plan_reader *reader = NULL;
     tn_error error;
     const tn_plan *plan;
-    test_ok(tn_plan_reader_open(f->schema, path, options, &reader, &error), &error);
+    test_ok(open_reader(f->schema, path, options, &reader, &error), &error);
     assert_int_equal(reader->format, format);
     for (size_t i = 0; i < count; i++) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
@@ -241,7 +258,7 @@ static void test_long_file(void **state)
     tn_error error;
     const tn_plan *plan;
     int bad = 0, good = 0;
-    test_ok(tn_plan_reader_open(f->schema, path, NULL, &reader, &error), &error);
+    test_ok(open_reader(f->schema, path, NULL, &reader, &error), &error);
     for (;;) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
         if (status == TN_OK && !plan)
@@ -266,8 +283,7 @@ static void refuse(const fixture *f, const tn_schema *schema, const char *name, 
     path_of(f, name, path);
     tn_plan_reader *reader = NULL;
     tn_error error;
-    assert_int_not_equal(tn_plan_reader_open(schema, path, &(tn_reader_options){.format = format}, &reader, &error),
-                         TN_OK);
+    assert_int_not_equal(open_reader(schema, path, &(tn_reader_options){.format = format}, &reader, &error), TN_OK);
     assert_null(reader);
     assert_int_equal(error.code, code);
 }
@@ -319,7 +335,7 @@ static void test_damaged_bin(void **state)
         tn_error error;
         const tn_plan *plan = NULL;
         size_t plans = 0;
-        if (tn_plan_reader_open(f->schema, path, NULL, &reader, &error) == TN_OK) {
+        if (open_reader(f->schema, path, NULL, &reader, &error) == TN_OK) {
             tn_status status;
             do {
                 status = tn_plan_reader_next(reader, &plan, &error);
@@ -389,7 +405,7 @@ static uint64_t go_on(const fixture *f, const char *path, uint32_t count, bool d
     tn_error error;
     mpz_t rank, last;
     mpz_inits(rank, last, NULL);
-    test_ok(tn_plan_writer_open(f->schema, path, &options, &writer, &error), &error);
+    test_ok(open_writer(f->schema, path, &options, &writer, &error), &error);
     uint64_t resumed = tn_plan_writer_resumed(writer, last);
     for (uint32_t n = 0; n < count; n++) {
         tn_tray trays[8];
@@ -437,7 +453,7 @@ static void refuse_writer(const fixture *f, const tn_schema *schema, const char 
     path_of(f, name, path);
     tn_plan_writer *writer = NULL;
     tn_error error;
-    assert_int_not_equal(tn_plan_writer_open(schema, path, options, &writer, &error), TN_OK);
+    assert_int_not_equal(open_writer(schema, path, options, &writer, &error), TN_OK);
     assert_null(writer);
     assert_int_equal(error.code, code);
 }
@@ -490,7 +506,7 @@ static void test_given_up(void **state)
     tn_error error;
     mpz_t rank;
     mpz_init(rank);
-    test_ok(tn_plan_writer_open(f->schema, path, &options, &writer, &error), &error);
+    test_ok(open_writer(f->schema, path, &options, &writer, &error), &error);
     const tn_tray trays[] = {1, 2};
     test_ok(tn_plan_writer_write(writer, rank, trays, 2, &error), &error);
     tn_plan_writer_free(writer);

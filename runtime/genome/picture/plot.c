@@ -1,9 +1,10 @@
 /* The best and the mean score over the generations, drawn. */
+#include "runtime/genome/picture/plot.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "driver/breed/evolve.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 
@@ -183,8 +184,8 @@ static void draw_title(cairo_t *t, const char *title)
     tn_type_line(t, LEFT, 38, TN_ALIGN_LEFT, "score: lower is better");
 }
 
-tn_status tn_run_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
-                      tn_error *error)
+tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
+                        tn_error *error)
 {
     tn_canvas_format format;
     tn_canvas *canvas = NULL;

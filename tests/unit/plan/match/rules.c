@@ -42,7 +42,7 @@ static void set_clear(test_set *set)
     tn_module_free(set->module);
 }
 
-static tn_rules *compile(const test_set *set, tn_engine engine, uint32_t max_states)
+static tn_rules *compile(const test_set *set, tn_matching_engine engine, uint32_t max_states)
 {
     tn_rules_options options = {.engine = engine, .max_states = max_states};
     tn_rules *rules = NULL;

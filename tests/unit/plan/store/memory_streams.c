@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "runtime/plan/match/vm.h"
+#include "runtime/plan/store/sqlite.h"
 #include "runtime/plan/text/stream.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_rule.h"
@@ -74,7 +75,10 @@ static tn_status match(const context *c, tn_error *error)
 static tn_status write_plans(const context *c, tn_error *error)
 {
     tn_plan_writer *writer = NULL;
-    tn_writer_options options = {.format = c->format, .metadata = {.library = "houses", .command = "all"}, .batch = 5};
+    tn_writer_options options = {.format = c->format,
+                                 .metadata = {.library = "houses", .command = "all"},
+                                 .batch = 5,
+                                 .sqlite = tn_plan_sqlite()};
     mpz_t rank;
     mpz_init(rank);
     tn_status status = tn_plan_writer_open(c->schema, c->path, &options, &writer, error);
@@ -93,7 +97,8 @@ static tn_status write_plans(const context *c, tn_error *error)
 static tn_status read_plans(const context *c, tn_error *error)
 {
     tn_plan_reader *reader = NULL;
-    tn_status status = tn_plan_reader_open(c->schema, c->path, NULL, &reader, error);
+    tn_status status =
+        tn_plan_reader_open(c->schema, c->path, &(tn_reader_options){.sqlite = tn_plan_sqlite()}, &reader, error);
     const tn_plan *plan = NULL;
     size_t plans = 0;
     while (status == TN_OK && (status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan)
@@ -109,7 +114,8 @@ static tn_status read_stretches(const context *c, tn_error *error)
 {
     tn_plan_reader *reader = NULL;
     tn_plan_lines *lines = NULL;
-    tn_status status = tn_plan_reader_open(c->schema, c->path, NULL, &reader, error);
+    tn_status status =
+        tn_plan_reader_open(c->schema, c->path, &(tn_reader_options){.sqlite = tn_plan_sqlite()}, &reader, error);
     if (status == TN_OK)
         status = tn_plan_lines_new(reader, &lines, error);
     uint64_t total = status == TN_OK ? tn_plan_reader_share(reader) : 0, count;

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "runtime/plan/store/sqlite_data.h"
 #include "runtime/plan/text/pack.h"
-#include "runtime/plan/text/reader.h"
 
 static tn_status failed(const tn_plan_reader *reader, tn_error *error)
 {
@@ -98,4 +98,10 @@ tn_status tn_reader_sqlite_next(tn_plan_reader *reader, bool *found, tn_error *e
     const char *plan = (const char *)sqlite3_column_text(reader->rows, 1);
     return tn_plan_scan_line(reader->scanner, plan ? plan : "", (size_t)sqlite3_column_bytes(reader->rows, 1),
                              reader->max_length, &reader->plan, error);
+}
+
+void tn_reader_sqlite_close(tn_plan_reader *reader)
+{
+    sqlite3_finalize(reader->rows);
+    sqlite3_close(reader->database);
 }
