@@ -128,8 +128,10 @@ static tartan_status compile(const char *path, const char *text, size_t size, ta
     tn_diagnostics_init(&compilation.diagnostics, &compilation.sources);
     tn_status compiled = options->resolve ? tn_compile_text(notation, &input, &own, &compilation)
                                           : compile_with_files(notation, &input, options, &compilation);
-    if (compiled == TN_MEMORY && !compilation.arena)
+    if (compiled == TN_MEMORY && !compilation.arena) {
+        tn_compilation_clear(&compilation);
         return tn_api_memory(error);
+    }
     show_all(&compilation, options->report, options->report_context);
     tartan_status status =
         compiled == TN_OK ? load(&compilation, module, error) : failed(&compilation.diagnostics, compiled, error);
