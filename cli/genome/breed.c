@@ -7,6 +7,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
 #include "driver/breed/evolve_sheet.h"
+#include "runtime/base/array.h"
 
 #define TURNS_MAX 100u /* how often one individual may be chosen at once: N*100 */
 
@@ -18,14 +19,8 @@ typedef struct choice {
 static bool add(choice *c, uint64_t place, uint64_t times)
 {
     for (uint64_t i = 0; i < times; i++) {
-        if (c->count == c->capacity) {
-            size_t capacity = c->capacity ? c->capacity * 2 : 16;
-            uint32_t *grown = realloc(c->places, capacity * sizeof *grown);
-            if (!grown)
-                return false;
-            c->places = grown;
-            c->capacity = capacity;
-        }
+        if (!tn_array_reserve(&c->places, &c->capacity, c->count, 1, sizeof *c->places))
+            return false;
         c->places[c->count++] = (uint32_t)(place - 1);
     }
     return true;

@@ -7,6 +7,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/growth/grow.h"
+#include "runtime/base/array.h"
 #include "runtime/growth/faults.h"
 #include "runtime/mesh/openmesh.h"
 
@@ -59,23 +60,8 @@ static char *step_path(const char *path, uint32_t step)
 
 static bool make_room(run_state *run)
 {
-    if (run->stats_count == run->stats_room) {
-        size_t room = 2 * run->stats_room + 16;
-        tn_stats *grown = realloc(run->stats, room * sizeof *grown);
-        if (!grown)
-            return false;
-        run->stats = grown;
-        run->stats_room = room;
-    }
-    if (run->view_count == run->view_room) {
-        size_t room = 2 * run->view_room + 16;
-        tn_view **grown = realloc(run->views, room * sizeof *grown);
-        if (!grown)
-            return false;
-        run->views = grown;
-        run->view_room = room;
-    }
-    return true;
+    return tn_array_reserve_from(&run->stats, &run->stats_room, 16, run->stats_count, 1, sizeof *run->stats) &&
+           tn_array_reserve_from(&run->views, &run->view_room, 16, run->view_count, 1, sizeof *run->views);
 }
 
 static void note_fault(const tn_fault *found, uint32_t step, tn_fault *kept, uint32_t steps[2])

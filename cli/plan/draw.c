@@ -7,6 +7,7 @@
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
 #include "driver/open/digits.h"
+#include "runtime/base/array.h"
 #include "runtime/base/picture.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
@@ -33,15 +34,9 @@ static size_t max_plans(const tn_settings *settings)
 /* Takes over `number`; the trays are copied. */
 static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *number, tn_error *error)
 {
-    if (s->count == s->room) {
-        size_t room = s->room ? s->room * 2 : 64;
-        tn_drawn_plan *plans = realloc(s->plans, sizeof *plans * room);
-        if (!plans) {
-            free(number);
-            return tn_fail_memory(error);
-        }
-        s->plans = plans;
-        s->room = room;
+    if (!tn_array_reserve(&s->plans, &s->room, s->count, 1, sizeof *s->plans)) {
+        free(number);
+        return tn_fail_memory(error);
     }
     tn_tray *copy = malloc(sizeof *copy * (length + 1));
     if (!copy || !number) {

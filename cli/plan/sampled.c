@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
+
 static bool out_of_memory(tn_job *job)
 {
     tn_error error;
@@ -15,12 +17,10 @@ static bool grow(tn_sampled *sampled, size_t more)
     if (sampled->room - sampled->count >= more && sampled->ranks)
         return true;
     size_t room = sampled->count + more;
-    mpz_t *ranks = realloc(sampled->ranks, sizeof *ranks * (room + 1));
-    if (!ranks)
+    if (!tn_array_resize(&sampled->ranks, room, sizeof *sampled->ranks))
         return false;
-    sampled->ranks = ranks;
     for (size_t i = sampled->room; i < room; i++)
-        mpz_init(ranks[i]);
+        mpz_init(sampled->ranks[i]);
     sampled->room = room;
     return true;
 }

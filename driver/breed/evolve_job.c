@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "driver/breed/evolve.h"
+#include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
 
@@ -216,13 +217,8 @@ static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size
         size_t length = end ? (size_t)(end - text) - at : size - at;
         line++;
         if (length && text[at] != '#' && job->seed_count < job->settings.population) {
-            if (job->seed_count == capacity) {
-                capacity = capacity ? capacity * 2 : 16;
-                tn_genome *grown = realloc(job->seeds, capacity * sizeof *grown);
-                if (!grown)
-                    return tn_fail_memory(error);
-                job->seeds = grown;
-            }
+            if (!tn_array_reserve_from(&job->seeds, &capacity, 16, job->seed_count, 1, sizeof *job->seeds))
+                return tn_fail_memory(error);
             job->seeds[job->seed_count] = (tn_genome){0};
             tn_status status = tn_genome_read(text + at, length, &job->seeds[job->seed_count++], error);
             if (status != TN_OK) {

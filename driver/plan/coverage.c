@@ -5,6 +5,7 @@
 
 #include "compiler/plan/program.h"
 #include "driver/plan/library.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/analysis/coverage.h"
 #include "runtime/plan/match/parts.h"
 
@@ -212,14 +213,8 @@ typedef struct subject {
 
 static tn_covered_part *add_part(tn_covered *covered)
 {
-    if (covered->count == covered->capacity) {
-        size_t capacity = covered->capacity * 2 + 64;
-        tn_covered_part *larger = realloc(covered->parts, capacity * sizeof *larger);
-        if (!larger)
-            return NULL;
-        covered->parts = larger;
-        covered->capacity = capacity;
-    }
+    if (!tn_array_reserve(&covered->parts, &covered->capacity, covered->count, 1, sizeof *covered->parts))
+        return NULL;
     tn_covered_part *part = &covered->parts[covered->count++];
     *part = (tn_covered_part){0};
     mpz_init(part->flips);

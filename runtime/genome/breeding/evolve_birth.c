@@ -3,6 +3,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
 #include "runtime/genome/breeding/evolve_state.h"
 
 void tn_evolution_take_places(tn_evolution *e, size_t count)
@@ -20,14 +21,8 @@ void tn_evolution_take_places(tn_evolution *e, size_t count)
 
 static bool keep_sentence(tn_individual *individual, const char *text, size_t size)
 {
-    if (size + 1 > individual->sentence_capacity) {
-        size_t capacity = (size + 1) * 2;
-        char *memory = realloc(individual->sentence, capacity);
-        if (!memory)
-            return false;
-        individual->sentence = memory;
-        individual->sentence_capacity = capacity;
-    }
+    if (!tn_array_reserve(&individual->sentence, &individual->sentence_capacity, 0, size + 1, 1))
+        return false;
     memcpy(individual->sentence, text, size);
     individual->sentence[size] = '\0';
     individual->sentence_size = size;

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define ATTEMPTS 8 /* at finding subtrees that can change places */
 
 struct tn_breeder {
@@ -139,13 +141,8 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
     *valid = mapping.valid;
     if (!mapping.valid)
         return TN_OK;
-    if (mapping.event_count > b->event_capacity[which]) {
-        tn_event *events = realloc(b->events[which], mapping.event_count * sizeof *events);
-        if (!events)
-            return tn_fail_memory(error);
-        b->events[which] = events;
-        b->event_capacity[which] = mapping.event_count;
-    }
+    if (!tn_array_reserve(&b->events[which], &b->event_capacity[which], 0, mapping.event_count, sizeof *mapping.events))
+        return tn_fail_memory(error);
     memcpy(b->events[which], mapping.events, mapping.event_count * sizeof *mapping.events);
     if (!tn_spans_find(&mapping, &b->spans[which]) ||
         !tn_genome_straighten(genome->codons, genome->count, &mapping, &b->straight[which]))

@@ -1,6 +1,8 @@
 /* Maps a genome through a grammar: turns codons into a sentence. */
 #include "runtime/genome/mapping/mapper_state.h"
 
+#include <stdlib.h>
+
 #define FIRST_IDS 2u /* edge types that there are to begin with: Edge0 and Edge1 (5.2) */
 
 tn_map_options tn_map_options_of(const tn_grammar *grammar)

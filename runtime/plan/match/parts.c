@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 
 /* Code is in postfix order: a part is made when its last instruction is read, of the parts on the stack. A child so has
@@ -11,7 +12,8 @@ typedef struct reading {
     tn_parts *parts;
     const tn_module *module;
     uint32_t *stack; /* of the function at hand */
-    uint32_t depth, capacity;
+    uint32_t depth;
+    size_t capacity;
     unsigned nesting; /* of functions */
     tn_error *error;
 } reading;
@@ -37,22 +39,9 @@ uint32_t tn_function_rule(const tn_module *module, uint32_t function)
 static tn_status push(reading *r, tn_part part)
 {
     tn_parts *parts = r->parts;
-    if (parts->count == parts->capacity) {
-        uint32_t capacity = parts->capacity * 2 + 32;
-        tn_part *larger = realloc(parts->parts, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        parts->parts = larger;
-        parts->capacity = capacity;
-    }
-    if (r->depth == r->capacity) {
-        uint32_t capacity = r->capacity * 2 + 32;
-        uint32_t *larger = realloc(r->stack, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        r->stack = larger;
-        r->capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&parts->parts, &parts->capacity, 32, parts->count, 1, sizeof *parts->parts) ||
+        !tn_array_reserve_from(&r->stack, &r->capacity, 32, r->depth, 1, sizeof *r->stack))
+        return tn_fail_memory(r->error);
     parts->parts[parts->count] = part;
     r->stack[r->depth++] = parts->count++;
     return TN_OK;
