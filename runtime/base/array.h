@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h> /* free, which is the caller's part */
 
 enum { TN_ARRAY_FIRST = 64 }; /* items that an array begins with */
 
