@@ -102,9 +102,10 @@ static void breed(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run(settings, breed);
+    return tn_evolution_session_run((const tn_session_settings *)settings, breed);
 }
 
+#define SETTINGS tn_session_settings
 static const tn_option options[] = {
     OPTIONS_RUN("how many generations to breed at most, instead of the study's number")};
 
@@ -120,6 +121,7 @@ const tn_command tn_command_breed = {
     .example = "$ tartan breed garden.study -o garden.run",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,
