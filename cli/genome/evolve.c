@@ -56,7 +56,7 @@ static void evolve(tn_evolution_session *e)
 
 static const char *why_no_score(const tn_individual *individual)
 {
-    return individual->reason != TN_MAP_VALID ? tn_map_reason_text(individual->reason) : individual->message;
+    return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
 }
 
 static void summarise(const tn_evolution_session *e, FILE *out)

@@ -37,7 +37,7 @@ typedef struct mapping_run {
     tn_job *job;
     tn_grammar *grammar;
     tn_mapper *mapper;
-    tn_map_options options;
+    tn_mapping_options options;
     tn_genome genome;
     FILE *out;
     uint64_t done; /* genomes mapped */
@@ -80,7 +80,7 @@ static void write_json_repair(FILE *out, const tn_mapping *m)
 static void write_json(const mapping_run *run, const tn_mapping *m)
 {
     fprintf(run->out, "{\"valid\":%s,\"reason\":", m->valid ? "true" : "false");
-    tn_write_json(run->out, m->valid ? NULL : tn_map_reason_text(m->reason));
+    tn_write_json(run->out, m->valid ? NULL : tn_mapping_reason_text(m->reason));
     fputs(",\"phenotype\":", run->out);
     tn_write_json(run->out, m->has_phenotype ? m->phenotype : NULL);
     write_number(run->out, "used_codons", m->has_phenotype, m->used);
@@ -99,7 +99,7 @@ static void write_text(const mapping_run *run, const tn_mapping *m)
         fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %u", m->used, m->wraps,
                 m->nodes, m->depth);
     if (!m->valid)
-        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_map_reason_text(m->reason));
+        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_mapping_reason_text(m->reason));
     if (m->repaired_count)
         fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", m->repaired_count,
                 m->repaired_used - m->used);
@@ -131,7 +131,8 @@ static void map_genome(mapping_run *run)
     const map_settings *settings = settings_of(run->job);
     tn_mapping mapping;
     tn_error error;
-    if (tn_map_genome(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) != TN_OK) {
+    if (tn_mapper_derive(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) !=
+        TN_OK) {
         fail(run, &error);
         return;
     }
@@ -303,7 +304,7 @@ static bool prepare(mapping_run *run)
         fail(run, &error);
         return false;
     }
-    run->options = tn_map_options_of(run->grammar);
+    run->options = tn_mapping_options_of(run->grammar);
     if (settings->wraps.given)
         run->options.wraps = (uint32_t)settings->wraps.value;
     if (settings->max_depth.given)

@@ -78,7 +78,7 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
     out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
-    out->mapping = tn_map_options_of(grammar);
+    out->mapping = tn_mapping_options_of(grammar);
     if (s->of[TN_SET_MAX_DEPTH].written)
         out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
     if (s->of[TN_SET_WRAPS].written)

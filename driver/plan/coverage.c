@@ -188,12 +188,12 @@ static tn_status tests_notice(const measuring *m, bool *notice, tn_error *error)
 /* The same part in the other judgement of the rule, and what else was compiled from that place: their instructions. */
 static size_t find_offsets(const tn_parts *trees, const tn_part *part, uint32_t *offsets)
 {
-    const tn_map_record *place = tn_module_place(trees[0].module, part->root);
+    const tn_source_map_record *place = tn_module_place(trees[0].module, part->root);
     size_t count = 0;
     for (int t = 0; t < 2; t++)
         for (uint32_t i = 0; i < trees[t].count; i++) {
             const tn_part *other = &trees[t].parts[i];
-            const tn_map_record *its = tn_module_place(trees[t].module, other->root);
+            const tn_source_map_record *its = tn_module_place(trees[t].module, other->root);
             bool same =
                 other->root == part->root || (place && its && other->kind == part->kind && place->file == its->file &&
                                               place->begin == its->begin && place->end == its->end);

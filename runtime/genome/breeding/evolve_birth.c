@@ -1,4 +1,4 @@
-/* Being born: first genomes, children of pairs, and the sentences that they map to. */
+/* Being born: first genomes, children of pairs, and their sentences. */
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -32,8 +32,8 @@ static bool keep_sentence(tn_individual *individual, const char *text, size_t si
 static tn_status map_individual(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
 {
     tn_mapping mapping;
-    tn_status status = tn_map_genome(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons,
-                                     individual->genome.count, &e->settings.mapping, &mapping, error);
+    tn_status status = tn_mapper_derive(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons,
+                                        individual->genome.count, &e->settings.mapping, &mapping, error);
     if (status != TN_OK)
         return status;
     size_t size = 0;

@@ -97,7 +97,7 @@ static void extend(tn_part *part, uint32_t offset, uint32_t length)
 /* Do two instructions come from the same stretch of a source (or is nothing known of them)? */
 static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
 {
-    const tn_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
+    const tn_source_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
@@ -402,7 +402,7 @@ static void balance(const char *source, size_t length, size_t *begin, size_t *en
 void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
 {
     const tn_module *module = parts->module;
-    const tn_map_record *map = tn_module_place(module, parts->parts[part].root);
+    const tn_source_map_record *map = tn_module_place(module, parts->parts[part].root);
     if (map && map->file < module->SOURCE_count) {
         const char *source = tn_text(module, module->SOURCE_records[map->file].text);
         size_t length = strlen(source);
