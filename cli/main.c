@@ -89,18 +89,19 @@ static int completion(const char *name)
 
 static int run(const tn_command *command, int count, char **words)
 {
-    tn_settings settings = {0};
+    tn_settings *settings = tn_settings_new(command);
     tn_error error;
     int exit_code;
-    if (tn_options_parse(command, count, words, &settings, &error) != TN_OK) {
-        settings.diagnostics = tn_options_diagnostics(count, words);
-        exit_code = refuse(&settings, &error);
-    } else if (settings.help) {
+    tn_status status = settings ? tn_options_parse(command, count, words, settings, &error) : tn_fail_memory(&error);
+    if (status != TN_OK) {
+        const tn_settings common = {.diagnostics = tn_options_diagnostics(count, words)};
+        exit_code = refuse(&common, &error);
+    } else if (settings->help) {
         exit_code = help(command->name, false);
     } else {
-        exit_code = command->run(command, &settings);
+        exit_code = command->run(command, settings);
     }
-    tn_settings_clear(&settings);
+    tn_settings_free(command, settings);
     return exit_code;
 }
 

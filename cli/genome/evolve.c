@@ -56,7 +56,7 @@ static void evolve(tn_evolution_session *e)
 
 static const char *why_no_score(const tn_individual *individual)
 {
-    return individual->reason != TN_MAP_VALID ? tn_map_reason_text(individual->reason) : individual->message;
+    return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
 }
 
 static void summarise(const tn_evolution_session *e, FILE *out)
@@ -91,9 +91,10 @@ static void evolve_and_tell(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run(settings, evolve_and_tell);
+    return tn_evolution_session_run((const tn_session_settings *)settings, evolve_and_tell);
 }
 
+#define SETTINGS tn_session_settings
 static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number")};
 
 const tn_command tn_command_evolve = {
@@ -114,6 +115,7 @@ const tn_command tn_command_evolve = {
     .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

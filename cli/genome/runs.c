@@ -8,6 +8,11 @@
 #include "cli/common/option_rows.h"
 #include "driver/breed/evolve.h"
 
+typedef struct runs_settings {
+    tn_settings common;
+    const char *output;
+} runs_settings;
+
 /* What a run's database says of it. */
 typedef struct record {
     tn_generation_stats *stats;
@@ -127,14 +132,15 @@ static void replay(tn_job *job, const char *dir, const char *id_text, FILE *out)
     tn_close(&opened);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const runs_settings *settings = (const runs_settings *)common;
     tn_job job;
     tn_output output;
-    const tn_option_list *words = &settings->operands;
+    const tn_option_list *words = &common->operands;
     const char *what = words->items[0];
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0,
          replays = strcmp(what, "replay") == 0;
     if (!shows && !compares && !replays) {
@@ -162,6 +168,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS runs_settings
 static const tn_option options[] = {OPTION_OUTPUT};
 
 const tn_command tn_command_runs = {
@@ -175,6 +182,7 @@ const tn_command tn_command_runs = {
     .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "show, compare or replay, and a run's folder",
     .operands_min = 2,
     .operands_max = SIZE_MAX,

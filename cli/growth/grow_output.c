@@ -30,7 +30,7 @@ static bool check_use(tn_job *job, tn_grow_format format)
         [TN_GROW_PNG] = PICTURE,
         [TN_GROW_PDF] = PICTURE,
     };
-    const tn_settings *s = job->settings;
+    const tn_grow_settings *s = tn_grow_settings_of(job);
     const struct {
         bool given;
         unsigned needs;
@@ -52,7 +52,7 @@ static bool check_use(tn_job *job, tn_grow_format format)
         {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
         {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
         {s->each_step, PICTURE | MESH, "each-step", "name one with -o"},
-        {s->mesh_format != 0, PICTURE | MESH, "format", "name one with -o"},
+        {s->format != 0, PICTURE | MESH, "format", "name one with -o"},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
         if (!uses[i].given || (can[format] & uses[i].needs))
@@ -76,9 +76,9 @@ bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
 {
     static const char *const words[TN_GROW_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
                                                             "glb", "dxf", "svg", "png", "pdf"};
-    const tn_settings *settings = job->settings;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
     const char *path = settings->output, *dot = path ? strrchr(path, '.') : NULL;
-    *format = (tn_grow_format)settings->mesh_format;
+    *format = (tn_grow_format)settings->format;
     if (!path)
         return check_use(job, TN_GROW_NONE);
     for (int f = TN_GROW_OBJ; *format == TN_GROW_NONE && dot && f < TN_GROW_FORMAT_COUNT; f++)
@@ -103,7 +103,7 @@ bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
     return true;
 }
 
-tn_camera tn_grow_camera(const tn_settings *settings)
+tn_camera tn_grow_camera(const tn_grow_settings *settings)
 {
     tn_camera camera = tn_camera_default();
     if (settings->azimuth.given)
@@ -127,7 +127,7 @@ static void describe(const tn_job *job, const tn_growth *growth, char *text, siz
 
 /* ---- meshes */
 
-static tn_status rework(const tn_settings *settings, tn_grow_format format, tn_mesh *mesh, tn_error *error)
+static tn_status rework(const tn_grow_settings *settings, tn_grow_format format, tn_mesh *mesh, tn_error *error)
 {
     tn_status status = TN_OK;
     if (settings->subdivide.given)
@@ -155,8 +155,8 @@ static tn_status write_by_openmesh(const tn_mesh *mesh, tn_grow_format format, b
     return status;
 }
 
-static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn_grow_format format, const char *note,
-                            FILE *out, tn_error *error)
+static tn_status write_mesh(const tn_grow_settings *settings, const tn_mesh *mesh, tn_grow_format format,
+                            const char *note, FILE *out, tn_error *error)
 {
     tn_mesh_style style = {.notes = &note, .note_count = 1, .normals = settings->normals, .y_up = settings->up == 1};
     switch (format) {
@@ -175,7 +175,7 @@ static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn
 
 static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format format, const char *path)
 {
-    const tn_settings *settings = job->settings;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
     bool dxf = format == TN_GROW_DXF;
     tn_surface_options options = {
         .groups = settings->groups, .lines = settings->lines || dxf, .layers = dxf && !settings->groups};
@@ -219,7 +219,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
     char caption[240];
     tn_error error;
     describe(job, growth, caption, sizeof caption);
-    const tn_settings *settings = job->settings;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
     for (size_t i = 0; i < count; i++)
         note_depth(job, views[i]);
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
@@ -235,14 +235,15 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
 static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format,
                           const char *path)
 {
-    tn_camera camera = tn_grow_camera(job->settings);
+    tn_camera camera = tn_grow_camera(tn_grow_settings_of(job));
     tn_view *view;
     tn_error error;
     char caption[240];
     describe(job, growth, caption, sizeof caption);
-    tn_view_options options = {.title = job->settings->title ? job->settings->title : study->title,
+    tn_view_options options = {.title =
+                                   tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
-                               .dpi = (uint32_t)job->settings->dpi.value,
+                               .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .system = tn_growth_rules(growth)};
     tn_picture to = picture_to(path, format);
     tn_status status = tn_view_take(growth, &camera, &view, &error);

@@ -8,6 +8,13 @@
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 
+typedef struct count_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_count_options count;
+    const char *output;
+} count_settings;
+
 /* All counts of a library: one a length, and one (at the end) of all. */
 typedef struct length_counts {
     mpz_t generated, kept, mirror;
@@ -247,13 +254,12 @@ static void write_json(const counts *c, FILE *out)
     mpz_clear(pruned);
 }
 
-void tn_job_count(tn_job *job, const tn_ready_library *ready)
+void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path)
 {
-    const tn_settings *settings = job->settings;
     counts c;
     tn_error error;
     tn_output output;
-    if (!counts_new(ready, settings->mirror, &c)) {
+    if (!counts_new(ready, options->mirror, &c)) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
         return;
@@ -261,34 +267,36 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready)
     tn_job_show(job);
     if (count_all(&c, &job->opened, &error) != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, settings->output, &output)) {
-        (settings->json ? write_json : write_text)(&c, output.stream);
+    } else if (tn_job_output(job, path, &output)) {
+        (options->json ? write_json : write_text)(&c, output.stream);
         tn_job_commit(job, &output);
     }
     counts_free(&c);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const count_settings *settings = (const count_settings *)common;
     tn_job job;
     tn_ready_library ready;
-    tn_job_begin(&job, settings);
-    if (tn_job_library(&job, settings->operands.items[0], &ready))
-        tn_job_count(&job, &ready);
+    tn_job_begin(&job, common);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+        tn_job_count(&job, &ready, &settings->count, settings->output);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS count_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
-    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
+    FLAG("json", 0, count.json, "write JSON, every count as a string of digits"),
+    FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_count = {
@@ -304,6 +312,7 @@ const tn_command tn_command_count = {
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -18,24 +18,25 @@ const char *tn_job_plans_path(tn_job *job)
     return path;
 }
 
-bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader)
+bool tn_job_reader(tn_job *job, const tn_schema *schema, const tn_plans_source *source, tn_plan_reader **reader)
 {
-    tn_reader_options options = {.format = (tn_plan_format)job->settings->input_format,
-                                 .max_length = tn_job_max_length(job->settings),
+    tn_reader_options options = {.format = (tn_plan_format)source->input->format,
+                                 .max_length = tn_job_max_length(source->plans),
                                  .sqlite = tn_plan_sqlite()};
     tn_error error;
-    if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
+    if (tn_plan_reader_open(schema, source->path, &options, reader, &error) == TN_OK)
         return true;
-    tn_suggest_file(path, &error);
+    tn_suggest_file(source->path, &error);
     tn_job_fail(job, &error);
     return false;
 }
 
-bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size)
+bool tn_job_bad_plan(tn_job *job, const tn_plans_source *source, const tn_error *error, const char *text, size_t size)
 {
+    const char *path = source->path;
     tn_report_error(tn_job_diagnostics(job), error, strcmp(path, "-") == 0 ? "standard input" : path, text, size);
     tn_job_status(job, error->status);
-    return job->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
+    return source->input->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
 }
 
 static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
@@ -66,7 +67,7 @@ static void begin_progress(tn_sifting *s)
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     tn_sifting *s = context;
-    s->stopped = !tn_job_bad_plan(s->job, s->path, error, text, size);
+    s->stopped = !tn_job_bad_plan(s->job, &s->source, error, text, size);
     return !s->stopped;
 }
 
@@ -74,13 +75,13 @@ bool tn_job_sift(tn_sifting *s)
 {
     tn_plan_reader *reader;
     tn_error error;
-    if (!tn_job_reader(s->job, s->schema, s->path, &reader))
+    if (!tn_job_reader(s->job, s->schema, &s->source, &reader))
         return false;
     bool opened = s->open(s->context);
     tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
     if (opened)
         begin_progress(s);
-    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->job->settings), &calls, &error) != TN_OK) {
+    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }

@@ -4,9 +4,9 @@
 
 #include "runtime/plan/store/sqlite.h"
 
-bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer)
+bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_written_settings *settings,
+                        const char *made, tn_plan_writer **writer)
 {
-    const tn_settings *settings = job->settings;
     const tn_module *module = job->opened.module;
     if (!tn_job_takes_text(job, settings->output))
         return false;
@@ -20,7 +20,7 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *
         .metadata = {.library = tn_text(module, ready->record->name),
                      .library_hash = library_hash,
                      .rules_hash = rules_hash,
-                     .rules_path = settings->operands.items[0],
+                     .rules_path = job->settings->operands.items[0],
                      .version = producer ? tn_text(module, producer->version) : NULL,
                      .command = made},
         .resume = settings->resume,

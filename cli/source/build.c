@@ -5,6 +5,11 @@
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 
+typedef struct build_settings {
+    tn_settings common;
+    const char *output;
+} build_settings;
+
 /* houses.plan -> houses.tnb, in the folder where we are called; the caller frees it. NULL where out of memory. */
 static char *default_output(const char *path)
 {
@@ -47,17 +52,19 @@ static void build(tn_job *job, const char *path, const char *output)
     free(name);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    const char *path = settings->operands.items[0];
+    const build_settings *settings = (const build_settings *)common;
+    const char *path = common->operands.items[0];
     tn_job job;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     if (tn_job_open(&job, path))
         build(&job, path, settings->output);
     return tn_job_end(&job);
 }
 
+#define SETTINGS build_settings
 static const tn_option options[] = {OPTION_OUTPUT, OPTION_WERROR};
 
 const tn_command tn_command_build = {
@@ -70,6 +77,7 @@ const tn_command tn_command_build = {
     .example = "$ tartan build houses.plan -o houses.tnb\n$ tartan count houses.tnb",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -5,20 +5,35 @@
 #include "cli/plan/relations.h"
 #include "driver/breed/grammar_report.h"
 
+typedef struct check_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool no_analysis, figures;
+    bool relations, examples, json;
+    const char *output; /* of the relations */
+    bool with_tests, with_counts;
+    const char *before; /* the file before an edit, to compare with */
+} check_settings;
+
+static const check_settings *settings_of(const tn_job *job)
+{
+    return (const check_settings *)job->settings;
+}
+
 static void report_grammar(tn_job *job)
 {
     tn_error error;
-    if (tn_grammar_report(&job->opened, job->settings->figures, &error) != TN_OK)
+    if (tn_grammar_report(&job->opened, settings_of(job)->figures, &error) != TN_OK)
         tn_job_fail(job, &error);
 }
 
 static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
 {
-    tn_relations_options options = {.json = job->settings->json, .examples = job->settings->examples};
+    tn_relations_options options = {.json = settings_of(job)->json, .examples = settings_of(job)->examples};
     tn_output output;
     tn_error error;
     tn_job_show(job);
-    if (!tn_job_output(job, job->settings->output, &output))
+    if (!tn_job_output(job, settings_of(job)->output, &output))
         return;
     tn_status status = tn_relations_write(analyses, &options, output.stream, &error);
     if (status != TN_OK)
@@ -29,8 +44,9 @@ static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
 /* library: the one that is counted too, or NULL. */
 static void analyse(tn_job *job, const tn_library *library)
 {
-    const tn_settings *settings = job->settings;
-    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->max_states.value, .library = library};
+    const check_settings *settings = settings_of(job);
+    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                              .library = library};
     tn_plan_analyses analyses;
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
@@ -45,7 +61,7 @@ static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
     tn_output output;
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)job->settings->max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
     tn_job_show(job);
     if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
         return;
@@ -56,13 +72,17 @@ static void run_tests(tn_job *job)
 /* The file before an edit is open at the same time, with diagnostics of its own. */
 static void compare(tn_job *job, const tn_ready_library *after)
 {
-    const tn_settings *settings = job->settings;
-    const char *const paths[2] = {settings->before, settings->operands.items[0]};
+    const check_settings *settings = settings_of(job);
     tn_job old;
     tn_ready_library before = {0};
-    tn_job_begin(&old, settings);
-    if (tn_job_library(&old, settings->before, &before))
-        tn_job_compare(job, paths, &before, after);
+    tn_job_begin(&old, job->settings);
+    if (tn_job_library(&old, settings->before, &settings->plans, &before))
+        tn_job_compare(job,
+                       &(tn_compared){{settings->before, settings->common.operands.items[0]},
+                                      &before,
+                                      after,
+                                      (uint32_t)settings->plans.max_states.value},
+                       &(tn_compare_options){0});
     tn_library_close(&before);
     int code = tn_job_end(&old);
     job->exit_code = code > job->exit_code ? code : job->exit_code;
@@ -71,19 +91,19 @@ static void compare(tn_job *job, const tn_ready_library *after)
 /* Makes the library that is counted or compared, so that checking can take from it what it needs of it. */
 static bool make_library(tn_job *job, tn_ready_library *ready)
 {
-    const tn_settings *settings = job->settings;
-    const tn_library_options options = {.max_states = (uint32_t)settings->max_states.value};
+    const check_settings *settings = settings_of(job);
+    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value};
     *ready = (tn_ready_library){0};
     if (!settings->with_counts && !settings->before)
         return true;
-    tn_status status = tn_library_ready(&job->opened, settings->library, &options, ready);
+    tn_status status = tn_library_ready(&job->opened, settings->plans.library, &options, ready);
     tn_job_status(job, status);
     return status == TN_OK;
 }
 
 static void answer(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     tn_ready_library ready;
     bool made = make_library(job, &ready);
     if (!settings->no_analysis)
@@ -91,7 +111,7 @@ static void answer(tn_job *job)
     if (settings->with_tests)
         run_tests(job);
     if (made && settings->with_counts)
-        tn_job_count(job, &ready);
+        tn_job_count(job, &ready, &(tn_count_options){0}, NULL);
     if (made && settings->before)
         compare(job, &ready);
     tn_library_close(&ready);
@@ -99,14 +119,14 @@ static void answer(tn_job *job)
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     if (settings->relations && settings->no_analysis)
         tn_job_usage(job, "--relations is part of the analysis that --no-analysis leaves out");
-    else if (settings->relations && settings->operands.count > 1)
+    else if (settings->relations && settings->common.operands.count > 1)
         tn_job_usage(job, "--relations takes one FILE");
-    else if ((settings->with_counts || settings->before) && settings->operands.count > 1)
+    else if ((settings->with_counts || settings->before) && settings->common.operands.count > 1)
         tn_job_usage(job, "%s takes one FILE", settings->with_counts ? "--count" : "--diff");
-    else if (settings->library && !settings->with_counts && !settings->before)
+    else if (settings->plans.library && !settings->with_counts && !settings->before)
         tn_job_usage(job, "--library is about --count and --diff: give one of them too");
     else if (settings->relations && (settings->with_tests || settings->with_counts || settings->before))
         tn_job_usage(job, "--relations is asked alone, without --test, --count and --diff");
@@ -122,7 +142,7 @@ static bool check_options(tn_job *job)
 
 static void check(tn_job *job, const char *path)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
     if (settings->figures && module->GRAMMAR_count == 0)
         tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
@@ -136,21 +156,23 @@ static void check(tn_job *job, const char *path)
         answer(job);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const check_settings *settings = (const check_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
-    tn_job_threads(settings);
+    tn_job_begin(&job, common);
+    tn_job_threads(&settings->plans);
     bool going = check_options(&job);
-    for (size_t i = 0; going && i < settings->operands.count; i++) {
-        const char *path = settings->operands.items[i];
+    for (size_t i = 0; going && i < common->operands.count; i++) {
+        const char *path = common->operands.items[i];
         if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
             check(&job, path);
     }
     return tn_job_end(&job);
 }
 
+#define SETTINGS check_settings
 static const tn_option options[] = {
     FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
     FLAG("relations", 0, relations, "print how the plans that each two rules match lie to one another"),
@@ -165,7 +187,7 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_check = {
@@ -190,6 +212,7 @@ const tn_command tn_command_check = {
                "--diff old.plan",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "at least one FILE",
     .operands_min = 1,
     .operands_max = SIZE_MAX,

@@ -81,10 +81,10 @@ static void emit_rule(tn_builder *builder, const tn_bnf_rule *rule, uint32_t fir
     for (const tn_bnf_alternative *a = rule->alternatives.first; a; a = a->next) {
         tn_production_record production = {
             .code_begin = tn_builder_offset(builder), .file = a->span.file, .begin = a->span.begin, .end = a->span.end};
-        tn_builder_add_MAP(builder, &(tn_map_record){.offset = production.code_begin,
-                                                     .file = a->span.file,
-                                                     .begin = a->span.begin,
-                                                     .end = a->span.end});
+        tn_builder_add_SOURCE_MAP(builder, &(tn_source_map_record){.offset = production.code_begin,
+                                                                   .file = a->span.file,
+                                                                   .begin = a->span.begin,
+                                                                   .end = a->span.end});
         emit_items(builder, a->items, first_rule);
         tn_builder_emit(builder, TN_OP_DONE, 0, 0);
         production.code_end = tn_builder_offset(builder);

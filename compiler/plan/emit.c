@@ -18,7 +18,7 @@ void tn_emit_op(tn_emit *emit, tn_span span, tn_opcode opcode, int64_t first, in
         return; /* tn_emit_module reports it */
     const tn_opcode_info *info = tn_opcode_describe((uint8_t)opcode);
     uint32_t offset = tn_builder_emit(emit->builder, opcode, first, second);
-    tn_builder_add_MAP(emit->builder, &(tn_map_record){offset, span.file, span.begin, span.end});
+    tn_builder_add_SOURCE_MAP(emit->builder, &(tn_source_map_record){offset, span.file, span.begin, span.end});
     emit->depth += info->pushes;
     emit->depth -= info->pops;
     if (emit->depth > emit->stack_max)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "driver/breed/evolve.h"
+#include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
 
@@ -77,7 +78,7 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
     out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
-    out->mapping = tn_map_options_of(grammar);
+    out->mapping = tn_mapping_options_of(grammar);
     if (s->of[TN_SET_MAX_DEPTH].written)
         out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
     if (s->of[TN_SET_WRAPS].written)
@@ -216,13 +217,8 @@ static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size
         size_t length = end ? (size_t)(end - text) - at : size - at;
         line++;
         if (length && text[at] != '#' && job->seed_count < job->settings.population) {
-            if (job->seed_count == capacity) {
-                capacity = capacity ? capacity * 2 : 16;
-                tn_genome *grown = realloc(job->seeds, capacity * sizeof *grown);
-                if (!grown)
-                    return tn_fail_memory(error);
-                job->seeds = grown;
-            }
+            if (!tn_array_reserve_from(&job->seeds, &capacity, 16, job->seed_count, 1, sizeof *job->seeds))
+                return tn_fail_memory(error);
             job->seeds[job->seed_count] = (tn_genome){0};
             tn_status status = tn_genome_read(text + at, length, &job->seeds[job->seed_count++], error);
             if (status != TN_OK) {

@@ -50,14 +50,14 @@ static tn_status write_sentence(const char *path, const tn_individual *individua
 /* The derivation as a picture; one that is too large to draw is left out. */
 static tn_status draw_derivation(tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
 {
-    tn_map_options options = run->job->settings.mapping;
+    tn_mapping_options options = run->job->settings.mapping;
     tn_mapper *mapper = tn_mapper_new(run->job->grammar);
     tn_mapping mapping;
     tn_tree tree = {0};
     options.record = true;
-    tn_status status =
-        mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
-               : tn_fail_memory(error);
+    tn_status status = mapper ? tn_mapper_derive(mapper, individual->genome.codons, individual->genome.count, &options,
+                                                 &mapping, error)
+                              : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
     if (status == TN_OK && tree.count <= TN_TREE_DRAWN)

@@ -9,6 +9,7 @@
 
 #include "compiler/evolution/evolution.h"
 #include "driver/breed/evolve.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 char *tn_run_database(const char *dir)
@@ -110,12 +111,11 @@ static bool holds_already(const tn_run *run, const char *change)
 
 static tn_status remember_change(tn_run *run, uint32_t generation, const char *change, tn_error *error)
 {
-    tn_run_event *grown = realloc(run->changes, (run->change_count + 1) * sizeof *grown);
-    if (!grown)
+    if (!tn_array_resize(&run->changes, run->change_count + 1, sizeof *run->changes))
         return tn_fail_memory(error);
-    run->changes = grown;
-    grown[run->change_count++] = (tn_run_event){generation, strdup("set"), strdup(change)};
-    return grown[run->change_count - 1].kind && grown[run->change_count - 1].text ? TN_OK : tn_fail_memory(error);
+    tn_run_event *event = &run->changes[run->change_count++];
+    *event = (tn_run_event){generation, strdup("set"), strdup(change)};
+    return event->kind && event->text ? TN_OK : tn_fail_memory(error);
 }
 
 static int compare_rescored(const void *left, const void *right)

@@ -1,4 +1,4 @@
-/* Verifies and lists the grammars that genomes are mapped through: their tables and their productions' code. */
+/* Verifies and lists the grammars that genomes choose sentences of: their tables and their productions' code. */
 #include "runtime/module/engine.h"
 
 /* ---- tables */
@@ -70,7 +70,7 @@ static tn_status check_code(tn_checker *checker, const tn_grammar_record *gramma
         while (depth && ends[depth] == checker->offset)
             depth--;
         tn_instruction instruction;
-        tn_status status = tn_code_next(checker, TN_CODE_MAP, &instruction);
+        tn_status status = tn_code_next(checker, TN_CODE_PRODUCTION, &instruction);
         if (status == TN_OK)
             status = check_instruction(checker, grammar, &instruction, ends[depth]);
         if (status == TN_OK)
@@ -133,7 +133,7 @@ static void list_nonterminal(tn_lister *lister, uint32_t index)
     lister->shown_line = 0;
     for (uint32_t i = 0; i < rule->production_count && !ferror(lister->out); i++) {
         const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
-        tn_map_record place = {production->code_begin, production->file, production->begin, production->end};
+        tn_source_map_record place = {production->code_begin, production->file, production->begin, production->end};
         tn_list_code(lister, production->code_begin, production->code_end, &place);
     }
 }
@@ -185,7 +185,7 @@ static const tn_operand_rules operands[] = {
 extern const tn_engine tn_engine_grammar;
 const tn_engine tn_engine_grammar = {.name = "grammar",
                                      .sections = sections,
-                                     .codes = 1u << TN_CODE_MAP,
+                                     .codes = 1u << TN_CODE_PRODUCTION,
                                      .operands = operands,
                                      .operand_count = sizeof operands / sizeof *operands,
                                      .verify = verify,

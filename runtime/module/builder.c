@@ -5,6 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/module/code.h"
 #include "runtime/module/layout.h"
@@ -32,17 +33,9 @@ static void *extend(tn_builder *builder, tn_section section, size_t item_size, s
         builder->too_large = true;
         return NULL;
     }
-    if (run->count + count > run->capacity) {
-        size_t capacity = run->capacity ? run->capacity : 64;
-        while (capacity < run->count + count)
-            capacity *= 2;
-        void *items = realloc(run->items, capacity * item_size);
-        if (!items) {
-            builder->out_of_memory = true;
-            return NULL;
-        }
-        run->items = items;
-        run->capacity = capacity;
+    if (!tn_array_reserve(&run->items, &run->capacity, run->count, count, item_size)) {
+        builder->out_of_memory = true;
+        return NULL;
     }
     void *first = (char *)run->items + run->count * item_size;
     run->count += count;

@@ -104,6 +104,6 @@ static inline const char *tn_text(const tn_module *module, tn_string string)
 
 /* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction
  * before it in the same function that has one; NULL where there is none. */
-const tn_map_record *tn_module_place(const tn_module *module, uint32_t offset);
+const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 #endif

@@ -129,11 +129,11 @@ void fuzz_grammar(const tn_module *module)
         tn_mapping mapping;
         if (tn_grammar_new(module, i, &grammar, NULL) != TN_OK)
             continue;
-        tn_map_options options = tn_map_options_of(grammar);
+        tn_mapping_options options = tn_mapping_options_of(grammar);
         options.max_steps = STEPS;
         options.record = true;
         tn_mapper *mapper = tn_mapper_new(grammar);
-        if (mapper && tn_map_genome(mapper, codons, CODONS, &options, &mapping, NULL) == TN_INVALID)
+        if (mapper && tn_mapper_derive(mapper, codons, CODONS, &options, &mapping, NULL) == TN_INVALID)
             abort();
         tn_mapper_free(mapper);
         tn_grammar_free(grammar);

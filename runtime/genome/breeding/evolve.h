@@ -1,4 +1,4 @@
-/* Evolution: a population of genomes, mapped, evaluated and bred, generation after generation.
+/* Evolution: a population of genomes, turned into sentences, evaluated and bred, generation after generation.
  *
  * Every draw is keyed by what it is for, so that a run depends on its settings and seed alone and never on the number
  * of threads. A run is replayed by running it again with the evaluations recalled instead of done; that is also how it
@@ -68,7 +68,7 @@ typedef struct tn_evolution_settings {
     tn_vary_options vary;
     uint32_t elites; /* with generational replacement */
     tn_replacement replacement;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     unsigned threads; /* 0: as many as there are */
 } tn_evolution_settings;
 
@@ -88,7 +88,7 @@ typedef struct tn_individual {
     uint64_t hash[2]; /* of the sentence */
     uint64_t used;
     uint32_t depth;
-    tn_map_reason reason;
+    tn_mapping_reason reason;
     tn_score score;
     char message[200]; /* why it was not scored */
     bool member;

@@ -3,12 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define ATTEMPTS 8 /* at finding subtrees that can change places */
 
 struct tn_breeder {
     const tn_grammar *grammar;
     const tn_analysis *analysis;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     tn_mapper *mapper;
     tn_genome straight[2], part, tree;
     tn_spans spans[2];
@@ -16,7 +18,7 @@ struct tn_breeder {
     size_t event_capacity[2];
 };
 
-tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_map_options *mapping)
+tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_mapping_options *mapping)
 {
     tn_breeder *b = calloc(1, sizeof *b);
     if (!b)
@@ -126,26 +128,21 @@ static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_p
 
 /* ---- subtrees */
 
-/* Maps a genome and finds its subtrees; *valid says whether it has a sentence. */
+/* Derives a genome's sentence and finds its subtrees; *valid says whether it has a sentence. */
 static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome, bool *valid, tn_error *error)
 {
-    tn_map_options options = b->mapping;
+    tn_mapping_options options = b->mapping;
     tn_mapping mapping;
     options.record = true;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_mapper_derive(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     if (status != TN_OK)
         return status;
     *valid = mapping.valid;
     if (!mapping.valid)
         return TN_OK;
-    if (mapping.event_count > b->event_capacity[which]) {
-        tn_event *events = realloc(b->events[which], mapping.event_count * sizeof *events);
-        if (!events)
-            return tn_fail_memory(error);
-        b->events[which] = events;
-        b->event_capacity[which] = mapping.event_count;
-    }
+    if (!tn_array_reserve(&b->events[which], &b->event_capacity[which], 0, mapping.event_count, sizeof *mapping.events))
+        return tn_fail_memory(error);
     memcpy(b->events[which], mapping.events, mapping.event_count * sizeof *mapping.events);
     if (!tn_spans_find(&mapping, &b->spans[which]) ||
         !tn_genome_straighten(genome->codons, genome->count, &mapping, &b->straight[which]))
@@ -177,10 +174,10 @@ static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t dep
 /* Has the genome a sentence, before repair? */
 static tn_status is_valid(tn_breeder *b, const tn_genome *genome, bool *valid, tn_error *error)
 {
-    tn_map_options options = b->mapping;
+    tn_mapping_options options = b->mapping;
     tn_mapping mapping;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_mapper_derive(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     *valid = status == TN_OK && mapping.valid;
     return status;
 }

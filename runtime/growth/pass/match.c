@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/base/share.h"
 #include "runtime/growth/pass/pass.h"
@@ -271,13 +272,8 @@ static bool find_chain(chain_search *search, const tn_growth_group *group, uint3
 static tn_status add_replacement(chain_search *search, uint32_t length, uint16_t template, tn_error *error)
 {
     tn_pass *pass = search->pass;
-    if (pass->list_count == search->capacity) {
-        search->capacity = 2 * search->capacity + 64;
-        tn_edge_replacement *grown = realloc(pass->list, search->capacity * sizeof *grown);
-        if (!grown)
-            return tn_fail_memory(error);
-        pass->list = grown;
-    }
+    if (!tn_array_reserve(&pass->list, &search->capacity, pass->list_count, 1, sizeof *pass->list))
+        return tn_fail_memory(error);
     pass->list[pass->list_count++] =
         (tn_edge_replacement){search->chain[0], search->chain[length - 1], length, template};
     return TN_OK;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 
 /* Code is in postfix order: a part is made when its last instruction is read, of the parts on the stack. A child so has
@@ -11,7 +12,8 @@ typedef struct reading {
     tn_parts *parts;
     const tn_module *module;
     uint32_t *stack; /* of the function at hand */
-    uint32_t depth, capacity;
+    uint32_t depth;
+    size_t capacity;
     unsigned nesting; /* of functions */
     tn_error *error;
 } reading;
@@ -37,22 +39,9 @@ uint32_t tn_function_rule(const tn_module *module, uint32_t function)
 static tn_status push(reading *r, tn_part part)
 {
     tn_parts *parts = r->parts;
-    if (parts->count == parts->capacity) {
-        uint32_t capacity = parts->capacity * 2 + 32;
-        tn_part *larger = realloc(parts->parts, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        parts->parts = larger;
-        parts->capacity = capacity;
-    }
-    if (r->depth == r->capacity) {
-        uint32_t capacity = r->capacity * 2 + 32;
-        uint32_t *larger = realloc(r->stack, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        r->stack = larger;
-        r->capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&parts->parts, &parts->capacity, 32, parts->count, 1, sizeof *parts->parts) ||
+        !tn_array_reserve_from(&r->stack, &r->capacity, 32, r->depth, 1, sizeof *r->stack))
+        return tn_fail_memory(r->error);
     parts->parts[parts->count] = part;
     r->stack[r->depth++] = parts->count++;
     return TN_OK;
@@ -108,7 +97,7 @@ static void extend(tn_part *part, uint32_t offset, uint32_t length)
 /* Do two instructions come from the same stretch of a source (or is nothing known of them)? */
 static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
 {
-    const tn_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
+    const tn_source_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
@@ -413,7 +402,7 @@ static void balance(const char *source, size_t length, size_t *begin, size_t *en
 void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
 {
     const tn_module *module = parts->module;
-    const tn_map_record *map = tn_module_place(module, parts->parts[part].root);
+    const tn_source_map_record *map = tn_module_place(module, parts->parts[part].root);
     if (map && map->file < module->SOURCE_count) {
         const char *source = tn_text(module, module->SOURCE_records[map->file].text);
         size_t length = strlen(source);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
@@ -25,15 +26,7 @@ static bool make_room(tn_plan_reader *reader, size_t wanted)
         reader->end -= reader->begin;
         reader->begin = 0;
     }
-    if (wanted <= reader->capacity)
-        return true;
-    size_t capacity = wanted + wanted / 2 + INPUT_BYTES;
-    char *data = realloc(reader->data, capacity);
-    if (!data)
-        return false;
-    reader->data = data;
-    reader->capacity = capacity;
-    return true;
+    return tn_array_reserve_from(&reader->data, &reader->capacity, INPUT_BYTES, 0, wanted, 1);
 }
 
 tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)

@@ -180,7 +180,7 @@ static void test_places(void **state)
     REFUSED(RULE, tn_rule_record, 0, begin = size, "rule 0: it names a place outside its source");
     REFUSED(LIBRARY, tn_library_record, 0, end = size + 1, "library 0: it names a place outside its source");
     REFUSED(CLAUSE, tn_clause_record, 1, begin = 1, "clause 1: it names a place outside its source");
-    REFUSED(MAP, tn_map_record, 2, end = UINT32_MAX, "map 2: it names a place outside its source");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 2, end = UINT32_MAX, "source map 2: it names a place outside its source");
 }
 
 static void test_rules_and_libraries(void **state)
@@ -291,10 +291,13 @@ static void test_stack(void **state)
 static void test_map(void **state)
 {
     (void)state;
-    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(1).offset + 1, "the source map's record 1 names no instruction");
-    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(0).offset, "the source map does not ascend at its record 1");
-    REFUSED(MAP, tn_map_record, 0, offset = sample_MAP(1).offset, "the source map does not ascend at its record 1");
-    REFUSED(MAP, tn_map_record, 2, offset = UINT32_MAX, "the source map names places past the code");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 1, offset = sample_SOURCE_MAP(1).offset + 1,
+            "the source map's record 1 names no instruction");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 1, offset = sample_SOURCE_MAP(0).offset,
+            "the source map does not ascend at its record 1");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 0, offset = sample_SOURCE_MAP(1).offset,
+            "the source map does not ascend at its record 1");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 2, offset = UINT32_MAX, "the source map names places past the code");
 }
 
 /* The reason names the code offset, so that a finding can be shown in the source. */

@@ -29,7 +29,7 @@ static void check_genr8(const json_t *row, const tn_mapping *m)
     assert_int_equal(m->max_id, number(row, "max_id"));
     const char *repaired = json_string_value(json_object_get(row, "repaired_phenotype"));
     assert_int_equal(m->valid, repaired != NULL);
-    assert_int_equal(m->reason, repaired ? TN_MAP_VALID : TN_MAP_REPAIR_OUT_OF_CODONS);
+    assert_int_equal(m->reason, repaired ? TN_MAPPING_VALID : TN_MAPPING_REPAIR_OUT_OF_CODONS);
     if (!repaired)
         return;
     assert_string_equal(m->repaired_phenotype, repaired);
@@ -46,7 +46,7 @@ static void check_row(const json_t *row, const tn_mapping *m, bool genr8)
     if (!phenotype) {
         assert_false(m->valid);
         assert_false(m->has_phenotype);
-        assert_int_equal(m->reason, TN_MAP_OUT_OF_CODONS);
+        assert_int_equal(m->reason, TN_MAPPING_OUT_OF_CODONS);
         return;
     }
     assert_true(m->has_phenotype);
@@ -75,11 +75,11 @@ static size_t check_file(const char *grammar_path, const char *rows_path, uint32
         uint64_t *codons;
         size_t count = read_genome(row, &codons);
         for (int recorded = 0; recorded < 2; recorded++) {
-            tn_map_options options = tn_map_options_of(grammar);
+            tn_mapping_options options = tn_mapping_options_of(grammar);
             tn_mapping mapping;
             options.wraps = wraps;
             options.record = recorded;
-            assert_int_equal(tn_map_genome(mapper, codons, count, &options, &mapping, NULL), TN_OK);
+            assert_int_equal(tn_mapper_derive(mapper, codons, count, &options, &mapping, NULL), TN_OK);
             check_row(row, &mapping, genr8);
         }
         free(codons);
@@ -144,10 +144,10 @@ static void test_worked_example(void **state)
     };
     tn_grammar *grammar = test_grammar_file(STDLIB "genr8-example.bnf");
     tn_mapper *mapper = tn_mapper_new(grammar);
-    tn_map_options options = {.record = true, .repair = TN_REPAIR_OFF};
+    tn_mapping_options options = {.record = true, .repair = TN_REPAIR_OFF};
     tn_mapping mapping;
-    assert_int_equal(tn_map_genome(mapper, genome, 12, &options, &mapping, NULL), TN_OK);
-    assert_int_equal(mapping.reason, TN_MAP_OUT_OF_CODONS);
+    assert_int_equal(tn_mapper_derive(mapper, genome, 12, &options, &mapping, NULL), TN_OK);
+    assert_int_equal(mapping.reason, TN_MAPPING_OUT_OF_CODONS);
     size_t step = 0;
     for (size_t i = 0; i < mapping.event_count; i++) {
         const tn_event *event = &mapping.events[i];
@@ -166,7 +166,7 @@ static void test_worked_example(void **state)
     uint64_t longer[200];
     for (size_t i = 0; i < 200; i++)
         longer[i] = i < 12 ? genome[i] : 40;
-    assert_int_equal(tn_map_genome(mapper, longer, 200, &options, &mapping, NULL), TN_OK);
+    assert_int_equal(tn_mapper_derive(mapper, longer, 200, &options, &mapping, NULL), TN_OK);
     assert_true(mapping.valid);
     assert_memory_equal(mapping.phenotype, "Edge2 + Edge0 + Edge0 + Edge2 ;", 31);
     tn_mapper_free(mapper);
@@ -175,7 +175,7 @@ static void test_worked_example(void **state)
 
 /* ---- small cases */
 
-static void map_text(tn_grammar *grammar, const char *codons, const tn_map_options *options, const char *expected)
+static void map_text(tn_grammar *grammar, const char *codons, const tn_mapping_options *options, const char *expected)
 {
     uint64_t genome[64];
     size_t count = 0;
@@ -183,13 +183,13 @@ static void map_text(tn_grammar *grammar, const char *codons, const tn_map_optio
         genome[count++] = strtoull(at, &at, 10);
     tn_mapper *mapper = tn_mapper_new(grammar);
     tn_mapping mapping;
-    assert_int_equal(tn_map_genome(mapper, genome, count, options, &mapping, NULL), TN_OK);
+    assert_int_equal(tn_mapper_derive(mapper, genome, count, options, &mapping, NULL), TN_OK);
     if (mapping.valid) {
         size_t size;
         assert_string_equal(tn_mapping_sentence(&mapping, &size), expected);
         assert_int_equal(size, strlen(expected));
     } else {
-        assert_string_equal(tn_map_reason_text(mapping.reason), expected);
+        assert_string_equal(tn_mapping_reason_text(mapping.reason), expected);
     }
     tn_mapper_free(mapper);
 }
@@ -198,7 +198,7 @@ static void test_small_cases(void **state)
 {
     (void)state;
     tn_grammar *g = test_grammar("<s> ::= <a><b>\n<a> ::= x\n<b> ::= 0 | 1 | <s>\n");
-    tn_map_options options = {0};
+    tn_mapping_options options = {0};
     map_text(g, "0 0 1", &options, "x1");
     map_text(g, "0 0 18446744073709551615", &options, "x0"); /* 2^64 - 1 is divisible by 3 */
     map_text(g, "0 0 4294967296", &options, "x1");
@@ -207,14 +207,14 @@ static void test_small_cases(void **state)
     options.wraps = 1;
     map_text(g, "0 0 2 0", &options, "xx0");
     map_text(g, "2", &options, "out of codons");
-    options = (tn_map_options){.max_depth = 3};
+    options = (tn_mapping_options){.max_depth = 3};
     map_text(g, "0 0 1", &options, "x1");
     map_text(g, "0 0 2 0 0 0", &options, "too deep");
-    options = (tn_map_options){.wraps = UINT32_MAX, .max_steps = 1000};
+    options = (tn_mapping_options){.wraps = UINT32_MAX, .max_steps = 1000};
     map_text(g, "2", &options, "too long");
     tn_grammar_free(g);
     g = test_grammar("%single-choice skip\n<s> ::= <a><b>\n<a> ::= x\n<b> ::= 0 | 1 | <s>\n");
-    options = (tn_map_options){0};
+    options = (tn_mapping_options){0};
     map_text(g, "1", &options, "x1");
     map_text(g, "2 1", &options, "xx1");
     tn_grammar_free(g);
@@ -228,12 +228,12 @@ static void test_genr8_cases(void **state)
     (void)state;
     /* a variable is one edge type within its production, and another in the next */
     tn_grammar *g = test_grammar("%dialect genr8\n%repair off\n<s> ::= EdgeX EdgeY EdgeX EdgeY <t>\n<t> ::= EdgeX\n");
-    tn_map_options options = {0};
+    tn_mapping_options options = {0};
     map_text(g, "0 2 1 9 0", &options, "Edge2 Edge1 Edge2 Edge1 Edge0");
     tn_grammar_free(g);
     /* from max_depth on, only productions without non-terminals are candidates */
     g = test_grammar("%dialect genr8\n%repair off\n<s> ::= <m>\n<m> ::= a <m> | b | { c } | [ <m> ]\n");
-    options = (tn_map_options){.max_depth = 3};
+    options = (tn_mapping_options){.max_depth = 3};
     map_text(g, "0 0 0", &options, "a b");
     map_text(g, "0 0 1 1 2 0", &options, "a c c");
     map_text(g, "0 3 1 0", &options, "b");
@@ -244,7 +244,7 @@ static void test_genr8_cases(void **state)
                        "<RewriteRule> ::= <Predecessor> -> <Successor>\n<Predecessor> ::= Edge '<' Edge | Edge\n"
                        "<Successor> ::= Edge Edge\n";
     g = test_grammar(text);
-    options = tn_map_options_of(g);
+    options = tn_mapping_options_of(g);
     map_text(g, "0 0 1 0 0 1 2 3", &options,
              "Edge0 -> Edge1 Edge2 ; Edge1 -> Edge1 ; Edge2 -> Edge2 ; Edge3 -> Edge3 ; Edge3");
     tn_grammar_free(g);
@@ -256,7 +256,7 @@ static void test_genr8_cases(void **state)
  * first of the added rules mentions. */
 enum { TYPES = 100000 };
 
-static tn_map_reason repair_many(const tn_grammar *grammar, const tn_map_options *options)
+static tn_mapping_reason repair_many(const tn_grammar *grammar, const tn_mapping_options *options)
 {
     uint64_t *codons = calloc(9 + 4 * TYPES, sizeof *codons);
     size_t count = 6; /* start symbol, rule, predecessor, its edge, successor, its edge: all 0 */
@@ -269,11 +269,11 @@ static tn_map_reason repair_many(const tn_grammar *grammar, const tn_map_options
     codons[count + 1] = 1; /* the successor of Edge2 is Edge1 */
     tn_mapper *mapper = tn_mapper_new(grammar);
     tn_mapping m;
-    assert_int_equal(tn_map_genome(mapper, codons, 9 + 4 * TYPES, options, &m, NULL), TN_OK);
-    tn_map_reason reason = m.reason;
+    assert_int_equal(tn_mapper_derive(mapper, codons, 9 + 4 * TYPES, options, &m, NULL), TN_OK);
+    tn_mapping_reason reason = m.reason;
     assert_true(m.has_phenotype);
     assert_int_equal(m.max_id, TYPES + 2);
-    assert_int_equal(m.valid, reason == TN_MAP_VALID);
+    assert_int_equal(m.valid, reason == TN_MAPPING_VALID);
     if (m.valid) {
         bool one = options->repair == TN_REPAIR_GENOME; /* Edge1 occurs */
         assert_int_equal(m.repaired_count, TYPES + one);
@@ -292,14 +292,14 @@ static void test_repair_is_bounded(void **state)
     tn_grammar *g = test_grammar("%dialect genr8\n%repair genome\n<s> ::= <RewriteRule> ';' { Edge }\n"
                                  "<RewriteRule> ::= <Predecessor> -> <Successor>\n<Predecessor> ::= Edge\n"
                                  "<Successor> ::= Edge\n");
-    tn_map_options options = tn_map_options_of(g);
-    assert_int_equal(repair_many(g, &options), TN_MAP_VALID);
+    tn_mapping_options options = tn_mapping_options_of(g);
+    assert_int_equal(repair_many(g, &options), TN_MAPPING_VALID);
     options.max_steps = 4 * TYPES;
-    assert_int_equal(repair_many(g, &options), TN_MAP_REPAIR_TOO_LONG);
+    assert_int_equal(repair_many(g, &options), TN_MAPPING_REPAIR_TOO_LONG);
     options.repair = TN_REPAIR_IDENTITY; /* a step for each rule, and nothing else */
-    assert_int_equal(repair_many(g, &options), TN_MAP_VALID);
+    assert_int_equal(repair_many(g, &options), TN_MAPPING_VALID);
     options.max_steps = 2 * TYPES + TYPES / 2;
-    assert_int_equal(repair_many(g, &options), TN_MAP_REPAIR_TOO_LONG);
+    assert_int_equal(repair_many(g, &options), TN_MAPPING_REPAIR_TOO_LONG);
     tn_grammar_free(g);
 }
 
@@ -308,27 +308,27 @@ static void test_long_texts_are_bounded(void **state)
 {
     (void)state;
     char text[1400] = "<s> ::= <t><s> | <t>\n<t> ::= ";
-    memset(text + strlen(text), 'x', 10 * TN_MAP_STEP_BYTES);
+    memset(text + strlen(text), 'x', 10 * TN_MAPPING_STEP_BYTES);
     static const uint64_t twice[] = {0, 0, 1, 0};
     tn_grammar *g = test_grammar(text);
     tn_mapper *mapper = tn_mapper_new(g);
     tn_mapping m;
     uint64_t enough = 0;
     for (uint64_t steps = 1; steps < 60; steps++) {
-        tn_map_reason reasons[2];
+        tn_mapping_reason reasons[2];
         for (int recorded = 0; recorded < 2; recorded++) {
-            tn_map_options options = {.max_steps = steps, .record = recorded};
-            assert_int_equal(tn_map_genome(mapper, twice, 4, &options, &m, NULL), TN_OK);
+            tn_mapping_options options = {.max_steps = steps, .record = recorded};
+            assert_int_equal(tn_mapper_derive(mapper, twice, 4, &options, &m, NULL), TN_OK);
             reasons[recorded] = m.reason;
         }
         assert_int_equal(reasons[0], reasons[1]);
-        assert_true(reasons[0] == TN_MAP_VALID || (reasons[0] == TN_MAP_TOO_LONG && !enough));
-        enough = reasons[0] == TN_MAP_VALID && !enough ? steps : enough;
+        assert_true(reasons[0] == TN_MAPPING_VALID || (reasons[0] == TN_MAPPING_TOO_LONG && !enough));
+        enough = reasons[0] == TN_MAPPING_VALID && !enough ? steps : enough;
     }
     assert_true(enough > 20 && enough < 40);
-    tn_map_options endless = {.wraps = UINT32_MAX};
-    assert_int_equal(tn_map_genome(mapper, twice, 2, &endless, &m, NULL), TN_OK);
-    assert_int_equal(m.reason, TN_MAP_TOO_LONG);
+    tn_mapping_options endless = {.wraps = UINT32_MAX};
+    assert_int_equal(tn_mapper_derive(mapper, twice, 2, &endless, &m, NULL), TN_OK);
+    assert_int_equal(m.reason, TN_MAPPING_TOO_LONG);
     tn_mapper_free(mapper);
     tn_grammar_free(g);
 }
