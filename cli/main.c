@@ -7,6 +7,7 @@
 
 #include "cli/common/completion.h"
 #include "cli/common/help.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/manual.h"
 #include "cli/common/options.h"
@@ -87,6 +88,18 @@ static int completion(const char *name)
     return refuse(&settings, &error);
 }
 
+/* An editor's server has nothing to lose, and ends at once. */
+static void watch(const tn_command *command, const tn_settings *settings)
+{
+    if (strcmp(command->name, "lsp") == 0)
+        return;
+    tn_interrupt_watch(settings->diagnostics == 1);
+    if (settings->output && strcmp(settings->output, "-") != 0)
+        tn_interrupt_last_words("interrupted; %.400s is not written", settings->output);
+    else
+        tn_interrupt_last_words("interrupted before the end");
+}
+
 static int run(const tn_command *command, int count, char **words)
 {
     tn_settings settings = {0};
@@ -98,6 +111,7 @@ static int run(const tn_command *command, int count, char **words)
     } else if (settings.help) {
         exit_code = help(command->name, false);
     } else {
+        watch(command, &settings);
         exit_code = command->run(command, &settings);
     }
     tn_settings_clear(&settings);

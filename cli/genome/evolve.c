@@ -35,13 +35,16 @@ static void evolve(tn_evolution_session *e)
     tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
     tn_status status = TN_OK;
     while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
+        tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there", e->run.generations);
         status = tn_run_step(&e->run, NULL, 0, &error);
         if (status == TN_OK && progress.shows)
             describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);
     }
     tn_progress_end(&progress);
-    if (status == TN_OK && e->run.generations)
+    if (status == TN_STOPPED)
+        status = TN_OK; /* within a generation, which is not kept */
+    if (status == TN_OK && e->run.generations && !tn_interrupted())
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK) {
         tn_job_fail(e->command, &error);
@@ -49,8 +52,8 @@ static void evolve(tn_evolution_session *e)
         tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
                     e->run.generations);
     } else if (tn_interrupted()) {
-        tn_job_note(e->command, "interrupted after %u generations; --resume goes on from there", e->run.generations);
-        e->command->exit_code = TN_EXIT_INTERRUPTED;
+        tn_job_interrupted(e->command, "interrupted after %u generations; --resume goes on from there",
+                           e->run.generations);
     }
 }
 

@@ -309,7 +309,6 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&job, settings);
     if (check_options(&job) && prepare(&run) && tn_job_output(&job, settings->output, &output)) {
         run.out = output.stream;
-        tn_interrupt_watch();
         if (settings->invert)
             invert(&run);
         else if (settings->genome)
@@ -319,7 +318,7 @@ static int run(const tn_command *command, const tn_settings *settings)
         else
             random_genomes(&run);
         if (tn_interrupted())
-            job.exit_code = TN_EXIT_INTERRUPTED;
+            tn_job_interrupted(&job, "interrupted after %" PRIu64 " genomes", run.done);
         tn_job_close(&job, &output, !tn_interrupted());
     }
     tn_genome_clear(&run.genome);

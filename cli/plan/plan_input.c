@@ -1,8 +1,10 @@
 #include "cli/plan/plan_input.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/plan/library_job.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/plan/store/sqlite.h"
@@ -52,7 +54,7 @@ static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_
         written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
     s->done += plans;
     tn_progress_update(&s->progress, (double)s->done);
-    return written;
+    return written && !tn_interrupted();
 }
 
 /* Not between answers that are shown on the same terminal. */
@@ -85,6 +87,11 @@ bool tn_job_sift(tn_sifting *s)
         s->stopped = true;
     }
     tn_progress_end(&s->progress);
+    if (tn_interrupted() && !s->stopped) {
+        s->stopped = true;
+        tn_job_interrupted(s->job, "interrupted after %" PRIu64 " plans; %s", s->done,
+                           s->job->settings->output ? "no file is written" : "what is said of them is written");
+    }
     tn_plan_reader_free(reader);
     return opened;
 }

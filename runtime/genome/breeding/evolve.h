@@ -70,6 +70,7 @@ typedef struct tn_evolution_settings {
     tn_replacement replacement;
     tn_map_options mapping;
     unsigned threads; /* 0: as many as there are */
+    tn_watch *watch;  /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u
