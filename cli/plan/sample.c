@@ -2,9 +2,12 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
+
+#define PART "interrupted; %.400s holds only the first plans of the sample"
 
 static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sampled *sampled, tn_plan_writer *writer)
 {
@@ -12,6 +15,10 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     tn_error error;
     tn_status status = trays ? TN_OK : tn_fail_memory(&error);
     for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
+        if (tn_interrupted()) {
+            status = tn_fail_stopped(&error);
+            break;
+        }
         uint32_t length;
         if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
             status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
@@ -21,6 +28,13 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     if (status != TN_OK)
         tn_job_fail(job, &error);
     free(trays);
+}
+
+/* A part of a sample is not drawn evenly: a file is not written, and of a database it is said. */
+static void promise(const tn_job *job, const tn_plan_writer *writer)
+{
+    if (tn_plan_writer_resumes(writer))
+        tn_interrupt_last_words(PART, job->settings->output);
 }
 
 /* What decides the result, for the record in the file. */
@@ -43,7 +57,10 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
     if (tn_job_sample(job, ready, wanted, &sampled)) {
         tn_job_show(job);
         if (tn_job_plan_writer(job, ready, made, &writer)) {
+            promise(job, writer);
             write_plans(job, ready, &sampled, writer);
+            if (job->stopped && tn_plan_writer_resumes(writer))
+                tn_job_interrupted(job, PART, job->settings->output);
             tn_job_plan_close(job, writer);
         }
     }

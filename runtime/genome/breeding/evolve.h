@@ -7,6 +7,7 @@
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_H
 
+#include "runtime/base/watch.h"
 #include "runtime/genome/breeding/select.h"
 #include "runtime/genome/breeding/vary.h"
 
