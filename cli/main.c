@@ -11,6 +11,7 @@
 #include "cli/common/job.h"
 #include "cli/common/manual.h"
 #include "cli/common/options.h"
+#include "cli/common/terminal.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
 static int written(void)
@@ -130,6 +131,7 @@ static void keep_standard_descriptors(void)
 int main(int argc, char **argv)
 {
     keep_standard_descriptors();
+    tn_terminal_guard();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as EPIPE, which commands end on quietly */
     if (argc < 2) {
         tn_help_overview(stderr);

@@ -62,6 +62,11 @@ bool tn_interrupted(void)
     return waiting.stop;
 }
 
+tn_status tn_interrupt_check(tn_error *error)
+{
+    return tn_watch_check(&waiting, error);
+}
+
 tn_watch *tn_interrupt_waiting(void)
 {
     return &waiting;

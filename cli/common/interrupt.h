@@ -15,6 +15,9 @@ void tn_interrupt_watch(bool json);
 
 bool tn_interrupted(void);
 
+/* The same as a status: TN_OK or TN_STOPPED. */
+tn_status tn_interrupt_check(tn_error *error);
+
 /* The watch that the signal ends, for work that is handed it. */
 tn_watch *tn_interrupt_waiting(void);
 

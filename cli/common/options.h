@@ -71,11 +71,12 @@ typedef struct tn_settings {
     int on_error; /* 0 stop, 1 skip */
 
     const char *output, *dropped;
+    bool csv_safe;
     bool json, mirror, resume, check, diff;
     bool no_analysis, relations, examples; /* of check */
     bool with_tests, with_counts;
     const char *before; /* check --diff: the file before an edit */
-    int notation;                          /* 0: what the file's name says; otherwise one more than a tn_notation */
+    int notation;       /* 0: what the file's name says; otherwise one more than a tn_notation */
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 

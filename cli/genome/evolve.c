@@ -1,11 +1,13 @@
 /* tartan evolve: breeds sentences of a grammar towards what a study wants. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
+#include "runtime/base/utf8.h"
 
 static double now(void)
 {
@@ -76,8 +78,11 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     else
         fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
     fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
-    if (count && members[0]->score.state == TN_SCORED)
-        fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
+    if (count && members[0]->score.state == TN_SCORED) {
+        fprintf(out, "best: individual %" PRIu64 "\n", members[0]->id);
+        tn_write_shown(out, members[0]->sentence, strlen(members[0]->sentence));
+        fputc('\n', out);
+    }
     fprintf(out, "results are in %s\n", e->run.dir);
 }
 

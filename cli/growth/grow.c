@@ -7,7 +7,6 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/growth/grow.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/faults.h"
 #include "runtime/mesh/openmesh.h"
 
@@ -233,7 +232,9 @@ static tn_status grow(run_state *run, tn_error *error)
         uint32_t complete = tn_growth_steps(run->growth), faces = tn_growth_map(run->growth)->face_count;
         tn_progress_update(&progress, complete);
         promise(run, complete);
-        status = tn_interrupted() ? tn_fail_stopped(error) : tn_growth_step(run->growth, error);
+        status = tn_interrupt_check(error);
+        if (status == TN_OK)
+            status = tn_growth_step(run->growth, error);
         if (status == TN_LIMIT) {
             tn_job_fail(run->job, error);
             tn_job_note(run->job, "the surface is that of step %u, the last complete one", complete);

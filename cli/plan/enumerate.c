@@ -221,6 +221,7 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
     OPTION_TRAYS,

@@ -62,7 +62,8 @@ static void begin_progress(tn_sifting *s)
 {
     tn_progress_begin(&s->progress, "plans", 0, 0);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
-        s->progress.shows &= !s->streams[t] || !*s->streams[t] || !isatty(fileno(*s->streams[t]));
+        s->progress.shows &= !s->streams[t] || !*s->streams[t] ||
+                             !isatty(*s->streams[t] == stdout ? STDOUT_FILENO : fileno(*s->streams[t]));
 }
 
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)

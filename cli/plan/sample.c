@@ -15,11 +15,9 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     tn_error error;
     tn_status status = trays ? TN_OK : tn_fail_memory(&error);
     for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
-        if (tn_interrupted()) {
-            status = tn_fail_stopped(&error);
-            break;
-        }
         uint32_t length;
+        if ((status = tn_interrupt_check(&error)) != TN_OK)
+            break;
         if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
             status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
         else
@@ -110,6 +108,7 @@ static const tn_option options[] = {
     NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
