@@ -173,7 +173,7 @@ static tn_status keep_and_score(void *context, unsigned thread, const char *sent
 
 static void time_crew(bench *b, unsigned threads, tn_crew_work *work, spent *took)
 {
-    tn_crew *crew = tn_crew_new(threads);
+    tn_crew *crew = tn_crew_new(threads, NULL);
     if (!crew)
         stop("out of memory");
     spent began = begin();

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/common/interrupt.h"
 #include "runtime/base/picture.h"
 
 int tn_exit_code(tn_status status)
@@ -42,12 +43,15 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
 bool tn_job_open(tn_job *job, const char *path)
 {
     worsen(job, tn_exit_code(tn_open(path, job->settings->werror, &job->opened)));
+    if (job->opened.module)
+        job->opened.module->watch = tn_interrupt_waiting();
     return job->opened.module != NULL;
 }
 
 void tn_job_status(tn_job *job, tn_status status)
 {
     worsen(job, tn_exit_code(status));
+    job->stopped |= status == TN_STOPPED;
 }
 
 tn_diagnostics *tn_job_diagnostics(tn_job *job)
@@ -59,6 +63,10 @@ void tn_job_fail(tn_job *job, const tn_error *error)
 {
     if (error->code == E_CLOSED_PIPE) {
         job->reader_gone = true;
+        return;
+    }
+    if (error->status == TN_STOPPED) {
+        tn_job_status(job, TN_STOPPED);
         return;
     }
     tn_finding_error(&job->opened, error);
@@ -87,6 +95,31 @@ void tn_job_note(tn_job *job, const char *format, ...)
     tn_report_bare(tn_job_diagnostics(job), TN_NOTE, TN_CODE_NONE, "%s", text);
 }
 
+void tn_job_interrupted(tn_job *job, const char *format, ...)
+{
+    char text[480];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_job_status(job, TN_STOPPED);
+    job->said = true;
+    tn_job_note(job, "%s", text);
+}
+
+/* Where no command said it itself. */
+static void say_what_is_missing(tn_job *job)
+{
+    const char *output = tn_settings_output(job->settings);
+    job->stopped |= tn_job_diagnostics(job)->stopped;
+    if (!job->stopped || job->said)
+        return;
+    if (output && strcmp(output, "-") != 0)
+        tn_job_interrupted(job, "interrupted; %.400s is not written", output);
+    else
+        tn_job_interrupted(job, "interrupted before the end");
+}
+
 static bool wants_colour(void)
 {
     const char *no_colour = getenv("NO_COLOR"), *terminal = getenv("TERM");
@@ -100,6 +133,7 @@ static void show(tn_job *job)
     tn_diagnostics_sort(list);
     job->errors += list->error_count;
     job->warnings += list->warning_count;
+    job->stopped |= list->stopped;
     if (list->count || list->failed || options.json)
         tn_diagnostics_show(list, &options, stderr);
     if (list->failed)
@@ -129,6 +163,7 @@ bool tn_job_reopen(tn_job *job, const char *path)
 
 int tn_job_end(tn_job *job)
 {
+    say_what_is_missing(job);
     show(job);
     tn_close(&job->opened);
     if (job->errors || (job->warnings && job->settings->werror))

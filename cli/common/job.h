@@ -27,6 +27,8 @@ typedef struct tn_job {
     bool open;
     int exit_code;           /* the gravest so far */
     bool reader_gone;        /* standard output's reader went away: end quietly */
+    bool stopped;            /* by an interrupt, and not all was done */
+    bool said;               /* what is missing, of that */
     size_t errors, warnings; /* shown so far */
 } tn_job;
 
@@ -52,6 +54,9 @@ void tn_job_status(tn_job *job, tn_status status);
 
 /* Records wrong usage, found after the options were read. */
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The command was interrupted: records that, with a note of what was written and what is missing. */
+void tn_job_interrupted(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Adds a plain note. */
 void tn_job_note(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -409,7 +409,10 @@ int tn_options_diagnostics(int count, char *const *words)
 
 tn_settings *tn_settings_new(const tn_command *command)
 {
-    return calloc(1, command->settings_size);
+    tn_settings *settings = calloc(1, command->settings_size);
+    if (settings)
+        settings->command = command;
+    return settings;
 }
 
 void tn_settings_free(const tn_command *command, tn_settings *settings)
@@ -421,4 +424,16 @@ void tn_settings_free(const tn_command *command, tn_settings *settings)
         if (command->options[i].kind == TN_OPTION_LIST)
             free(((tn_option_list *)place_of(settings, &command->options[i]))->items);
     free(settings);
+}
+
+const char *tn_settings_output(const tn_settings *settings)
+{
+    const tn_command *command = settings->command;
+    const char *output = NULL;
+    for (size_t i = 0; command && i < command->option_count; i++) {
+        const tn_option *option = &command->options[i];
+        if (option->kind == TN_OPTION_TEXT && strcmp(option->name, "output") == 0)
+            memcpy(&output, (const char *)settings + option->offset, sizeof output);
+    }
+    return output;
 }

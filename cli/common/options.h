@@ -59,6 +59,7 @@ typedef struct tn_option {
  * file, so that a pointer to this one points to that one too. Options that several commands share are structs which
  * those embed. All is zero where it was not given. */
 typedef struct tn_settings {
+    const struct tn_command *command; /* whose they are; NULL before that is known */
     tn_option_list operands;
     bool help;
     int diagnostics; /* 0 text, 1 json */
@@ -85,6 +86,9 @@ extern const size_t tn_commands_count;
 
 /* The command named so, or NULL. */
 const tn_command *tn_command_find(const char *name);
+
+/* What the command's option --output was given; NULL where it was not, or the command has no such option. */
+const char *tn_settings_output(const tn_settings *settings);
 
 /* Options that every command has; parsing and help add them to the command's own. */
 extern const tn_option tn_common_options[];

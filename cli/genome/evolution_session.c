@@ -39,8 +39,10 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     const tn_session_settings *settings = e->settings;
     const char *path = settings->common.operands.items[0];
     const tn_module *module = e->command->opened.module;
-    tn_evolution_job_options options = {
-        .threads = (unsigned)settings->threads.value, .says_seed = settings->seed.given, .seed = settings->seed.value};
+    tn_evolution_job_options options = {.threads = (unsigned)settings->threads.value,
+                                        .watch = tn_interrupt_waiting(),
+                                        .says_seed = settings->seed.given,
+                                        .seed = settings->seed.value};
     tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
     const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
                            *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
@@ -99,7 +101,6 @@ int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(t
     tn_job_begin(&command, &settings->common);
     if (open_session(&command, settings, &evolution)) {
         tn_job_show(&command);
-        tn_interrupt_watch();
         work(&evolution);
     }
     tn_run_clear(&evolution.run); /* before the job ends, which owns the study's texts */

@@ -325,7 +325,6 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (check_options(&job) && prepare(&run) && tn_job_output(&job, settings->output, &output)) {
         run.out = output.stream;
-        tn_interrupt_watch();
         if (settings->invert)
             invert(&run);
         else if (settings->genome)
@@ -335,7 +334,7 @@ static int run(const tn_command *command, const tn_settings *common)
         else
             random_genomes(&run);
         if (tn_interrupted())
-            job.exit_code = TN_EXIT_INTERRUPTED;
+            tn_job_interrupted(&job, "interrupted after %" PRIu64 " genomes", run.done);
         tn_job_close(&job, &output, !tn_interrupted());
     }
     tn_genome_clear(&run.genome);

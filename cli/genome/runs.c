@@ -7,6 +7,7 @@
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "driver/breed/evolve.h"
+#include "runtime/base/utf8.h"
 
 typedef struct runs_settings {
     tn_settings common;
@@ -49,13 +50,20 @@ static bool read_run(tn_job *job, const char *dir, record *r)
     return status == TN_OK;
 }
 
+static void show_line(FILE *out, const char *before, const char *text, size_t size)
+{
+    fputs(before, out);
+    tn_write_clean(out, text, size);
+    fputc('\n', out);
+}
+
 /* What a person decided before a generation was bred. */
 static void show_events(const record *r, uint32_t generation, FILE *out)
 {
     for (size_t i = 0; i < r->event_count; i++)
         if (r->events[i].generation == generation)
-            fprintf(out, "           %s %s\n",
-                    strcmp(r->events[i].kind, "set") == 0 ? "changed:" : "chosen:", r->events[i].text);
+            show_line(out, strcmp(r->events[i].kind, "set") == 0 ? "           changed: " : "           chosen: ",
+                      r->events[i].text, strlen(r->events[i].text));
 }
 
 static void show(tn_job *job, const char *dir, FILE *out)
@@ -64,7 +72,7 @@ static void show(tn_job *job, const char *dir, FILE *out)
     if (read_run(job, dir, &r)) {
         fprintf(out, "%s%s\n", dir, r.identity ? "" : ": not begun");
         for (const char *line = r.identity; line && *line; line += strcspn(line, "\n") + 1)
-            fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
+            show_line(out, "  ", line, strcspn(line, "\n"));
         fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
                 "evaluations", "births");
         for (size_t i = 0; i < r.count; i++) {

@@ -188,16 +188,39 @@ static bool is_enough(run_state *run)
     return (all_steps && run->settings->said.steps) || run->idle >= IDLE_STEPS;
 }
 
-/* Grows step by step. A limit, an interruption or rest ends it at the last complete step. */
+/* What an interrupt leaves, should one come after this step. */
+static void describe_rest(const run_state *run, uint32_t step, char *text, size_t size)
+{
+    const char *output = run->settings->output;
+    if (!output)
+        snprintf(text, size, "interrupted after step %u of %u", step, run->study.steps);
+    else if (run->settings->each_step)
+        snprintf(text, size, "interrupted after step %u of %u; the files of later steps are not written", step,
+                 run->study.steps);
+    else
+        snprintf(text, size, "interrupted after step %u of %u; %.300s is not written", step, run->study.steps, output);
+}
+
+static void promise(const run_state *run, uint32_t step)
+{
+    char text[480];
+    describe_rest(run, step, text, sizeof text);
+    tn_interrupt_last_words("%s", text);
+}
+
+/* Grows step by step. A limit or rest ends it at the last complete step. */
 static tn_status grow(run_state *run, tn_error *error)
 {
     tn_progress progress;
     tn_status status = note_step(run, error);
     tn_progress_begin(&progress, "steps", 0, run->until_faces ? 0 : run->study.steps);
-    while (status == TN_OK && !is_enough(run) && !tn_interrupted()) {
+    while (status == TN_OK && !is_enough(run)) {
         uint32_t complete = tn_growth_steps(run->growth), faces = tn_growth_map(run->growth)->face_count;
         tn_progress_update(&progress, complete);
-        status = tn_growth_step(run->growth, error);
+        promise(run, complete);
+        status = tn_interrupt_check(error);
+        if (status == TN_OK)
+            status = tn_growth_step(run->growth, error);
         if (status == TN_LIMIT) {
             tn_job_fail(run->job, error);
             tn_job_note(run->job, "the surface is that of step %u, the last complete one", complete);
@@ -231,8 +254,18 @@ static void finish(run_state *run)
         tn_grow_write(run->job, run->growth, &run->study, run->format, settings->output);
     if (settings->stats || !settings->output)
         tn_grow_stats(run->job, run->system, &run->study, run->stats, run->stats_count);
-    if (tn_interrupted())
-        run->job->exit_code = TN_EXIT_INTERRUPTED;
+}
+
+/* What ended it before the end; an interrupt says what is there and what is not. */
+static void fail(run_state *run, const tn_error *error)
+{
+    char text[480];
+    if (error->status != TN_STOPPED || !run->growth) {
+        tn_job_fail(run->job, error);
+        return;
+    }
+    describe_rest(run, tn_growth_steps(run->growth), text, sizeof text);
+    tn_job_interrupted(run->job, "%s", text);
 }
 
 /* --until faces=N */
@@ -275,6 +308,7 @@ static tn_status prepare(run_state *run, tn_error *error)
         return status;
     run->study.options.explain = run->settings->explain;
     run->study.options.interpret = run->settings->engine == TN_GROW_VM;
+    run->study.options.watch = tn_interrupt_waiting();
     run->study.options.threads = (int)run->settings->threads.value;
     run->study.options.memory_limit = memory_limit(run->settings);
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
@@ -288,14 +322,13 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     run_state state = {.job = &job, .settings = tn_grow_settings_of(&job)};
     if (tn_grow_format_of(&job, &state.format) && read_until(&state) && tn_grow_open(&job)) {
-        tn_interrupt_watch();
         tn_status status = prepare(&state, &error);
         if (status == TN_OK)
             status = grow(&state, &error);
         if (status == TN_OK)
             finish(&state);
         else
-            tn_job_fail(&job, &error);
+            fail(&state, &error);
     }
     clear(&state);
     return tn_job_end(&job);

@@ -7,6 +7,7 @@
 #include "cli/plan/answers.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
+#include "runtime/base/utf8.h"
 
 typedef struct count_settings {
     tn_settings common;
@@ -179,8 +180,9 @@ static void write_text(const counts *c, FILE *out)
     mpz_init(pruned);
     mpz_sub(pruned, total->generated, total->kept);
     char *text = tn_digits(pruned, true);
-    fprintf(out, "%s%s%s\npruned: %s\nstates: %u%s\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
-            text ? text : "?", tn_library_states(c->ready->library),
+    fprintf(out, "%s%s", tn_text(module, c->ready->record->name), *doc ? ": " : "");
+    tn_write_clean(out, doc, strlen(doc));
+    fprintf(out, "\npruned: %s\nstates: %u%s\n\n", text ? text : "?", tn_library_states(c->ready->library),
             tn_library_within(c->ready->library) ? " within these lengths" : "");
     free(text);
     mpz_clear(pruned);

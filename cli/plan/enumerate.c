@@ -113,18 +113,18 @@ static bool is_done(const enumeration *e)
 /* Keeps what was written: whole batches of a database, every plan of anything else. */
 static void interrupt(enumeration *e)
 {
+    tn_interrupt_answered();
     if (tn_plan_writer_resumes(e->writer)) {
-        tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+        tn_job_interrupted(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
     } else {
         tn_job_plan_close(e->job, e->writer);
         e->writer = NULL;
         char *rank = mpz_get_str(NULL, 10, e->rank);
         if (rank)
-            tn_job_note(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
-                        e->written, rank);
+            tn_job_interrupted(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
+                               e->written, rank);
         free(rank);
     }
-    e->job->exit_code = TN_EXIT_INTERRUPTED;
 }
 
 /* ---- progress: plans, where there is a limit of them, else ranks */
@@ -187,7 +187,6 @@ static void enumerate(enumeration *e)
     resume(e);
     tn_status status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, &error);
     if (status == TN_OK) {
-        tn_interrupt_watch();
         status = write_plans(e, cursor, &error);
         tn_cursor_free(cursor);
     }
@@ -238,6 +237,7 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
     OPTION_TRAYS,

@@ -9,6 +9,7 @@
 #include "cli/plan/plan_input.h"
 #include "driver/plan/explain.h"
 #include "runtime/base/picture.h"
+#include "runtime/base/utf8.h"
 
 typedef struct explain_settings {
     tn_settings common;
@@ -137,6 +138,15 @@ static void find_near(explaining *e, tn_explained *explained)
         tn_job_fail(e->job, &error);
 }
 
+/* JSON keeps its bytes; what people read does not reach the terminal as it is. */
+static void write_text(const explain_settings *settings, const tn_buffer *text, FILE *out)
+{
+    if (settings->json)
+        fwrite(text->data, 1, text->size, out);
+    else
+        tn_write_shown(out, text->data, text->size);
+}
+
 static void write_explained(explaining *e, const tn_explained *explained)
 {
     tn_error error;
@@ -150,7 +160,7 @@ static void write_explained(explaining *e, const tn_explained *explained)
                                 : tn_explained_text(explained, settings->full, &text))) {
         fail_memory(e->job);
     } else {
-        fwrite(text.data, 1, text.size, e->output.stream);
+        write_text(settings, &text, e->output.stream);
     }
     free(text.data);
 }

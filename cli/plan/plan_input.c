@@ -1,8 +1,10 @@
 #include "cli/plan/plan_input.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/plan/library_job.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/plan/store/sqlite.h"
@@ -53,7 +55,7 @@ static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_
         written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
     s->done += plans;
     tn_progress_update(&s->progress, (double)s->done);
-    return written;
+    return written && !tn_interrupted();
 }
 
 /* Not between answers that are shown on the same terminal. */
@@ -61,7 +63,8 @@ static void begin_progress(tn_sifting *s)
 {
     tn_progress_begin(&s->progress, "plans", 0, 0);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
-        s->progress.shows &= !s->streams[t] || !*s->streams[t] || !isatty(fileno(*s->streams[t]));
+        s->progress.shows &= !s->streams[t] || !*s->streams[t] ||
+                             !isatty(*s->streams[t] == stdout ? STDOUT_FILENO : fileno(*s->streams[t]));
 }
 
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
@@ -86,6 +89,11 @@ bool tn_job_sift(tn_sifting *s)
         s->stopped = true;
     }
     tn_progress_end(&s->progress);
+    if (tn_interrupted() && !s->stopped) {
+        s->stopped = true;
+        tn_job_interrupted(s->job, "interrupted after %" PRIu64 " plans; %s", s->done,
+                           tn_settings_output(s->job->settings) ? "no file is written" : "what is said of them is written");
+    }
     tn_plan_reader_free(reader);
     return opened;
 }

@@ -10,6 +10,10 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_wri
     const tn_module *module = job->opened.module;
     if (!tn_job_takes_text(job, settings->output))
         return false;
+    if (settings->csv_safe && settings->format != TN_FORMAT_CSV) {
+        tn_job_usage(job, "--csv-safe is about --format csv");
+        return false;
+    }
     char library_hash[33], rules_hash[20] = "";
     tn_library_hash(ready->library, library_hash);
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
@@ -23,6 +27,7 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_wri
                      .rules_path = job->settings->operands.items[0],
                      .version = producer ? tn_text(module, producer->version) : NULL,
                      .command = made},
+        .csv_safe = settings->csv_safe,
         .resume = settings->resume,
         .sqlite = tn_plan_sqlite(),
     };

@@ -9,12 +9,16 @@
 typedef struct tn_written_settings {
     const char *output;
     int format; /* a tn_plan_format */
+    bool csv_safe;
     bool resume;
 } tn_written_settings;
 
 #define OPTION_PLAN_FORMAT                                                                                             \
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",                                  \
            "what to write: lines, json, csv, bin or sqlite (default: sqlite for .sqlite and .db, otherwise lines)")
+#define OPTION_CSV_SAFE                                                                                                \
+    FLAG("csv-safe", 0, written.csv_safe,                                                                              \
+         "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")
 #define OPTION_PLAN_OUTPUT                                                                                             \
     TEXT("output", 'o', "FILE", written.output,                                                                        \
          "write to FILE instead of standard output; .sqlite and .db make a database")

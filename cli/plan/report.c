@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 #include "driver/report/report.h"
@@ -81,6 +82,7 @@ static int run(const tn_command *command, const tn_settings *common)
         tn_job_usage(&job, "report needs -o FOLDER, a folder to write into");
         return tn_job_end(&job);
     }
+    tn_interrupt_last_words("interrupted; %.400s/index.html is not written", folder);
     if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready) && make_folder(&job, folder))
         report(&job, &ready, folder);
     tn_library_close(&ready);

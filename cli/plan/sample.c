@@ -2,9 +2,12 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
+
+#define PART "interrupted; %.400s holds only the first plans of the sample"
 
 typedef struct sample_settings {
     tn_settings common;
@@ -25,6 +28,8 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     tn_status status = trays ? TN_OK : tn_fail_memory(&error);
     for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
         uint32_t length;
+        if ((status = tn_interrupt_check(&error)) != TN_OK)
+            break;
         if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
             status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
         else
@@ -33,6 +38,13 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     if (status != TN_OK)
         tn_job_fail(job, &error);
     free(trays);
+}
+
+/* A part of a sample is not drawn evenly: a file is not written, and of a database it is said. */
+static void promise(const tn_job *job, const tn_plan_writer *writer)
+{
+    if (tn_plan_writer_resumes(writer))
+        tn_interrupt_last_words(PART, settings_of(job)->written.output);
 }
 
 /* What decides the result, for the record in the file. */
@@ -55,7 +67,10 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
     if (tn_job_sample(job, ready, &settings_of(job)->sampled, wanted, &sampled)) {
         tn_job_show(job);
         if (tn_job_plan_writer(job, ready, &settings_of(job)->written, made, &writer)) {
+            promise(job, writer);
             write_plans(job, ready, &sampled, writer);
+            if (job->stopped && tn_plan_writer_resumes(writer))
+                tn_job_interrupted(job, PART, settings_of(job)->written.output);
             tn_job_plan_close(job, writer);
         }
     }
@@ -108,6 +123,7 @@ static const tn_option options[] = {
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
            "N plans of each number of trays, instead of N in all"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,

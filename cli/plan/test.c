@@ -4,6 +4,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "driver/plan/coverage.h"
+#include "runtime/base/utf8.h"
 
 typedef struct test_settings {
     tn_settings common;
@@ -72,7 +73,7 @@ static void write_coverage(tn_job *job, test_report *report)
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
     } else if (text.size && tn_job_output(job, NULL, &output)) {
-        fwrite(text.data, 1, text.size, output.stream);
+        tn_write_shown(output.stream, text.data, text.size);
         tn_job_commit(job, &output);
     }
     free(text.data);

@@ -108,6 +108,12 @@ tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32
 tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
                                const char *input_text, size_t input_size)
 {
+    if (error->status == TN_STOPPED) {
+        list->stopped = true;
+        clear_item(&list->scratch);
+        list->scratch = (tn_diagnostic){.severity = TN_NOTE};
+        return &list->scratch;
+    }
     tn_diagnostic *item = tn_report_bare(list, TN_ERROR, error->code, "%s", error->message);
     if (error->help[0])
         tn_help(list, item, "%s", error->help);

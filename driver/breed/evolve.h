@@ -37,6 +37,7 @@ typedef struct tn_evolution_job {
 
 typedef struct tn_evolution_job_options {
     unsigned threads; /* 0: as many as there are */
+    tn_watch *watch;  /* borrowed, or NULL: breeding gives up (TN_STOPPED) once this says so */
     bool says_seed;
     uint64_t seed;
     bool only_replay;         /* no evaluating: scores will be recalled */

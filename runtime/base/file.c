@@ -220,7 +220,7 @@ static int probe(int file)
 static int flush(tn_output *output)
 {
     if (ferror(output->stream))
-        return probe(fileno(output->stream));
+        return probe(output->stream == stdout ? STDOUT_FILENO : fileno(output->stream));
     errno = 0;
     if (fflush(output->stream) != 0)
         return errno ? errno : EIO;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/watch.h"
 
 #define FEW 40u    /* corners: up to here every side is compared with every other */
 #define TOUCH 1e-9 /* of the sides' lengths: what crosses by less only touches */
@@ -158,7 +159,7 @@ bool tn_outline_crosses(tn_outline *o, bool *crossed)
     }
     if (!lay_grid(o, &g))
         return false;
-    for (uint32_t side = 0; side < o->count && !*crossed; side++)
+    for (uint32_t side = 0; side < o->count && !*crossed && !tn_watch_stopped(o->watch); side++)
         if (!enter_side(o, &g, side, crossed))
             return false;
     return true;

@@ -5,6 +5,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/hidden_parts.h"
 #include "runtime/geometry/vector.h"
 
@@ -303,6 +304,7 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
 {
     jobs j = {.all = {.scene = scene, .triangles = triangles}};
     search *s = &j.all;
+    bool complete = true;
     *befores = (tn_face_pairs){0};
     s->boxes = malloc((count + 1) * sizeof *s->boxes);
     s->out_of_memory = !s->boxes;
@@ -313,11 +315,13 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
         s->used = count;
         add_jobs(&j, 0, count, &all, 0);
         if (!s->out_of_memory)
-            tn_share(scene->threads, (uint32_t)j.count, TN_SHARE_UNEVEN, do_job, &j);
+            complete = tn_share(scene->watch, scene->threads, (uint32_t)j.count, TN_SHARE_UNEVEN, do_job, &j);
     }
     bool fine = gather(&j, befores);
     free(j.items);
     free(s->boxes);
     free(s->stack);
+    if (!complete)
+        return tn_fail_stopped(error);
     return fine ? TN_OK : tn_fail_memory(error);
 }

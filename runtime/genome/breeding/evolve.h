@@ -7,6 +7,7 @@
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_H
 
+#include "runtime/base/watch.h"
 #include "runtime/genome/breeding/select.h"
 #include "runtime/genome/breeding/vary.h"
 
@@ -70,6 +71,7 @@ typedef struct tn_evolution_settings {
     tn_replacement replacement;
     tn_mapping_options mapping;
     unsigned threads; /* 0: as many as there are */
+    tn_watch *watch;  /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u

@@ -4,6 +4,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 
 #define MANY 512u /* faces, for patterns to be worth their finding */
 
@@ -305,7 +306,8 @@ tn_status tn_pass_decide(tn_pass *pass, tn_error *error)
         !tn_deciders_prepare(space, pass->threads))
         return tn_fail_memory(error);
     pass->chunks = space->chunks.data;
-    tn_share(pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass);
+    if (!tn_share(tn_pass_watch(pass), pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass))
+        return tn_fail_stopped(error);
     bool fine = true;
     for (int i = 0; i < space->decider_count; i++)
         fine = fine && !space->deciders[i].failed;
