@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "runtime/load.h"
 #include "runtime/number/run.h"
@@ -17,15 +16,15 @@ void fuzz_broken(const char *promise)
     abort();
 }
 
-void fuzz_picture_path(char path[FUZZ_PATH_MAX], const char *extension)
-{
-    const char *folder = getenv("TMPDIR");
-    snprintf(path, FUZZ_PATH_MAX, "%.80s/tartan-fuzz-%ld%s", folder ? folder : "/tmp", (long)getpid(), extension);
-}
-
 bool fuzz_draws(const tn_module *module)
 {
     return module->hash % DRAWN_ONE_IN == 0;
+}
+
+void fuzz_drawn(tn_picture *picture)
+{
+    free(picture->element);
+    *picture = (tn_picture){0};
 }
 
 void fuzz_number(const tn_module *module)

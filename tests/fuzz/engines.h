@@ -5,6 +5,7 @@
 #ifndef TARTAN_TESTS_FUZZ_ENGINES_H
 #define TARTAN_TESTS_FUZZ_ENGINES_H
 
+#include "runtime/base/picture.h"
 #include "runtime/module/module.h"
 
 #define ENGINE(NAME, FUZZ) void FUZZ(const tn_module *module);
@@ -16,10 +17,8 @@ void fuzz_engines(const tn_module *module);
 /* Says what promise is broken, and aborts. */
 _Noreturn void fuzz_broken(const char *promise);
 
-/* A file for pictures, whose name has this extension: of this process alone, which removes it. Since pictures go
- * through files, only one module in some is drawn: is this one? */
-#define FUZZ_PATH_MAX 128
-void fuzz_picture_path(char path[FUZZ_PATH_MAX], const char *extension);
+/* Pictures take long, so only one module in some is drawn: is this one? Throws the picture away again. */
 bool fuzz_draws(const tn_module *module);
+void fuzz_drawn(tn_picture *picture);
 
 #endif

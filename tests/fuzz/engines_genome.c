@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "driver/breed/evolve.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/tree.h"
+#include "runtime/genome/picture/tree_draw.h"
 #include "runtime/grammar/analysis.h"
 #include "tests/fuzz/engines.h"
 
@@ -39,7 +39,8 @@ static void analyse(const tn_grammar *grammar)
 static void show(const tn_grammar *grammar, const tn_mapping *mapping, bool draws)
 {
     tn_tree tree;
-    char *text = NULL, path[FUZZ_PATH_MAX];
+    tn_picture picture = {0};
+    char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
@@ -48,9 +49,9 @@ static void show(const tn_grammar *grammar, const tn_mapping *mapping, bool draw
     if (tn_tree_make(mapping->events, mapping->event_count, &tree, NULL) == TN_OK) {
         tn_tree_write_text(grammar, mapping->events, &tree, out);
         tn_tree_write_json(grammar, mapping->events, &tree, out);
-        fuzz_picture_path(path, ".svg");
-        if (draws && tn_tree_draw(grammar, mapping->events, &tree, path, NULL) == TN_OK)
-            unlink(path);
+        if (draws)
+            tn_tree_draw(grammar, mapping->events, &tree, &picture, NULL);
+        fuzz_drawn(&picture);
     }
     tn_tree_clear(&tree);
     fclose(out);
