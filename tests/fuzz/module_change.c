@@ -9,11 +9,11 @@
 #include "runtime/base/random.h"
 #include "runtime/load.h"
 
-typedef struct dice {
+typedef struct fuzz_dice {
     uint64_t seed, count;
-} dice;
+} fuzz_dice;
 
-static uint64_t roll(dice *dice, uint64_t sides)
+static uint64_t roll(fuzz_dice *dice, uint64_t sides)
 {
     return sides ? tn_random64(dice->seed, 0x6d6f64756c65u, dice->count++) % sides : 0;
 }
@@ -21,7 +21,7 @@ static uint64_t roll(dice *dice, uint64_t sides)
 /* ---- values */
 
 /* A number: within the bounds, at them, beyond them, or near what it was. */
-static int64_t another_whole(dice *dice, int64_t was, int64_t low, int64_t high)
+static int64_t another_whole(fuzz_dice *dice, int64_t was, int64_t low, int64_t high)
 {
     static const int64_t some[] = {0,   1,         2,         3,          63,        64,        65, 255,
                                    256, INT32_MAX, INT32_MIN, UINT32_MAX, INT64_MAX, INT64_MIN, -1, 1000000};
@@ -44,7 +44,7 @@ static int64_t another_whole(dice *dice, int64_t was, int64_t low, int64_t high)
     }
 }
 
-static double another_real(dice *dice, double was, double least, double most)
+static double another_real(fuzz_dice *dice, double was, double least, double most)
 {
     static const double some[] = {0,       -0.0,    1,    -1,    0.5, 2,   1e-300, 1e300,
                                   DBL_MIN, DBL_MAX, 1e12, -1e12, 90,  180, 360,    1e-9};
@@ -69,7 +69,7 @@ static double another_real(dice *dice, double was, double least, double most)
 }
 
 /* A text that is there, one with something put in, or one that other notations stumble over. */
-static int64_t another_text(draft *d, dice *dice, int64_t was)
+static int64_t another_text(draft *d, fuzz_dice *dice, int64_t was)
 {
     static const char *const some[] = {
         "",         "-",     "a",   "'",    "\\",      "\"", "<b>&", "%s%n", "a b",          "\xc3\xa9",
@@ -103,14 +103,14 @@ static int64_t another_text(draft *d, dice *dice, int64_t was)
     return added;
 }
 
-static int64_t another_index(const draft *d, dice *dice, tn_section section)
+static int64_t another_index(const draft *d, fuzz_dice *dice, tn_section section)
 {
     return (int64_t)roll(dice, d->tables[section].count);
 }
 
 /* ---- fields */
 
-static bool choose_record(const draft *d, dice *dice, tn_section *section, size_t *index)
+static bool choose_record(const draft *d, fuzz_dice *dice, tn_section *section, size_t *index)
 {
     for (int tries = 0; tries < 64; tries++) {
         *section = (tn_section)roll(dice, TN_SECTION_COUNT);
@@ -122,7 +122,7 @@ static bool choose_record(const draft *d, dice *dice, tn_section *section, size_
     return false;
 }
 
-static void change_bits(const draft *d, dice *dice, tn_section section, char *record, const tn_member *member)
+static void change_bits(const draft *d, fuzz_dice *dice, tn_section section, char *record, const tn_member *member)
 {
     uint64_t was = (uint64_t)tn_member_whole(record, member);
     size_t other = (size_t)another_index(d, dice, section);
@@ -149,7 +149,7 @@ static void change_bits(const draft *d, dice *dice, tn_section section, char *re
 }
 
 /* Moves the border between a run and the next record's. */
-static void move_border(const draft *d, dice *dice, tn_section section, size_t index, const tn_member *run)
+static void move_border(const draft *d, fuzz_dice *dice, tn_section section, size_t index, const tn_member *run)
 {
     if (index + 1 >= d->tables[section].count)
         return;
@@ -160,14 +160,14 @@ static void move_border(const draft *d, dice *dice, tn_section section, size_t i
     draft_set_whole(next, run + 1, tn_member_whole(next, run + 1) - by);
 }
 
-static void change_slice(const draft *d, dice *dice, char *record, const tn_member *slice)
+static void change_slice(const draft *d, fuzz_dice *dice, char *record, const tn_member *slice)
 {
     int64_t count = (int64_t)d->tables[slice->section].count, first = (int64_t)roll(dice, (uint64_t)count + 1);
     draft_set_whole(record, slice, first);
     draft_set_whole(record, slice + 1, (int64_t)roll(dice, (uint64_t)(count - first) + 1));
 }
 
-static void change_member(draft *d, dice *dice, tn_section section, size_t index, const tn_member *member)
+static void change_member(draft *d, fuzz_dice *dice, tn_section section, size_t index, const tn_member *member)
 {
     char *record = draft_record(d, section, index);
     switch (member->kind) {
@@ -211,7 +211,7 @@ static void change_member(draft *d, dice *dice, tn_section section, size_t index
     }
 }
 
-static void change_field(draft *d, dice *dice)
+static void change_field(draft *d, fuzz_dice *dice)
 {
     tn_section section;
     size_t index;
@@ -222,7 +222,7 @@ static void change_field(draft *d, dice *dice)
 }
 
 /* A field becomes what it is in another record. */
-static void copy_field(draft *d, dice *dice)
+static void copy_field(draft *d, fuzz_dice *dice)
 {
     tn_section section;
     size_t index;
@@ -239,7 +239,7 @@ static void copy_field(draft *d, dice *dice)
 
 /* ---- records */
 
-static void remove_record(draft *d, dice *dice)
+static void remove_record(draft *d, fuzz_dice *dice)
 {
     tn_section section;
     size_t index;
@@ -248,7 +248,7 @@ static void remove_record(draft *d, dice *dice)
 }
 
 /* The copy gets a name of its own. */
-static void double_record(draft *d, dice *dice)
+static void double_record(draft *d, fuzz_dice *dice)
 {
     tn_section section;
     size_t index;
@@ -265,7 +265,7 @@ static void double_record(draft *d, dice *dice)
     }
 }
 
-static void empty_section(draft *d, dice *dice)
+static void empty_section(draft *d, fuzz_dice *dice)
 {
     tn_section section;
     size_t index;
@@ -278,7 +278,7 @@ static void empty_section(draft *d, dice *dice)
 /* ---- code */
 
 /* Some record's code, with at least one instruction. */
-static draft_code *choose_code(const draft *d, dice *dice)
+static draft_code *choose_code(const draft *d, fuzz_dice *dice)
 {
     size_t all = 0;
     for (tn_section i = 0; i < TN_SECTION_COUNT; i++)
@@ -297,7 +297,7 @@ static draft_code *choose_code(const draft *d, dice *dice)
 }
 
 /* Another opcode of the same code; `alike`: with the same operands and effect on the stack. */
-static uint8_t another_opcode(dice *dice, uint8_t was, bool alike)
+static uint8_t another_opcode(fuzz_dice *dice, uint8_t was, bool alike)
 {
     const tn_opcode_info *info = tn_opcode_describe(was);
     for (int tries = 0; tries < 200; tries++) {
@@ -310,7 +310,7 @@ static uint8_t another_opcode(dice *dice, uint8_t was, bool alike)
     return was;
 }
 
-static int64_t another_operand(draft *d, dice *dice, const tn_slot *slot, int64_t was)
+static int64_t another_operand(draft *d, fuzz_dice *dice, const tn_slot *slot, int64_t was)
 {
     switch (slot->kind) {
     case TN_SLOT_INDEX:
@@ -329,7 +329,7 @@ static int64_t another_operand(draft *d, dice *dice, const tn_slot *slot, int64_
     return was;
 }
 
-static void change_opcode(draft *d, dice *dice)
+static void change_opcode(draft *d, fuzz_dice *dice)
 {
     draft_code *code = choose_code(d, dice);
     if (!code)
@@ -338,7 +338,7 @@ static void change_opcode(draft *d, dice *dice)
     instruction->opcode = another_opcode(dice, instruction->opcode, roll(dice, 4) > 0);
 }
 
-static void change_operand(draft *d, dice *dice)
+static void change_operand(draft *d, fuzz_dice *dice)
 {
     draft_code *code = choose_code(d, dice);
     if (!code)
@@ -365,7 +365,7 @@ static size_t term_begin(const draft_code *code, size_t end)
 }
 
 /* An instruction of one operand and one result behind another, made of one that does so in this code. */
-static void wrap_term(draft *d, dice *dice)
+static void wrap_term(draft *d, fuzz_dice *dice)
 {
     draft_code *code = choose_code(d, dice);
     if (!code)
@@ -385,7 +385,7 @@ static void wrap_term(draft *d, dice *dice)
     draft_insert_code(d, code, at + roll(dice, 2), made);
 }
 
-static void remove_instruction(draft *d, dice *dice)
+static void remove_instruction(draft *d, fuzz_dice *dice)
 {
     draft_code *code = choose_code(d, dice);
     if (!code)
@@ -400,7 +400,7 @@ static void remove_instruction(draft *d, dice *dice)
 }
 
 /* A term becomes one of another place, of the same code, or is put behind it and joined to it by an instruction. */
-static void replace_term(draft *d, dice *dice)
+static void replace_term(draft *d, fuzz_dice *dice)
 {
     draft_code *to = choose_code(d, dice), *from = choose_code(d, dice);
     if (!to || !from)
@@ -434,12 +434,12 @@ static void replace_term(draft *d, dice *dice)
 
 void change_draft(draft *d, uint64_t seed)
 {
-    typedef void change(draft *, dice *);
+    typedef void change(draft *, fuzz_dice *);
     static change *const changes[] = {change_field,   change_field,  change_field,  copy_field,         remove_record,
                                       double_record,  empty_section, change_opcode, change_opcode,      change_operand,
                                       change_operand, wrap_term,     wrap_term,     remove_instruction, replace_term,
                                       replace_term,   replace_term};
-    dice dice = {.seed = seed};
+    fuzz_dice dice = {.seed = seed};
     changes[roll(&dice, sizeof changes / sizeof *changes)](d, &dice);
 }
 

@@ -248,6 +248,8 @@ static void remove_alone(draft *d, tn_section section, size_t index)
 
 void draft_remove(draft *d, tn_section section, size_t index)
 {
+    if (index >= d->tables[section].count)
+        return; /* a change before this one made a run too long */
     tn_members members = d->tables[section].info.members;
     for (size_t m = 0; m < members.count; m++) {
         if (members.items[m].kind != TN_MEMBER_RUN)
@@ -325,6 +327,8 @@ static void copy_runs(draft *d, tn_section section, size_t from, size_t to)
             if (i == count)
                 break;
             size_t child = (size_t)(first + i), at = (size_t)(before + length + i);
+            if (child >= d->tables[run->section].count || at > d->tables[run->section].count || at == 0)
+                return; /* likewise */
             insert_copy(d, run->section, child, at);
             if (!d->failed)
                 copy_runs(d, run->section, child, at);
