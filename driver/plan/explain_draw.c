@@ -34,7 +34,7 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
                               .evidence = evidence.data,
                               .depth = depth + 1,
                               .matched = node->matched,
-                              .marks = why->stretches + node->stretch_first,
+                              .marks = node->stretch_count ? why->stretches + node->stretch_first : NULL,
                               .mark_count = tn_words_places(why, node) ? node->stretch_count : 0,
                               .region = node->region};
     if (!node->matched && node->run_count > 0)

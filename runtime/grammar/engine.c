@@ -1,5 +1,6 @@
 /* Verifies and lists the grammars that genomes choose sentences of: their tables and their productions' code. */
 #include "runtime/module/engine.h"
+#include "runtime/grammar/ends.h"
 
 /* ---- tables */
 
@@ -108,7 +109,8 @@ static tn_status check_grammar(tn_checker *checker, const tn_grammar_record *gra
     return TN_OK;
 }
 
-/* A production ends with its one DONE; bodies nest; instructions are of the grammar's dialect, and symbols its own. */
+/* A production ends with its one DONE; bodies nest; instructions are of the grammar's dialect, and symbols its own;
+ * every non-terminal has a sentence. */
 static tn_status verify_code(tn_checker *checker, tn_section section)
 {
     (void)section; /* the engine has code in one */
@@ -117,7 +119,7 @@ static tn_status verify_code(tn_checker *checker, tn_section section)
         if (status != TN_OK)
             return status;
     }
-    return TN_OK;
+    return tn_grammar_check_ends(checker);
 }
 
 /* ---- listing */

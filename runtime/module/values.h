@@ -9,10 +9,11 @@
 #define TN_NO_RECORD UINT32_MAX
 
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
-#define TN_FIELDS_MAX 64u    /* fields of a schema */
-#define TN_VALUES_MAX 255u   /* values of a field: engines number them in a byte */
-#define TN_NAME_MAX 255u     /* bytes of a name */
-#define TN_SPELLING_MAX 511u /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
+#define TN_FIELDS_MAX 64u        /* fields of a schema */
+#define TN_VALUES_MAX 255u       /* values of a field: engines number them in a byte */
+#define TN_TRAYS_MAX 1000000000u /* of a library's plans; engines have their own, lower limits */
+#define TN_NAME_MAX 255u         /* bytes of a name */
+#define TN_SPELLING_MAX 511u     /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
 
 /* ---- plans */
 

@@ -56,14 +56,15 @@ tn_mapper *tn_breeder_mapper(tn_breeder *b)
 
 /* ---- putting genomes together */
 
-static bool append(tn_genome *genome, const uint64_t *codons, size_t count, size_t max_codons)
+/* Appends `count` codons of another genome, from its codon `first` on. A genome without codons has no array. */
+static bool append(tn_genome *genome, const tn_genome *from, size_t first, size_t count, size_t max_codons)
 {
     if (genome->count + count > max_codons)
         count = max_codons - genome->count;
     if (!tn_genome_reserve(genome, genome->count + count))
         return false;
     if (count)
-        memcpy(genome->codons + genome->count, codons, count * sizeof *codons);
+        memcpy(genome->codons + genome->count, from->codons + first, count * sizeof *from->codons);
     genome->count += count;
     return true;
 }
@@ -71,7 +72,7 @@ static bool append(tn_genome *genome, const uint64_t *codons, size_t count, size
 static bool copy(tn_genome *to, const tn_genome *from)
 {
     to->count = 0;
-    return append(to, from->codons, from->count, SIZE_MAX);
+    return append(to, from, 0, from->count, SIZE_MAX);
 }
 
 /* to = a[0, a0) b[b0, b1) a[a1, end) */
@@ -79,8 +80,8 @@ static bool splice(tn_genome *to, const tn_genome *a, size_t a0, size_t a1, cons
                    size_t max_codons)
 {
     to->count = 0;
-    return append(to, a->codons, a0, max_codons) && append(to, b->codons + b0, b1 - b0, max_codons) &&
-           append(to, a->codons + a1, a->count - a1, max_codons);
+    return append(to, a, 0, a0, max_codons) && append(to, b, b0, b1 - b0, max_codons) &&
+           append(to, a, a1, a->count - a1, max_codons);
 }
 
 /* ---- linear crossover */
@@ -154,7 +155,7 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
 static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t depth, tn_genome *part, bool *well)
 {
     part->count = 0;
-    *well = append(part, b->straight[which].codons + span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
+    *well = append(part, &b->straight[which], span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
     if (!*well || b->grammar->dialect == TN_DIALECT_GE || depth == span->depth)
         return *well;
     size_t open = 0;

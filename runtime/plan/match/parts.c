@@ -39,6 +39,8 @@ uint32_t tn_function_rule(const tn_module *module, uint32_t function)
 static tn_status push(reading *r, tn_part part)
 {
     tn_parts *parts = r->parts;
+    if (parts->count >= r->module->code_size)
+        return foreign(r, part.root);
     if (!tn_array_reserve_from(&parts->parts, &parts->capacity, 32, parts->count, 1, sizeof *parts->parts) ||
         !tn_array_reserve_from(&r->stack, &r->capacity, 32, r->depth, 1, sizeof *r->stack))
         return tn_fail_memory(r->error);
@@ -101,8 +103,8 @@ static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
-/* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own.
- */
+/* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own,
+ * which nothing else calls: so there are never more parts than instructions. */
 static tn_status read_symmetric(reading *r, uint32_t offset, uint32_t length)
 {
     tn_part made = leaf(TN_PART_SYMMETRIC, offset, length);
@@ -128,8 +130,9 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
 {
     tn_part *second = top(r), *first = &r->parts->parts[r->stack[r->depth - 2]];
     if (kind == TN_PART_OR && second->kind == TN_PART_KIND_COUNT)
-        return first->kind == TN_PART_RULE && first->function == second->function ? read_symmetric(r, offset, length)
-                                                                                  : foreign(r, offset);
+        return first->kind == TN_PART_RULE && first->function == second->function && !first->somewhere
+                   ? read_symmetric(r, offset, length)
+                   : foreign(r, offset);
     if (first->kind == TN_PART_KIND_COUNT || second->kind == TN_PART_KIND_COUNT)
         return foreign(r, offset);
     if (first->kind != kind || first->somewhere || !same_place(r->module, first->root, offset))
@@ -140,12 +143,18 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
     return TN_OK;
 }
 
+/* What stands at the plan's beginning or end, or somewhere, has all its parts. */
+static bool may_go_on(const tn_part *neighbour)
+{
+    return !neighbour->somewhere && !neighbour->beginning && !neighbour->end;
+}
+
 /* CHAIN: the second neighbour, of one part, goes on the first. */
 static tn_status read_chain(reading *r, uint32_t offset, uint32_t length)
 {
     tn_part *second = top(r), *first = &r->parts->parts[r->stack[r->depth - 2]];
     if (first->kind != TN_PART_NEIGHBOUR || second->kind != TN_PART_NEIGHBOUR || second->child_count != 1 ||
-        first->somewhere || second->somewhere)
+        !may_go_on(first) || !may_go_on(second))
         return foreign(r, offset);
     extend(first, offset, length);
     uint32_t child = second->first;
@@ -159,7 +168,8 @@ static tn_status read_chain(reading *r, uint32_t offset, uint32_t length)
 static tn_status read_more(reading *r, tn_opcode opcode, uint32_t offset, uint32_t length)
 {
     tn_part *part = top(r);
-    if (part->kind != TN_PART_NEIGHBOUR || part->somewhere || (opcode == TN_OP_OPTIONAL && part->child_count != 1))
+    if (part->kind != TN_PART_NEIGHBOUR || part->somewhere ||
+        (opcode == TN_OP_OPTIONAL && (part->child_count != 1 || !may_go_on(part))))
         return foreign(r, offset);
     extend(part, offset, length);
     if (opcode == TN_OP_OPTIONAL)
@@ -270,6 +280,15 @@ static tn_status read_rule(reading *r, uint32_t function)
     return status;
 }
 
+/* Is a part something that an author can have written there? A mirrored call belongs to a symmetric, a call to a rule;
+ * only `and`, `or` and `not` ask for what is somewhere in the region. */
+static bool belongs(const tn_part *part, const tn_part *parent)
+{
+    bool joined = !parent || parent->kind == TN_PART_AND || parent->kind == TN_PART_OR || parent->kind == TN_PART_NOT;
+    return part->kind != TN_PART_KIND_COUNT && (part->kind != TN_PART_RULE || part->rule != UINT32_MAX) &&
+           (joined || !part->somewhere);
+}
+
 /* Numbers the parts from the root, each before its children. */
 static tn_status number(reading *r)
 {
@@ -285,6 +304,8 @@ static tn_status number(reading *r)
     }
     for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t *link = &ordered[i].first;
+        if (!belongs(&ordered[i], i > 0 ? &ordered[ordered[i].parent] : NULL))
+            status = foreign(r, ordered[i].root);
         for (uint32_t child = parts->parts[old[i]].first; child != TN_NO_PART; child = parts->parts[child].next) {
             ordered[count] = parts->parts[child];
             ordered[count].parent = i;

@@ -137,6 +137,41 @@ static void test_schemas(void **state)
     expect(builder, TN_INVALID, "it has value records that belong to no field record");
 }
 
+/* What the compiler refuses too: the same length twice, and more trays than a plan can have. */
+static void test_as_the_compiler(void **state)
+{
+    (void)state;
+    REFUSED(VALUE, tn_value_record, 1, length = 4 * TN_FOOT_NM, "two values of a field are the same");
+    REFUSED(LIBRARY, tn_library_record, 0, trays_max = TN_TRAYS_MAX + 1, "library 0: trays_max");
+}
+
+/* A non-terminal whose one production leads to `expands`, beside one that ends. */
+static void expect_grammar(uint32_t expands, const char *reason)
+{
+    tn_builder *builder = sample_builder();
+    tn_grammar_record grammar = {.name = tn_builder_string(builder, "g"), .rule_count = 2, .repair = TN_REPAIR_OFF};
+    grammar.rewrite_rule = grammar.predecessor = grammar.successor = TN_NO_RECORD;
+    for (uint32_t i = 0; i < 2; i++) {
+        uint32_t begin = tn_builder_offset(builder);
+        tn_builder_emit(builder, i == 0 ? TN_OP_EXPAND : TN_OP_EMIT, i == 0 ? expands : 0, 0);
+        tn_builder_emit(builder, TN_OP_DONE, 0, 0);
+        tn_builder_add_PRODUCTION(builder,
+                                  &(tn_production_record){.code_begin = begin, .code_end = tn_builder_offset(builder)});
+        tn_builder_add_NONTERMINAL(builder, &(tn_nonterminal_record){.name = tn_builder_string(builder, i ? "b" : "a"),
+                                                                     .production_first = i,
+                                                                     .production_count = 1});
+    }
+    tn_builder_add_GRAMMAR(builder, &grammar);
+    expect(builder, reason ? TN_INVALID : TN_OK, reason);
+}
+
+static void test_grammars_end(void **state)
+{
+    (void)state;
+    expect_grammar(1, NULL);
+    expect_grammar(0, "non-terminal 0 can never end");
+}
+
 static void test_second_schema(void **state)
 {
     (void)state;
@@ -340,6 +375,8 @@ int main(void)
         cmocka_unit_test(test_strings),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_schemas),
+        cmocka_unit_test(test_as_the_compiler),
+        cmocka_unit_test(test_grammars_end),
         cmocka_unit_test(test_second_schema),
         cmocka_unit_test(test_specifiers),
         cmocka_unit_test(test_places),
