@@ -59,14 +59,14 @@ static void show(const tn_grammar *grammar, const tn_mapping *mapping, bool draw
 }
 
 /* A genome for the sentence maps to the sentence. */
-static void invert(const tn_grammar *grammar, const tn_map_options *options, const char *sentence, size_t size)
+static void invert(const tn_grammar *grammar, const tn_mapping_options *options, const char *sentence, size_t size)
 {
     tn_invert_options inverting = {.max_depth = options->max_depth, .max_items = ITEMS};
     tn_genome genome = {0};
     tn_mapping again;
     tn_mapper *mapper = tn_mapper_new(grammar);
     if (mapper && tn_invert(grammar, sentence, size, &inverting, &genome, NULL) == TN_OK &&
-        tn_map_genome(mapper, genome.codons, genome.count, options, &again, NULL) == TN_OK && again.has_phenotype &&
+        tn_mapper_derive(mapper, genome.codons, genome.count, options, &again, NULL) == TN_OK && again.has_phenotype &&
         grammar->dialect == TN_DIALECT_GE &&
         (again.phenotype_size != size || memcmp(again.phenotype, sentence, size) != 0))
         fuzz_broken("a genome for a sentence maps to another");
@@ -76,7 +76,7 @@ static void invert(const tn_grammar *grammar, const tn_map_options *options, con
 
 static void map(const tn_module *module, const tn_grammar *grammar)
 {
-    tn_map_options options = tn_map_options_of(grammar);
+    tn_mapping_options options = tn_mapping_options_of(grammar);
     options.max_steps = STEPS;
     options.record = true;
     tn_mapper *mapper = tn_mapper_new(grammar);
@@ -85,7 +85,7 @@ static void map(const tn_module *module, const tn_grammar *grammar)
         tn_mapping mapping;
         for (uint64_t i = 0; i < CODONS; i++)
             codons[i] = tn_random64(module->hash, g, i) % (g % 2 ? 256 : 5);
-        tn_status status = tn_map_genome(mapper, codons, CODONS, &options, &mapping, NULL);
+        tn_status status = tn_mapper_derive(mapper, codons, CODONS, &options, &mapping, NULL);
         if (status == TN_INVALID)
             fuzz_broken("a genome is refused");
         if (status != TN_OK)
@@ -165,7 +165,7 @@ static void breed_grammar(const tn_module *module)
         return;
     if (tn_grammar_new(module, 0, &grammar, NULL) == TN_OK) {
         tn_evaluator evaluator = tn_problem_evaluator(problem);
-        settings.mapping = tn_map_options_of(grammar);
+        settings.mapping = tn_mapping_options_of(grammar);
         breed(grammar, &settings, &evaluator);
         tn_grammar_free(grammar);
     }

@@ -73,14 +73,14 @@ static void count_bodies(draft_code *code)
 static void read_code(draft *d, draft_code *code, uint32_t begin, uint32_t end)
 {
     size_t map = 0;
-    while (map < d->module->MAP_count && d->module->MAP_records[map].offset < begin)
+    while (map < d->module->SOURCE_MAP_count && d->module->SOURCE_MAP_records[map].offset < begin)
         map++;
     for (uint32_t at = begin; at < end;) {
         tn_instruction read = tn_code_read(d->module->code, at);
         draft_instruction instruction = {.opcode = (uint8_t)read.opcode, .first = read.first, .second = read.second};
-        if (map < d->module->MAP_count && d->module->MAP_records[map].offset == at) {
+        if (map < d->module->SOURCE_MAP_count && d->module->SOURCE_MAP_records[map].offset == at) {
             instruction.mapped = true;
-            instruction.place = d->module->MAP_records[map++];
+            instruction.place = d->module->SOURCE_MAP_records[map++];
         }
         append_code(d, code, &instruction);
         at += read.length;
@@ -93,7 +93,7 @@ static void read_table(draft *d, tn_section section)
     draft_table *table = &d->tables[section];
     const tn_table *from = &d->module->tables[section];
     table->info = tn_section_describe(section);
-    if (table->info.members.count == 0 || section == TN_SECTION_MAP)
+    if (table->info.members.count == 0 || section == TN_SECTION_SOURCE_MAP)
         return;
     const tn_member *code = member_of_kind(table, TN_MEMBER_CODE);
     table->has_code = code != NULL;
@@ -388,10 +388,10 @@ static void write_instruction(const draft *d, tn_builder *builder, const draft_c
     if (is_body(instruction->opcode))
         first = (int64_t)body_bytes(code, at);
     uint32_t offset = tn_builder_emit(builder, (tn_opcode)instruction->opcode, first, second);
-    tn_map_record place = instruction->place;
+    tn_source_map_record place = instruction->place;
     place.offset = offset;
     if (instruction->mapped)
-        tn_builder_add_MAP(builder, &place);
+        tn_builder_add_SOURCE_MAP(builder, &place);
 }
 
 /* Writes the code and returns how deep its stack gets. */

@@ -13,7 +13,7 @@
 typedef struct draft_instruction {
     uint8_t opcode;
     bool mapped; /* it has a place in the source */
-    tn_map_record place;
+    tn_source_map_record place;
     int64_t first, second; /* of a body: how many instructions it has */
 } draft_instruction;
 
