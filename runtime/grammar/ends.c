@@ -1,5 +1,5 @@
-/* Finds non-terminals without a sentence: a production ends once all non-terminals in it do, and a non-terminal once
- * one of its productions does. */
+/* Finds non-terminals without a sentence: a production ends once all non-terminals in it (but for those in { } and [ ])
+ * do, and a non-terminal once one of its productions does. */
 #include "runtime/grammar/ends.h"
 
 #include <stdlib.h>
@@ -47,13 +47,15 @@ static void rule_ends(ending *e, uint32_t rule)
     e->ready[e->ready_count++] = rule;
 }
 
-/* Counts the uses of each rule, or lists them where they have been counted. */
+/* Counts the uses of each rule, or lists them where they have been counted. Bodies may be left out by a genome. */
 static void visit_uses(ending *e, uint32_t production)
 {
     const tn_production_record *record = &e->module->PRODUCTION_records[production];
     for (uint32_t offset = record->code_begin; offset < record->code_end;) {
         tn_instruction code = tn_code_read(e->module->code, offset);
         offset += code.length;
+        if (tn_code_operands((uint8_t)code.opcode) == TN_OPERANDS_BODY)
+            offset += (uint32_t)code.first;
         if (code.opcode != TN_OP_EXPAND)
             continue;
         if (e->use) {

@@ -5,8 +5,8 @@
 
 #include "runtime/module/verify.h"
 
-/* Refuses a module in which each production of some non-terminal leads back to it, or to another such. What { } and [ ]
- * hold counts too, as in the compiler. The productions' code has been verified. Linear in their size. */
+/* Refuses a module in which each production of some non-terminal leads back to it, or to another such. What
+ * { } and [ ] hold may be left out. The productions' code has been verified. Linear in their size. */
 tn_status tn_grammar_check_ends(const tn_checker *checker);
 
 #endif

@@ -280,13 +280,12 @@ static tn_status read_rule(reading *r, uint32_t function)
     return status;
 }
 
-/* Is a part something that an author can have written there? A mirrored call belongs to a symmetric, a call to a rule;
- * only `and`, `or` and `not` ask for what is somewhere in the region. */
+/* Is a part something that an author can have written there? A mirrored call belongs to a symmetric; only `and`, `or`
+ * and `not` ask for what is somewhere in the region. */
 static bool belongs(const tn_part *part, const tn_part *parent)
 {
     bool joined = !parent || parent->kind == TN_PART_AND || parent->kind == TN_PART_OR || parent->kind == TN_PART_NOT;
-    return part->kind != TN_PART_KIND_COUNT && (part->kind != TN_PART_RULE || part->rule != UINT32_MAX) &&
-           (joined || !part->somewhere);
+    return part->kind != TN_PART_KIND_COUNT && (joined || !part->somewhere);
 }
 
 /* Numbers the parts from the root, each before its children. */
