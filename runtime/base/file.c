@@ -10,7 +10,6 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
-#include "runtime/base/file_state.h"
 
 /* ---- reading */
 

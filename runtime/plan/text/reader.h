@@ -2,7 +2,7 @@
 #ifndef TARTAN_PLAN_TEXT_READER_H
 #define TARTAN_PLAN_TEXT_READER_H
 
-#include "runtime/base/file_state.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/scanner.h"
 #include "runtime/plan/text/stream.h"
