@@ -43,7 +43,8 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
                                         .watch = tn_interrupt_waiting(),
                                         .says_seed = settings->seed.given,
                                         .seed = settings->seed.value};
-    tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
+    tn_run_options run_options = {
+        .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
     const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
                            *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
     tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text), tn_text(module, grammar->path),
@@ -70,6 +71,10 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, t
     *e = (tn_evolution_session){.command = command, .settings = settings};
     if (settings->changes.count && !settings->resume) {
         tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
+        return false;
+    }
+    if (settings->rescore && !settings->resume) {
+        tn_job_usage(command, "--rescore is about a run that has begun: say --resume too");
         return false;
     }
     if (!tn_job_open(command, path))

@@ -10,6 +10,8 @@
 #define OPTIONS_RUN(generations_help)                                                                                  \
     TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
         FLAG("resume", 0, resume, "go on with the run in the folder, if there is one"),                                \
+        FLAG("rescore", 0, rescore,                                                                                    \
+             "with --resume, where files that scores depend on have changed: score all members again"),                \
         NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
         LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
              "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated"),      \
@@ -19,7 +21,7 @@
 typedef struct tn_session_settings {
     tn_settings common;
     const char *output; /* the run's folder */
-    bool resume, durable;
+    bool resume, durable, rescore;
     tn_option_number generations, seed, threads;
     tn_option_list changes;
 } tn_session_settings;

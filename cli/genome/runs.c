@@ -62,7 +62,7 @@ static void show_events(const record *r, uint32_t generation, FILE *out)
 {
     for (size_t i = 0; i < r->event_count; i++)
         if (r->events[i].generation == generation)
-            show_line(out, strcmp(r->events[i].kind, "set") == 0 ? "           changed: " : "           chosen: ",
+            show_line(out, strcmp(r->events[i].kind, "choose") == 0 ? "           chosen: " : "           changed: ",
                       r->events[i].text, strlen(r->events[i].text));
 }
 

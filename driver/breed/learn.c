@@ -106,6 +106,11 @@ static tn_status find_schema(tn_learner *l, const char *name, const char *user, 
     return status;
 }
 
+const tn_module *tn_learner_schema(const tn_learner *l)
+{
+    return l->opened.module;
+}
+
 tn_status tn_learner_new(const char *schema, const char *user, double length_weight, bool separately,
                          tn_learner **learner, tn_error *error)
 {

@@ -344,6 +344,8 @@ static tn_status start_and_run(sift *s, worker *workers, size_t count, tn_error 
     if (status == TN_OK) {
         run(s, workers, count);
         status = s->status;
+        if (status == TN_OK)
+            status = tn_plan_reader_unchanged(s->reader, error);
     }
     for (size_t i = 0; i < made; i++)
         worker_clear(&workers[i]);

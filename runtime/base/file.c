@@ -24,6 +24,7 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
 {
     size_t capacity = 0, used = 0;
     uint8_t *memory = NULL;
+    tn_file_state before = tn_file_state_of(file);
     while (tn_array_reserve_from(&memory, &capacity, 65536, used, 2, 1)) {
         ssize_t got = read(file, memory + used, capacity - used - 1);
         if (got < 0 && errno == EINTR)
@@ -32,7 +33,7 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
             memory[used] = 0;
             *bytes = memory;
             *size = used;
-            return TN_OK;
+            break;
         }
         if (got < 0) {
             int reason = errno;
@@ -45,8 +46,13 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
             return too_large(path, limit, error);
         }
     }
+    tn_status status = *bytes ? tn_file_state_same(&before, file, path, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        return TN_OK;
     free(memory);
-    return tn_fail_memory(error);
+    *bytes = NULL;
+    *size = 0;
+    return status;
 }
 
 tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)

@@ -15,6 +15,15 @@ void tn_study_clear(tn_study *study)
     *study = (tn_study){0};
 }
 
+uint64_t tn_study_meshes_hash(const tn_study *study)
+{
+    uint64_t hash = 0;
+    for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
+        if (study->meshes[i])
+            hash = tn_boundary_mesh_hash(study->meshes[i], hash);
+    return hash;
+}
+
 static void read_settings(const tn_study_record *record, tn_study *study)
 {
     tn_growth_options *o = &study->options;

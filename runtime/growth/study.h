@@ -31,4 +31,7 @@ tn_status tn_study_read(const tn_module *module, const char *path, tn_mesh_reade
                         tn_error *error);
 void tn_study_clear(tn_study *study);
 
+/* Of the shapes of its boundary meshes; 0 where it has none. */
+uint64_t tn_study_meshes_hash(const tn_study *study);
+
 #endif

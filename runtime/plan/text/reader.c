@@ -29,6 +29,11 @@ static bool make_room(tn_plan_reader *reader, size_t wanted)
     return tn_array_reserve_from(&reader->data, &reader->capacity, INPUT_BYTES, 0, wanted, 1);
 }
 
+tn_status tn_plan_reader_unchanged(const tn_plan_reader *reader, tn_error *error)
+{
+    return tn_file_state_same(&reader->opened, reader->file, reader->path, error);
+}
+
 tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
 {
     if (reader->end - reader->begin >= wanted || reader->input_ended)
@@ -44,7 +49,7 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
         reader->input_ended = count == 0;
         reader->end += (size_t)count;
     }
-    return TN_OK;
+    return reader->input_ended ? tn_plan_reader_unchanged(reader, error) : TN_OK;
 }
 
 /* Drops input up to and with the next end of line. */
@@ -226,6 +231,7 @@ static tn_status open_reader(tn_plan_reader *reader, const char *path, tn_error 
     reader->file = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     if (reader->file < 0)
         return tn_cannot_read(reader->path, errno, error);
+    reader->opened = tn_file_state_of(reader->file);
     return open_format(reader, error);
 }
 
