@@ -48,6 +48,12 @@ bool tn_job_open(tn_job *job, const char *path)
     return job->opened.module != NULL;
 }
 
+bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count)
+{
+    worsen(job, tn_exit_code(tn_open_joined(paths, count, job->settings->werror, &job->opened)));
+    return job->opened.module != NULL;
+}
+
 void tn_job_status(tn_job *job, tn_status status)
 {
     worsen(job, tn_exit_code(status));

@@ -37,6 +37,9 @@ void tn_job_begin(tn_job *job, const tn_settings *settings);
 /* Opens a rule file or module; false where that failed (then end the job). */
 bool tn_job_open(tn_job *job, const char *path);
 
+/* Opens several files that are one text together. */
+bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count);
+
 /* Says what there is to say about the file that is open, and closes it: for commands that take several. */
 void tn_job_next(tn_job *job);
 

@@ -287,7 +287,7 @@ static bool prepare(mapping_run *run)
     tn_error error;
     if (!tn_job_open(job, settings->common.operands.items[0]))
         return false;
-    if (job->opened.module->GRAMMAR_count == 0) {
+    if (!tn_module_has_grammar(job->opened.module)) {
         tn_fail(&error, TN_INVALID, E_NOT_A_GRAMMAR, "%.200s holds no grammar that genomes are mapped through",
                 settings->common.operands.items[0]);
         tn_error_help(&error, "%s", tn_opened_help(&job->opened, "such grammars are .bnf files").text);

@@ -59,7 +59,7 @@ static int run(const tn_command *command, const tn_settings *common)
     const char *path = common->operands.items[0];
     tn_job job;
     tn_job_begin(&job, common);
-    if (tn_job_open(&job, path))
+    if (tn_job_open_joined(&job, common->operands.items, common->operands.count))
         build(&job, path, settings->output);
     return tn_job_end(&job);
 }
@@ -70,16 +70,17 @@ static const tn_option options[] = {OPTION_OUTPUT, OPTION_WERROR};
 const tn_command tn_command_build = {
     .name = "build",
     .summary = "compile a rule file to a module",
-    .usage = "FILE.plan [-o FILE.tnb]",
+    .usage = "FILE.plan [-o FILE.tnb]\nFILE.pcfg... [-o FILE.tnb]",
     .description =
         "Compiles the rule file and all that it uses to one module of bytecode, which every other command takes in the "
-        "rule file's place. Without -o the module is named after the rule file and written to the current folder.",
+        "rule file's place. Without -o the module is named after the rule file and written to the current folder. "
+        "Connection grammars (.pcfg) are one grammar together, in the order given.",
     .example = "$ tartan build houses.plan -o houses.tnb\n$ tartan count houses.tnb",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
-    .operands = "one FILE",
+    .operands = "at least one FILE",
     .operands_min = 1,
-    .operands_max = 1,
+    .operands_max = SIZE_MAX,
     .run = run,
 };

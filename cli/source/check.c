@@ -1,4 +1,6 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
+#include <stdlib.h>
+
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
@@ -144,20 +146,48 @@ static void check(tn_job *job, const char *path)
 {
     const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
-    if (settings->figures && module->GRAMMAR_count == 0)
+    if (settings->figures && !tn_module_has_grammar(module))
         tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
     else if (settings->relations && module->RULE_count == 0)
         tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
-    else if (module->GRAMMAR_count)
+    else if (tn_module_has_grammar(module))
         report_grammar(job);
+    else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
+        return;
     else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
     else
         answer(job);
 }
 
+/* Opens operand i: with it, those further ones that are one text with it. */
+static bool open_operand(tn_job *job, size_t i)
+{
+    const tn_option_list *operands = &job->settings->operands;
+    const char *path = operands->items[i];
+    if (i > 0)
+        tn_job_next(job);
+    if (!tn_path_joins(path))
+        return tn_job_open(job, path);
+    const char **joined = calloc(operands->count, sizeof *joined);
+    tn_error error;
+    size_t count = 0;
+    if (!joined) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return false;
+    }
+    for (size_t k = i; k < operands->count; k++)
+        if (tn_path_joins(operands->items[k]))
+            joined[count++] = operands->items[k];
+    bool open = tn_job_open_joined(job, joined, count);
+    free(joined);
+    return open;
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
+    bool joined = false;
     (void)command;
     const check_settings *settings = (const check_settings *)common;
     tn_job job;
@@ -166,8 +196,10 @@ static int run(const tn_command *command, const tn_settings *common)
     bool going = check_options(&job);
     for (size_t i = 0; going && i < common->operands.count; i++) {
         const char *path = common->operands.items[i];
-        if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
+        bool part = tn_path_joins(path);
+        if ((!part || !joined) && open_operand(&job, i))
             check(&job, path);
+        joined |= part;
     }
     return tn_job_end(&job);
 }
@@ -202,7 +234,9 @@ const tn_command tn_command_check = {
         "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
         "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
         "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. "
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. Connection grammars (.pcfg) are "
+        "one "
+        "grammar together, in the order given. "
         "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
         "testing, "
         "counting and comparing have in common is worked out once, so that after an edit this is faster than one "

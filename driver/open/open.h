@@ -22,6 +22,13 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
+/* Opens files that are one text together, in this order (tn_front.joins); one alone is opened by tn_open. Otherwise as
+ * there. */
+tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened);
+
+/* Is a file of this name one of those that may be several? */
+bool tn_path_joins(const char *path);
+
 /* The same from bytes in memory, which would lie at `path`: that says the notation, and where relative imports start.
  */
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,

@@ -107,14 +107,20 @@ typedef enum tn_fitness_term {
 
 /* ---- grammars that genomes are mapped through */
 
-/* How a .bnf file is read and its genomes mapped (docs/genome-language.md). */
-typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_COUNT } tn_dialect;
+/* How a .bnf file is read and its genomes mapped (docs/genome-language.md); or a connection grammar (docs/placing.md). */
+typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_PLACE, TN_DIALECT_COUNT } tn_dialect;
 
 /* What becomes of edge types that a genr8 sentence leaves without a rule. */
 typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN_REPAIR_COUNT } tn_repair;
 
 #define TN_EDGE_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */
 #define TN_GROUP_DEPTH 64u /* how deep { } and [ ] may nest in a production */
+
+/* ---- connection grammars */
+
+#define TN_PLACE_FAR (1 << 26)      /* a head may not go farther from the origin, in cells */
+#define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
+#define TN_PLACE_COLOUR_MAX INT32_MAX
 
 /* Flags of grammars. */
 #define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../diagnostics"
 failed=0
 seen=$(mktemp)
 trap 'rm -f "$seen"' EXIT
-for plan in *.plan *.bnf *.hemls *.study; do
+for plan in *.plan *.bnf *.hemls *.study *.pcfg; do
     name=${plan%.*}
     status=0
     said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
@@ -29,7 +29,7 @@ for plan in *.plan *.bnf *.hemls *.study; do
 done
 [ "${1-}" != --update ] || exit 0
 # Every code that the front ends report is among them.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study}.[ly] ../../compiler/{hemls,study}/*.c \
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,pcfg}.[ly] ../../compiler/{hemls,study,pcfg}/*.c \
     ../../compiler/plan/{ast*,check*,syntax_error}.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c | sort -u)
 codes=$(while read -r name; do
     case $name in

@@ -6,6 +6,7 @@
 
 #include "runtime/load.h"
 #include "runtime/number/run.h"
+#include "runtime/place/grow.h"
 #include "tests/fuzz/grow.h"
 
 enum { DRAWN_ONE_IN = 8 };
@@ -38,6 +39,31 @@ void fuzz_number(const tn_module *module)
 void fuzz_growth(const tn_module *module)
 {
     grow_module(module);
+}
+
+/* Small limits, and both ways of looking ahead come to the same. */
+void fuzz_place(const tn_module *module)
+{
+    tn_place_rules rules;
+    if (tn_place_rules_make(module, &rules, NULL) != TN_OK)
+        return;
+    tn_placed_model models[2];
+    tn_status found[2];
+    for (int way = 0; way < 2; way++) {
+        tn_place_options options = {.part_limit = 100,
+                                    .step_limit = 1000,
+                                    .frame_limit = 50,
+                                    .lookahead_limit = 1000,
+                                    .memory_limit = 1 << 24,
+                                    .interpret = way == 1};
+        tn_place_fault fault;
+        found[way] = tn_place_derive(&rules, &options, &models[way], &fault, NULL);
+    }
+    if (found[0] == TN_OK && found[1] == TN_OK && models[0].count != models[1].count)
+        fuzz_broken("both ways of looking ahead place as many parts");
+    for (int way = 0; way < 2; way++)
+        tn_placed_model_clear(&models[way]);
+    tn_place_rules_clear(&rules);
 }
 
 static void list(const tn_module *module)
