@@ -1,7 +1,11 @@
 /* Compiles .field files; and the front end that the table of notations names. */
+#include <string.h>
+
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/notation.h"
 #include "compiler/field/field.h"
+
+static const char field_files[] = ".field";
 
 /* What importing needs to know of a file. */
 static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
@@ -46,7 +50,7 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
     tn_imports imports;
     tn_checked_field checked;
     tn_diagnostics *diagnostics = &c->diagnostics;
-    tn_status status = tn_import_all(c, options, ".field", parse_unit, &imports);
+    tn_status status = tn_import_all(c, options, field_files, parse_unit, &imports);
     if (status != TN_OK)
         return status;
     bool damaged = false;
@@ -69,9 +73,11 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
     return reading->tree != NULL;
 }
 
+/* A library of functions leaves nothing but its name. */
 static bool made(const tn_module *module)
 {
-    return module->SURFACE_count > 0;
+    const char *path = module->SOURCE_count ? tn_text(module, module->SOURCE_records[0].path) : "";
+    return module->SURFACE_count > 0 || strcmp(tn_path_extension(path), field_files) == 0;
 }
 
 extern const tn_front tn_front_field;

@@ -70,6 +70,8 @@ static void take_box(emit *e, const tn_field_setting *box)
     }
     if (!box || !box->corners || !box->corners->first)
         return;
+    bool before = e->wrong;
+    e->wrong = false;
     take_corner(e, box->corners->first, e->low);
     take_corner(e, box->corners->last, e->high);
     for (int axis = 0; axis < 3 && !e->wrong; axis++) {
@@ -79,6 +81,7 @@ static void take_box(emit *e, const tn_field_setting *box)
             refuse_box(e, box->span, "this box has no inside",
                        "write the low corner first, and the high one behind `..`, each coordinate larger");
     }
+    e->wrong = e->wrong || before;
 }
 
 static void take_grid(emit *e, const tn_field_setting *grid)
