@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "compiler/notation.h"
 #include "runtime/mesh/openmesh.h"
 
 /* ---- the surface */
@@ -15,8 +16,10 @@ static tn_status no_surface(const tn_opened *opened, const char *name, tn_error 
     const tn_module *module = opened->module;
     if (module->SURFACE_count == 0) {
         tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface", opened->path);
-        tn_error_help(error, "%s",
-                      tn_opened_help(opened, "a .field file defines one: `surface ball = x*x + y*y + z*z - 1`").text);
+        const tn_notation *notation = tn_notation_of_module(module);
+        const char *help = "a .field file defines one: `surface ball = x*x + y*y + z*z - 1`";
+        bool field = notation && strcmp(notation->name, "field") == 0;
+        tn_error_help(error, "%s", field ? help : tn_opened_help(opened, help).text);
         return TN_INVALID;
     }
     const char **names = calloc(module->SURFACE_count, sizeof *names);

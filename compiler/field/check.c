@@ -10,7 +10,7 @@ typedef struct check {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
     const tn_imports *imports;
-    tn_checked_field *checked;
+    tn_checked_fields *checked;
     const tn_field_definition *here; /* whose body is checked; NULL: of a box */
     uint32_t unit;
 } check;
@@ -334,10 +334,10 @@ static void warn_of_unused(const check *c)
     }
 }
 
-bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_field *checked)
+bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_fields *checked)
 {
     check c = {.arena = arena, .diagnostics = diagnostics, .imports = imports, .checked = checked};
-    *checked = (tn_checked_field){0};
+    *checked = (tn_checked_fields){0};
     gather(&c);
     if (tn_arena_failed(arena))
         return false;

@@ -30,7 +30,7 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *un
 }
 
 static tn_status emit(tn_compilation *c, const tn_compile_options *options, const tn_imports *imports,
-                      const tn_checked_field *checked, tn_error *error)
+                      const tn_checked_fields *checked, tn_error *error)
 {
     tn_builder *builder = tn_builder_new();
     if (!builder)
@@ -48,7 +48,7 @@ static tn_status emit(tn_compilation *c, const tn_compile_options *options, cons
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
 {
     tn_imports imports;
-    tn_checked_field checked;
+    tn_checked_fields checked;
     tn_diagnostics *diagnostics = &c->diagnostics;
     tn_status status = tn_import_all(c, options, field_files, parse_unit, &imports);
     if (status != TN_OK)

@@ -15,7 +15,7 @@ typedef struct emit {
     tn_builder *builder;
     tn_arena *arena;
     tn_diagnostics *diagnostics;
-    const tn_checked_field *checked;
+    const tn_checked_fields *checked;
     tn_field_nodes nodes;
     double low[3], high[3];
     uint32_t grid, unit;
@@ -316,7 +316,7 @@ static tn_status emit_surface(emit *e, const tn_field_definition *of, tn_formula
 }
 
 tn_status tn_emit_field(tn_builder *builder, tn_arena *arena, tn_diagnostics *diagnostics,
-                        const tn_checked_field *checked, tn_error *error)
+                        const tn_checked_fields *checked, tn_error *error)
 {
     emit e = {.builder = builder,
               .arena = arena,

@@ -99,17 +99,18 @@ void tn_field_lost(tn_growth_parse *parse);
 
 /* ---- meaning */
 
-typedef struct tn_checked_field {
+typedef struct tn_checked_fields {
     tn_field_definition **definitions; /* of all files; expressions refer to them by their index */
     uint32_t definition_count;
     const tn_field_file *file; /* that is compiled */
     uint32_t unit;
-} tn_checked_field;
+} tn_checked_fields;
 
 /* Looks all names up and says what is wrong. False where out of memory. Afterwards, where there were no errors, of each
  * expression `op` is: TN_OP_COORDINATE (of which `term` is the axis), TN_OP_TERM (of which it is the parameter),
  * TN_OPCODE_COUNT (the definition; or of `at` none), TN_OP_MESH_DISTANCE, an operation's or TN_OP_NUMBER. */
-bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_field *checked);
+bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                    tn_checked_fields *checked);
 
 bool tn_field_is_at(const tn_expression *e);
 
@@ -129,7 +130,7 @@ typedef struct tn_field_node {
 
 typedef struct tn_field_nodes {
     tn_arena *arena;
-    const tn_checked_field *checked;
+    const tn_checked_fields *checked;
     tn_field_node *items;
     uint32_t count, capacity;
     uint32_t *table; /* by what they are; 0: free, else one more than the index */
@@ -146,7 +147,7 @@ uint32_t tn_field_expand(tn_field_nodes *nodes, const tn_expression *expression)
 
 /* TN_OK, TN_INVALID (in the diagnostics) or TN_MEMORY. */
 tn_status tn_emit_field(tn_builder *builder, tn_arena *arena, tn_diagnostics *diagnostics,
-                        const tn_checked_field *checked, tn_error *error);
+                        const tn_checked_fields *checked, tn_error *error);
 
 void tn_format_field(tn_format *format);
 void tn_field_list(tn_listing *listing);

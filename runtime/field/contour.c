@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/field/contour_parts.h"
 
@@ -54,6 +55,27 @@ static void count_vertices(const tn_contouring *c)
         }
 }
 
+/* Leaves out the vertices that no triangle has any more; the others keep their order. */
+static tn_status drop_unused(tn_mesh *mesh, tn_error *error)
+{
+    uint32_t *number = calloc(mesh->vertex_count + 1, sizeof *number), count = 0;
+    if (!number)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < 3 * mesh->face_count; i++)
+        number[mesh->corners[i]] = 1;
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        if (!number[v])
+            continue;
+        memmove(mesh->positions + 3 * (size_t)count, mesh->positions + 3 * v, 3 * sizeof *mesh->positions);
+        number[v] = count++;
+    }
+    for (size_t i = 0; i < 3 * mesh->face_count; i++)
+        mesh->corners[i] = number[mesh->corners[i]];
+    mesh->vertex_count = count;
+    free(number);
+    return TN_OK;
+}
+
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error)
 {
@@ -75,6 +97,8 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
         status = tn_contour_cells(&c, error);
     if (status == TN_OK)
         count_vertices(&c);
+    if (status == TN_OK && options->jumps_open)
+        status = drop_unused(&contour->mesh, error);
     if (c.crew)
         tn_crew_free(c.crew);
     for (int axis = 0; axis < 3; axis++)

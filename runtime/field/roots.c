@@ -81,8 +81,11 @@ static void look_at_ends(batch *b, double *place)
     }
 }
 
+/* Where the outer end is inside by its value, the box closes the form there: that is no jump. */
 static bool is_jump(const batch *b, uint32_t i)
 {
+    if (b->outside[i] < 0)
+        return false;
     if (!isfinite(b->inside[i]) || !isfinite(b->outside[i]))
         return true;
     return fabs(b->inside[i]) + fabs(b->outside[i]) > JUMP * b->largest[i];

@@ -108,7 +108,7 @@ double tn_operation_slope(tn_opcode opcode, const double *operands, const double
         (void)v;                                                                                                       \
         UNUSED_##ARITY return SLOPE;                                                                                   \
     }
-#include "runtime/number/operations.def"
+#include "runtime/module/operations.def"
 #undef OPERATION
     default:
         return 0;
