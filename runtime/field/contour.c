@@ -87,7 +87,7 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
     tn_status status = check_size(grid, options, error);
     if (status != TN_OK)
         return status;
-    c.crew = tn_crew_new(c.threads);
+    c.crew = tn_crew_new(c.threads, field->module->watch);
     status = c.crew && make_room(&c) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_contour_signs(&c, error);
