@@ -2,4 +2,4 @@
 # Meshes of fields against the slow independent reference: random expressions of all operations.
 set -euo pipefail
 [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/field/contour.py" ] || exit 77
-python3 -B tests/field_oracle.py "$TARTAN_ORACLES/field" 60
+python3 -B tests/field_oracle.py "$TARTAN_ORACLES/field" 40
