@@ -125,4 +125,18 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 /* Flags of grammars. */
 #define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
 
+/* ---- fields */
+
+#define TN_GRID_MAX 8192u /* samples on the longest side of a box */
+
+typedef enum tn_unit_word {
+    TN_UNIT_NONE,
+    TN_UNIT_MM,
+    TN_UNIT_CM,
+    TN_UNIT_M,
+    TN_UNIT_IN,
+    TN_UNIT_FT,
+    TN_UNIT_COUNT
+} tn_unit_word;
+
 #endif
