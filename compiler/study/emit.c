@@ -121,7 +121,7 @@ static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_st
         if (status != TN_OK)
             return status;
         record.name = tn_builder_string(builder, goal->text);
-        record.function = tn_formula_emit(builder, goal->text, formula);
+        record.function = tn_formula_emit(builder, TN_FUNCTION_MEASURE, goal->text, formula);
     }
     tn_builder_add_GOAL(builder, &record);
     return TN_OK;
