@@ -3,7 +3,7 @@
 #define TARTAN_GEOMETRY_UNION_PARTS_H
 
 #include "runtime/base/array.h"
-#include "runtime/base/wide.h"
+#include "runtime/geometry/wide.h"
 #include "runtime/geometry/union.h"
 
 #define TN_NOTHING UINT32_MAX

@@ -1,7 +1,7 @@
 /* Whole numbers of 128 and 256 bits, for what has to be decided exactly. Two's complement; nothing here overflows as
  * long as results fit, which whoever calculates sees to. */
-#ifndef TARTAN_BASE_WIDE_H
-#define TARTAN_BASE_WIDE_H
+#ifndef TARTAN_GEOMETRY_WIDE_H
+#define TARTAN_GEOMETRY_WIDE_H
 
 #include <math.h>
 #include <stdbool.h>
