@@ -136,7 +136,8 @@ static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *err
     free(images);
     if (found->failed)
         return tn_fail_memory(error);
-    qsort(found->items, found->count, sizeof *found->items, in_order);
+    if (found->count)
+        qsort(found->items, found->count, sizeof *found->items, in_order);
     return TN_OK;
 }
 
