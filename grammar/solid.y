@@ -26,9 +26,9 @@
 
 int tn_solid_lex(TN_SOLID_STYPE *value, tn_span *span, void *scanner);
 static void tn_solid_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
-static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_entries entries);
-static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_number a, tn_solid_number b);
-static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_text name, tn_solid_text doc,
+static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries);
+static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b);
+static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
                                  tn_solid_part *parts);
 static tn_solid_item *goal(tn_growth_parse *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts);
 static tn_solid_item *goal_part(tn_growth_parse *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number);
@@ -206,7 +206,7 @@ call
 
 %%
 
-static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_entries entries)
+static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);
     if (item)
@@ -214,7 +214,7 @@ static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_kind kind, t
     return item;
 }
 
-static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_number a, tn_solid_number b)
+static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);
     if (item) {
@@ -224,7 +224,7 @@ static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_kind kind, t
     return item;
 }
 
-static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_kind kind, tn_span span, tn_solid_text name, tn_solid_text doc,
+static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
                                  tn_solid_part *parts)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);

@@ -27,6 +27,7 @@ typedef enum tn_word_kind {
     TN_WORD_NUMBER,
     TN_WORD_LENGTH,
     TN_WORD_STRING,
+    TN_WORD_AREA, /* value: square micrometres */
     TN_WORD_NOT,
     TN_WORD_OPERATOR
 } tn_word_kind;
@@ -99,6 +100,8 @@ typedef enum tn_expr_kind {
     TN_EXPR_DISTANCE,
     TN_EXPR_BEGINNING,
     TN_EXPR_END,
+    TN_EXPR_CELL,    /* of a form: items as of a tray */
+    TN_EXPR_SECTION, /* of a form: items of section values */
     TN_EXPR_BROKEN, /* already reported */
 } tn_expr_kind;
 
@@ -124,7 +127,7 @@ typedef struct tn_ast_expr {
 
 /* ---- items of a file */
 
-typedef enum tn_item_kind { TN_ITEM_USE, TN_ITEM_SCHEMA, TN_ITEM_RULE, TN_ITEM_LIBRARY, TN_ITEM_TEST } tn_item_kind;
+typedef enum tn_item_kind { TN_ITEM_USE, TN_ITEM_SCHEMA, TN_ITEM_RULE, TN_ITEM_LIBRARY, TN_ITEM_TEST, TN_ITEM_FORM } tn_item_kind;
 
 typedef struct tn_ast_top {
     tn_ast_node node;

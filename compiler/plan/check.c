@@ -46,7 +46,7 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_forbids(&check, result->schemas[i]);
     static void (*const steps[])(tn_check *) = {check_rules,        tn_check_order, check_meanings,
-                                                tn_check_libraries, tn_check_tests, tn_check_allowances};
+                                                tn_check_libraries, tn_check_forms, tn_check_tests, tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

@@ -131,6 +131,8 @@ typedef struct tn_checked {
     size_t rule_count;
     tn_checked_library **libraries;
     size_t library_count;
+    struct tn_checked_form **forms;
+    size_t form_count;
     tn_program *program;
 } tn_checked;
 
@@ -188,6 +190,14 @@ bool tn_word_is(const tn_ast_word *word, const char *text);      /* case does no
 
 /* ---- check_spec.c */
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
+/* One alternative of an item, from `first` on, for whoever puts items together in another way: the trays that meet it. `context`:
+ * the field and fill of the alternatives before it in the item (field TN_NONE: none). NULL: reported. */
+typedef struct tn_item_context {
+    uint32_t field;
+    const char *fill;
+} tn_item_context;
+tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema, const tn_ast_word *first, tn_span span,
+                                      tn_item_context *context);
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span);
 
 /* ---- check_condition.c */
@@ -215,6 +225,9 @@ void tn_check_order(tn_check *check); /* orders the rules, callees first; report
 
 /* ---- check_library.c */
 void tn_check_libraries(tn_check *check);
+
+/* ---- form_check.c */
+void tn_check_forms(tn_check *check);
 
 /* ---- check_test.c, check_literal.c */
 void tn_check_tests(tn_check *check);

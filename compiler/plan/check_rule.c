@@ -204,6 +204,8 @@ void tn_check_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_DISTANCE:
         check_parts(check, expr);
         break;
+    case TN_EXPR_CELL: /* of forms: the grammar has them nowhere else */
+    case TN_EXPR_SECTION:
     case TN_EXPR_BROKEN:
         break;
     }

@@ -419,3 +419,22 @@ tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const
             allow_all(spec, f);
     return share(check, spec);
 }
+
+tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema, const tn_ast_word *first, tn_span span,
+                                      tn_item_context *context)
+{
+    tn_checked_spec *spec = new_spec(check, schema, span);
+    tn_item_reader item = {.check = check, .schema = schema, .field = context->field, .fill = context->fill};
+    tn_ast_alternative alternative = {.node.span = span};
+    alternative.words.first = (tn_ast_node *)(uintptr_t)first; /* only read */
+    if (!spec || !read_alternative(&item, &alternative))
+        return NULL;
+    *context = (tn_item_context){.field = item.field, .fill = item.fill};
+    for (uint32_t f = 0; f < schema->field_count; f++)
+        if (f != item.field)
+            allow_all(spec, f);
+    for (uint32_t v = 0; v < schema->fields[item.field].value_count; v++)
+        if (item.chosen[v])
+            set_bit(spec, schema->fields[item.field].first_bit + v);
+    return share(check, spec);
+}

@@ -57,7 +57,7 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
 
 static bool made(const tn_module *module)
 {
-    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count > 0;
+    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count + module->FORM_count > 0;
 }
 
 static bool rename_clauses(tn_arena *arena, const tn_source *source, const tn_reading *from, const tn_format *format,

@@ -49,6 +49,7 @@ tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, t
     tn_emit_schemas(&emit);
     tn_emit_rules(&emit);
     tn_emit_libraries(&emit);
+    tn_emit_forms(&emit);
     tn_status status = TN_OK;
     if (emit.instructions > TN_INSTRUCTIONS_MAX) {
         status =

@@ -42,4 +42,7 @@ void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr);
 /* ---- emit_library.c */
 void tn_emit_libraries(tn_emit *emit);
 
+/* ---- form_emit.c */
+void tn_emit_forms(tn_emit *emit);
+
 #endif

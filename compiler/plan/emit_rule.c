@@ -135,6 +135,8 @@ static void emit_whole(tn_emit *emit, const tn_ast_expr *expr)
     case TN_EXPR_OPTIONAL:
     case TN_EXPR_BEGINNING:
     case TN_EXPR_END:
+    case TN_EXPR_CELL:
+    case TN_EXPR_SECTION:
     case TN_EXPR_BROKEN:
         break; /* checking has seen to it that they do not come here */
     }

@@ -12,7 +12,7 @@ struct tn_ast_file;
 
 /* What the words mean depends on where they stand: inside a schema, a tray specifier or a plan, the author's own names
  * count and the language keeps only a few words. */
-typedef enum tn_lex_mode { TN_LEX_TOP, TN_LEX_SCHEMA, TN_LEX_TRAY, TN_LEX_LITERAL } tn_lex_mode;
+typedef enum tn_lex_mode { TN_LEX_TOP, TN_LEX_SCHEMA, TN_LEX_TRAY, TN_LEX_LITERAL, TN_LEX_FORM } tn_lex_mode;
 
 typedef struct tn_parse {
     tn_arena *arena;
@@ -31,6 +31,8 @@ typedef struct tn_parse {
     tn_lex_mode mode, outer_mode;   /* outer_mode: what the tray specifier or plan stands in */
     uint32_t parens;                /* open inside the tray specifier */
     bool schema_head;               /* a `schema` was read, and its { not yet */
+    bool form_head;                 /* the same of `form` */
+    bool in_form, in_tile;          /* inside the braces of one */
     bool in_braces;
     tn_span brace;  /* the { that is open */
     int held_token; /* to be given out next; 0: none */

@@ -4,7 +4,7 @@
 
 #include "compiler/solid/solid.h"
 
-tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_kind kind, tn_span span)
+tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span)
 {
     tn_solid_item *item = TN_NEW(parse->arena, tn_solid_item);
     if (item) {

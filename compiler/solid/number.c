@@ -4,7 +4,7 @@
 
 #include "compiler/common/lexical.h"
 #include "compiler/solid/solid.h"
-#include "runtime/geometry/wide.h"
+#include "runtime/geometry/union/wide.h"
 
 enum { DIGITS_MAX = 36, POWER_MAX = 36 };
 

@@ -63,7 +63,7 @@ typedef struct tn_solid_entries {
     tn_solid_entry *first, *last;
 } tn_solid_entries;
 
-typedef enum tn_solid_kind {
+typedef enum tn_solid_statement {
     /* each once in a design */
     TN_SOLID_SETS_SYMMETRY,
     TN_SOLID_SETS_FLAT,
@@ -78,10 +78,10 @@ typedef enum tn_solid_kind {
     TN_SOLID_ASKS,
     TN_SOLID_REQUIRES,
     TN_SOLID_AIMS,
-} tn_solid_kind;
+} tn_solid_statement;
 
 typedef struct tn_solid_item {
-    tn_solid_kind kind;
+    tn_solid_statement kind;
     tn_span span;
     tn_solid_text name, doc;
     tn_solid_part *parts;      /* of a box, genes or goal: the last first */
@@ -123,7 +123,7 @@ void tn_solid_lexer_free(void *scanner);
 bool tn_solid_heads(const char *text, size_t size);
 
 /* Constructors; out of memory is the arena's to remember. */
-tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_kind kind, tn_span span);
+tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span);
 tn_solid_part *tn_solid_part_new(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before);
 tn_solid_entry *tn_solid_entry_new(tn_growth_parse *parse, tn_span span);
 tn_solid_entries tn_solid_entries_add(tn_solid_entries list, tn_solid_entry *entry);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "driver/solid/solid.h"
-#include "runtime/geometry/union.h"
+#include "runtime/geometry/union/union.h"
 
 typedef struct reporting {
     tn_opened *opened;

@@ -3,6 +3,7 @@
 #ifndef TARTAN_GROWTH_STUDY_H
 #define TARTAN_GROWTH_STUDY_H
 
+#include "runtime/geometry/boundary_file.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
@@ -19,9 +20,6 @@ typedef struct tn_study {
     tn_boundary *boundaries;
     tn_boundary_mesh **meshes; /* [boundary], NULL for other shapes */
 } tn_study;
-
-/* Reads a mesh file. The caller clears the mesh, unless reading failed. */
-typedef tn_status tn_mesh_reader(const char *path, tn_mesh *mesh, tn_error *error);
 
 /* Reads it, and the boundary meshes from their files by `reader` (tn_openmesh_read of runtime/mesh). A mesh's path
  * starts at the folder of `path`, the study or module that was opened; where there is none, at the folder in which the

@@ -65,15 +65,15 @@ uint32_t tn_design_image(const tn_design *design, uint32_t number)
     return mask;
 }
 
-void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cell *cell)
+void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cut_box *cell)
 {
     const tn_solid_box *b = &design->boxes[box];
     if (b->void_) {
         memset(cell, 0, sizeof *cell);
         return;
     }
-    tn_cell_clip(b->low, b->high, b->clipped ? b->normal : NULL, b->distance, cell);
+    tn_cut_box_clip(b->low, b->high, b->clipped ? b->normal : NULL, b->distance, cell);
     for (int axis = 0; axis < 3; axis++)
         if (image >> axis & 1)
-            tn_cell_mirror(cell, axis);
+            tn_cut_box_mirror(cell, axis);
 }

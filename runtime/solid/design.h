@@ -8,7 +8,7 @@
 #define TARTAN_SOLID_DESIGN_H
 
 #include "runtime/base/error.h"
-#include "runtime/geometry/cell.h"
+#include "runtime/geometry/union/cut_box.h"
 #include "runtime/module/module.h"
 
 typedef struct tn_solid_box {
@@ -55,6 +55,6 @@ uint32_t tn_design_images(const tn_design *design);
 uint32_t tn_design_image(const tn_design *design, uint32_t number);
 
 /* What is left of a box when it is clipped, in its image. */
-void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cell *cell);
+void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cut_box *cell);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/geometry/union.h"
+#include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
 #include "runtime/solid/footprint.h"
 
@@ -114,7 +114,7 @@ static void measure_mass(const tn_built *built, double *values)
     tn_moments m = {0};
     double around[3];
     for (size_t i = 0; i < built->cell_count; i++)
-        tn_cell_moments(&built->cells[i], &m);
+        tn_cut_box_moments(&built->cells[i], &m);
     values[TN_SOLID_VOLUME_MEASURED] = values[TN_SOLID_MASS_MEASURED] = m.volume;
     for (int k = 0; k < 3; k++) {
         double centre = m.volume > 0 ? m.first[k] / m.volume : 0;
@@ -128,7 +128,7 @@ static void measure_mass(const tn_built *built, double *values)
 static tn_status measure_footprint(const tn_built *built, const bounds *b, double *values, tn_error *error)
 {
     size_t count = 0;
-    double(*points)[2] = malloc((built->cell_count * TN_CELL_CORNERS + 1) * sizeof *points);
+    double(*points)[2] = malloc((built->cell_count * TN_CUT_BOX_CORNERS + 1) * sizeof *points);
     if (!points)
         return tn_fail_memory(error);
     for (size_t i = 0; i < built->cell_count; i++)
@@ -152,11 +152,11 @@ static tn_status measure_footprint(const tn_built *built, const bounds *b, doubl
 
 /* ---- clipped faces against other boxes */
 
-static bool cap_middle(const tn_cell *cell, double middle[3])
+static bool cap_middle(const tn_cut_box *cell, double middle[3])
 {
     for (uint32_t f = 0; f < cell->face_count; f++) {
-        const tn_cell_face *face = &cell->faces[f];
-        if (face->side != TN_CELL_CAP)
+        const tn_cut_box_face *face = &cell->faces[f];
+        if (face->side != TN_CUT_BOX_CAP)
             continue;
         for (int k = 0; k < 3; k++) {
             middle[k] = 0;
@@ -168,7 +168,7 @@ static bool cap_middle(const tn_cell *cell, double middle[3])
     return false;
 }
 
-static bool near_box(const tn_cell *cell, const double p[3], double reach)
+static bool near_box(const tn_cut_box *cell, const double p[3], double reach)
 {
     double square = 0;
     for (int k = 0; k < 3; k++) {

@@ -12,7 +12,7 @@
 typedef struct tn_built {
     tn_design written, built; /* before correction and after */
     tn_history history;
-    tn_cell *cells; /* owned */
+    tn_cut_box *cells; /* owned */
     size_t cell_count;
 } tn_built;
 

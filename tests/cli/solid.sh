@@ -69,10 +69,10 @@ status=0
 [ "$status" = 1 ] && grep -q 'E1513' err || fail 'a design that is not there'
 status=0
 "$TARTAN" mesh lahave -o no.obj 2>err || status=$?
-[ "$status" = 1 ] && grep -q 'E1513' err || fail 'a file without designs'
+[ "$status" = 1 ] && grep -q 'E1413' err || fail 'a file without designs'
 status=0
-"$TARTAN" mesh table 2>err || status=$?
-[ "$status" = 2 ] || fail 'nothing to do is no error'
+"$TARTAN" mesh table --grid 20 2>err || status=$?
+[ "$status" = 2 ] && grep -q 'for fields' err || fail 'an option of fields that a design does not heed'
 printf 'solid "no name" {}\nsolid x { box a from (0,0,0) to (1,1,1) ; }' >broken.solid
 "$TARTAN" check broken.solid 2>err && fail 'a broken file passes'
 {

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/numeric.h"
-#include "runtime/geometry/union.h"
+#include "runtime/geometry/union/union.h"
 #include "runtime/solid/measure.h"
 
 static double real(const json_t *value)
@@ -62,13 +62,13 @@ static void assert_near(double a, double b, double by)
         fail_msg("%.17g is not %.17g", a, b);
 }
 
-static void check_cell(const tn_cell *cell, const tn_solid_box *box, const json_t *wanted)
+static void check_cell(const tn_cut_box *cell, const tn_solid_box *box, const json_t *wanted)
 {
     tn_moments moments = {0};
     assert_int_equal(box->void_, json_is_true(json_object_get(wanted, "void")));
     assert_int_equal(cell->face_count, json_integer_value(json_object_get(wanted, "faces")));
     assert_int_equal(cell->corner_count, json_integer_value(json_object_get(wanted, "vertices")));
-    tn_cell_moments(cell, &moments);
+    tn_cut_box_moments(cell, &moments);
     assert_near(moments.volume, real(json_object_get(wanted, "volume")), 1e-9);
     for (size_t k = 0; k < 3 && !box->void_; k++) {
         assert_near(cell->low[k], real(json_array_get(json_object_get(wanted, "lo"), k)), 1e-12);

@@ -12,7 +12,7 @@
 
 #include "runtime/base/numeric.h"
 #include "runtime/base/random.h"
-#include "runtime/geometry/union.h"
+#include "runtime/geometry/union/union.h"
 #include "runtime/solid/measure.h"
 
 enum { BOXES = 12 };
@@ -71,7 +71,7 @@ static void make_design(uint64_t seed, tn_design *design)
         make_box(&design->boxes[i], lattice);
 }
 
-static void check_apart(const tn_cell *cells, const tn_design *design, size_t count)
+static void check_apart(const tn_cut_box *cells, const tn_design *design, size_t count)
 {
     uint32_t n = design->box_count;
     for (size_t i = 0; i < count; i++)
@@ -153,11 +153,11 @@ static void check_design(uint64_t seed)
     assert_memory_equal(design.boxes, again.boxes, design.box_count * sizeof *design.boxes);
     uint32_t n = design.box_count;
     size_t count = (size_t)n * tn_design_images(&design);
-    tn_cell *cells = calloc(count + 1, sizeof *cells);
+    tn_cut_box *cells = calloc(count + 1, sizeof *cells);
     tn_moments moments = {0};
     for (uint32_t i = 0; i < count; i++) {
         tn_design_cell(&design, i % n, tn_design_image(&design, i / n), &cells[i]);
-        tn_cell_moments(&cells[i], &moments);
+        tn_cut_box_moments(&cells[i], &moments);
     }
     check_apart(cells, &design, count);
     if (tn_union_make(cells, count, &u, &error) != TN_OK)
