@@ -1,9 +1,9 @@
-#include "runtime/plan/match/marked.h"
+/* Makes the small automata of marked words, and those that products of them give. */
+#include "runtime/plan/automata/marked.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* ---- small automata written out: columns are 0 (other classes), 1 (classes that `chosen` names, or NULL) and the
+/* ---- small automata written out: columns are 0 (other letters), 1 (letters that `chosen` names, or NULL) and the
  * marker */
 
 typedef struct tn_small_row {
@@ -30,9 +30,9 @@ static tn_status small(const tn_marked *marked, const tn_small_row *rows, uint32
     return status;
 }
 
-tn_status tn_marked_make(tn_marked *marked, const tn_classes *classes, tn_bounds *bounds, tn_error *error)
+tn_status tn_marked_make(tn_marked *marked, uint32_t letters, tn_bounds *bounds, tn_error *error)
 {
-    *marked = (tn_marked){.classes = classes, .letters = classes->count + 1, .bounds = bounds};
+    *marked = (tn_marked){.letters = letters + 1, .bounds = bounds};
     static const tn_small_row all[] = {{0, 0, 1, 0}, {1, 1, 2, 0}, {2, 2, 3, 1}, {3, 3, 3, 0}};
     static const tn_small_row nonempty[] = {{0, 0, 1, 0}, {2, 2, 4, 0}, {2, 2, 3, 0}, {3, 3, 4, 1}, {4, 4, 4, 0}};
     static const tn_small_row empty[] = {{0, 0, 1, 0}, {3, 3, 2, 0}, {2, 2, 3, 1}, {3, 3, 3, 0}};
@@ -64,17 +64,10 @@ void tn_marked_clear(tn_marked *marked)
     *marked = (tn_marked){0};
 }
 
-tn_status tn_marked_tray(const tn_marked *marked, uint32_t spec, tn_dfa **out, tn_error *error)
+tn_status tn_marked_letter(const tn_marked *marked, const uint8_t *chosen, tn_dfa **out, tn_error *error)
 {
     static const tn_small_row rows[] = {{0, 0, 1, 0}, {4, 2, 4, 0}, {4, 4, 3, 0}, {3, 3, 4, 1}, {4, 4, 4, 0}};
-    uint8_t *chosen = malloc(marked->letters);
-    if (!chosen)
-        return tn_fail_memory(error);
-    for (uint32_t c = 0; c < marked->classes->count; c++)
-        chosen[c] = tn_spec_meets(marked->classes->schema, spec, marked->classes->representative[c]);
-    tn_status status = small(marked, rows, 5, chosen, out, error);
-    free(chosen);
-    return status;
+    return small(marked, rows, 5, chosen, out, error);
 }
 
 tn_status tn_marked_not(const tn_marked *marked, const tn_dfa *a, tn_dfa **out, tn_error *error)

@@ -1,18 +1,19 @@
-#include "runtime/plan/library/count.h"
+/* Counts words forward from the start, or backward from the end in rows. */
+#include "runtime/plan/automata/count.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 
-tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
-                            tn_error *error)
+tn_status tn_column_weights(const uint32_t *sizes, uint32_t letters, const uint32_t *column, uint32_t columns,
+                            uint64_t **weights, tn_error *error)
 {
     *weights = calloc((size_t)columns + 1, sizeof **weights);
     if (!*weights)
         return tn_fail_memory(error);
-    for (uint32_t c = 0; c < classes->count; c++)
-        (*weights)[column[c]] += classes->size[c];
+    for (uint32_t l = 0; l < letters; l++)
+        (*weights)[column[l]] += sizes[l];
     return TN_OK;
 }
 
@@ -20,7 +21,7 @@ tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, u
 
 /* Room while edges are collected. */
 typedef struct tn_collecting {
-    uint64_t *sum;  /* [states]: trays that lead there from the state in hand; zero between states */
+    uint64_t *sum;  /* [states]: symbols that lead there from the state in hand; zero between states */
     uint32_t *into; /* [columns]: states with a sum */
     uint32_t count;
 } tn_collecting;
@@ -146,7 +147,8 @@ tn_status tn_count_row_first(const tn_edges *edges, tn_count_row *row, tn_error 
     return status;
 }
 
-/* A sum of counts of one row, each times a number of trays that add up to less than 2^32, needs one limb more at most.
+/* A sum of counts of one row, each times a number of symbols that add up to less than 2^32, needs one limb more at
+ * most.
  */
 tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_count_row *next, tn_error *error)
 {
@@ -172,7 +174,7 @@ void tn_count_row_add(const tn_count_row *row, uint32_t state, uint64_t times, m
 
 /* ---- counts */
 
-/* How many plans of the length reached lead to each state; only to those `active` there are any. */
+/* How many words of the length reached lead to each state; only to those `active` there are any. */
 typedef struct count_front {
     mp_limb_t *value; /* [states][limbs] */
     uint32_t *active; /* [states] */
@@ -192,7 +194,7 @@ static void front_clear(count_front *front)
     free(front->active);
 }
 
-/* Moves the plans on by one tray, and empties the front they were in. Values of active states are not zero. */
+/* Moves the words on by one symbol, and empties the front they were in. Values of active states are not zero. */
 static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, count_front *from,
                        count_front *to)
 {
@@ -213,8 +215,8 @@ static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t 
     from->count = 0;
 }
 
-/* Of an automaton without cycles, from its start: each step only meets the states that plans of that length reach.
- * limbs: hold the number of all plans of `max` trays. */
+/* Of an automaton without cycles, from its start: each step only meets the states that words of that length reach.
+ * limbs: hold the number of all words of `max` symbols. */
 static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, uint32_t max,
                                mpz_t *counts, tn_error *error)
 {
@@ -246,10 +248,10 @@ static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights,
 
 uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max)
 {
-    uint64_t trays = 0, bits = 1;
+    uint64_t symbols = 0, bits = 1;
     for (uint32_t c = 0; c < columns; c++)
-        trays += weights[c];
-    while (trays >> bits)
+        symbols += weights[c];
+    while (symbols >> bits)
         bits++;
     return bits * max / 64 + 1;
 }
@@ -278,11 +280,10 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
     return status;
 }
 
-tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, uint32_t max, mpz_t *counts,
-                           tn_error *error)
+tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_error *error)
 {
     uint64_t *weights = NULL;
-    tn_status status = tn_column_weights(classes, sparse->column, sparse->columns, &weights, error);
+    tn_status status = tn_column_weights(sizes, sparse->letters, sparse->column, sparse->columns, &weights, error);
     uint64_t limbs = status == TN_OK ? tn_count_limbs(weights, sparse->columns, max) : 0;
     if (status == TN_OK && sparse->folded && limbs <= TN_FORWARD_LIMBS_MAX)
         status = count_forward(sparse, weights, limbs, max, counts, error);
@@ -292,7 +293,7 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const tn_classes *classes, u
     return status;
 }
 
-tn_status tn_count_range(const tn_sparse *sparse, const tn_classes *classes, uint32_t min, uint32_t max, mpz_t count,
+tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, mpz_t count,
                          tn_error *error)
 {
     mpz_set_ui(count, 0);
@@ -303,7 +304,7 @@ tn_status tn_count_range(const tn_sparse *sparse, const tn_classes *classes, uin
         return tn_fail_memory(error);
     for (uint32_t length = 0; length <= max; length++)
         mpz_init(counts[length]);
-    tn_status status = tn_count_lengths(sparse, classes, max, counts, error);
+    tn_status status = tn_count_lengths(sparse, sizes, max, counts, error);
     for (uint32_t length = min; status == TN_OK && length <= max; length++)
         mpz_add(count, count, counts[length]);
     for (uint32_t length = 0; length <= max; length++)

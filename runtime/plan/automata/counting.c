@@ -1,7 +1,7 @@
 /* QUANTITY, SUM and OCCURRENCES: count places of the stretch [x, y) that are in a relation, modulo what the condition
  * can tell apart.
  *
- * Whether a place counts may depend on what comes after it, even after y (the relation may look at the whole plan). So
+ * Whether a place counts may depend on what comes after it, even after y (the relation may look at the whole word). So
  * a state keeps, for each place read so far, the set of states that the relation's automaton may be in if that place is
  * guessed; places with equal sets have equal futures, so a set is kept once with the number of its places (a multiset
  * of sets). Numbers are kept in N / (threshold ~ threshold + period) of the condition (condition.h): the coarsest count
@@ -13,9 +13,8 @@
 
 #include "runtime/base/array.h"
 #include "runtime/plan/automata/explore.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/automata/operand.h"
-#include "runtime/plan/match/condition.h"
-#include "runtime/plan/match/marked.h"
 
 typedef struct tn_place_count {
     uint32_t set;   /* number in the interner of sets */
@@ -27,9 +26,8 @@ typedef struct tn_counting {
     tn_join join;
     uint32_t marker; /* column of the join */
     tn_operand a;
-    uint64_t threshold, period;
-    uint8_t *truth;   /* [threshold + period] */
-    uint32_t *weight; /* [columns of the join]: what a tray counts, canonical */
+    const tn_periodic_set *set;
+    uint32_t *weight; /* [columns of the join]: what a letter counts, canonical */
     tn_interner sets; /* of states of a */
     tn_pairs members; /* of the set being built */
     tn_key scratch, words;
@@ -45,8 +43,9 @@ enum { PHASE, THREAD, RUNNING, PLACES };
 
 static uint32_t canonical(const tn_counting *counting, uint64_t n)
 {
-    if (n >= counting->threshold)
-        n = counting->threshold + (n - counting->threshold) % counting->period;
+    const tn_periodic_set *set = counting->set;
+    if (n >= set->threshold)
+        n = set->threshold + (n - set->threshold) % set->period;
     return (uint32_t)n;
 }
 
@@ -118,7 +117,7 @@ static void set_add_running(tn_counting *counting, uint32_t state)
     set_add(counting, tn_operand_mark(&counting->a, state));
 }
 
-/* A set after one more tray. In phase 1, guesses of TALLY_STARTS that are under way may end. */
+/* A set after one more letter. In phase 1, guesses of TALLY_STARTS that are under way may end. */
 static uint32_t set_read(tn_counting *counting, uint32_t set, uint32_t phase, uint32_t column)
 {
     size_t size = set_members(counting, set);
@@ -184,7 +183,7 @@ static bool places_write(tn_counting *counting, tn_key *next)
     return true;
 }
 
-/* The set of the place that the tray just read makes, guessed to start before it (singles: and to end after it). */
+/* The set of the place that the letter just read makes, guessed to start before it (singles: and to end after it). */
 static uint32_t new_place(tn_counting *counting, uint32_t thread, uint32_t column)
 {
     if (thread == TN_NO_STATE)
@@ -198,7 +197,7 @@ static uint32_t new_place(tn_counting *counting, uint32_t thread, uint32_t colum
     return set_end(counting);
 }
 
-/* TALLY_ENDS: the guesses under way after one more tray, with the one that starts before it. */
+/* TALLY_ENDS: the guesses under way after one more letter, with the one that starts before it. */
 static uint32_t read_running(tn_counting *counting, uint32_t running, uint32_t thread, uint32_t column)
 {
     size_t size = running == NO_SET ? 0 : set_members(counting, running);
@@ -277,42 +276,18 @@ static bool counting_accepts(void *context, const uint32_t *key, size_t size)
             counts |= counting->a.dfa->accept[states[m]];
         total += counts ? key[i + 1] : 0;
     }
-    return counting->truth[canonical(counting, total)];
+    return counting->set->holds[canonical(counting, total)];
 }
 
-/* Finds where the condition repeats and its truth up to there. */
-static tn_status prepare_condition(tn_counting *counting, const tn_marked *marked, uint32_t condition, int64_t unit,
-                                   tn_error *error)
+/* Joins the columns with what each letter counts. */
+static tn_status prepare_columns(tn_counting *counting, const tn_marked *marked, const tn_dfa *a,
+                                 const uint64_t *counts, tn_error *error)
 {
-    const tn_module *module = marked->classes->schema->module;
-    uint64_t limit = (uint64_t)marked->bounds->max_states * 4 + 64;
-    tn_status status =
-        tn_condition_period(module, condition, unit, limit, &counting->threshold, &counting->period, error);
-    if (status != TN_OK)
-        return status;
-    uint64_t size = counting->threshold + counting->period;
-    counting->truth = malloc(size);
-    if (!counting->truth)
-        return tn_fail_memory(error);
-    for (uint64_t n = 0; n < size; n++)
-        counting->truth[n] = tn_condition_holds(module, condition, (int64_t)n * unit);
-    return TN_OK;
-}
-
-/* Joins the columns with what each class counts in steps of `unit`. */
-static tn_status prepare_columns(tn_counting *counting, const tn_marked *marked, const tn_dfa *a, uint32_t field,
-                                 int64_t unit, tn_error *error)
-{
-    const tn_classes *classes = marked->classes;
     uint32_t *weights = calloc(marked->letters, sizeof *weights);
     if (!weights)
         return tn_fail_memory(error);
-    for (uint32_t c = 0; c < classes->count; c++) {
-        uint64_t steps = 1;
-        if (field != TN_NO_FIELD)
-            steps = (uint64_t)(tn_tray_value_record(classes->schema, classes->representative[c], field)->length / unit);
-        weights[c] = canonical(counting, steps);
-    }
+    for (uint32_t l = 0; l + 1 < marked->letters; l++)
+        weights[l] = canonical(counting, counts ? counts[l] : 1);
     tn_status status = tn_join_make(&counting->join, &a, 1, marked->letters, weights, true, error);
     if (status == TN_OK) {
         counting->marker = counting->join.column[marked->letters - 1];
@@ -331,23 +306,19 @@ static void counting_clear(tn_counting *counting)
     tn_operand_clear(&counting->a);
     tn_interner_clear(&counting->sets);
     tn_pairs_clear(&counting->members);
-    free(counting->truth);
     free(counting->weight);
     free(counting->scratch.data);
     free(counting->words.data);
     free(counting->places);
 }
 
-tn_status tn_marked_count(const tn_marked *marked, const tn_dfa *a, tn_tally tally, uint32_t condition, uint32_t field,
-                          tn_dfa **out, tn_error *error)
+tn_status tn_marked_count(const tn_marked *marked, const tn_dfa *a, tn_tally tally, const tn_periodic_set *set,
+                          const uint64_t *counts, tn_dfa **out, tn_error *error)
 {
-    tn_counting counting = {.tally = tally};
+    tn_counting counting = {.tally = tally, .set = set};
     counting.members.first = &counting.a;
-    int64_t unit = field == TN_NO_FIELD ? 1 : tn_schema_length_unit(marked->classes->schema, field);
     tn_key start = {0};
-    tn_status status = prepare_condition(&counting, marked, condition, unit, error);
-    if (status == TN_OK)
-        status = prepare_columns(&counting, marked, a, field, unit, error);
+    tn_status status = prepare_columns(&counting, marked, a, counts, error);
     if (status == TN_OK)
         status = tn_operand_make(&counting.a, a, error);
     if (status == TN_OK && !finish_key(&counting, 0, counting.a.dead == 0 ? TN_NO_STATE : 0, NO_SET, &start))

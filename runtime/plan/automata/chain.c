@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "runtime/plan/automata/explore.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/automata/operand.h"
-#include "runtime/plan/match/marked.h"
 
 typedef struct tn_chain {
     tn_join join;

@@ -1,4 +1,4 @@
-/* Constructions that guess a non-empty stretch [c, d) of a relation somewhere in the plan: SOMEWHERE, and the three
+/* Constructions that guess a non-empty stretch [c, d) of a relation somewhere in the word: SOMEWHERE, and the three
  * ways in which a destination may lie at a gap that fails the separator (DISTANCE): left of the source, right of it, or
  * overlapping it.
  *
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 
 #include "runtime/plan/automata/explore.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/automata/operand.h"
-#include "runtime/plan/match/marked.h"
 
 typedef struct tn_guess_plan {
     const char *what;
@@ -81,7 +81,7 @@ static bool step_marker(tn_guess *guess, const uint32_t *key, size_t size, tn_ke
     return write_key(guess, phase, key[THREAD_A], gap, next);
 }
 
-/* Reads a tray with one guess; where its stretch may end after the tray, adds the guess that it does. */
+/* Reads a letter with one guess; where its stretch may end after the letter, adds the guess that it does. */
 static void read_pair(tn_guess *guess, uint32_t phase, uint32_t p, uint32_t q, uint32_t column)
 {
     bool running = guess->a.phase[p] == 1;
@@ -104,7 +104,7 @@ static bool guess_step(void *context, const uint32_t *key, size_t size, uint32_t
     for (size_t i = PAIRS; i < size; i += 2)
         read_pair(guess, phase, key[i], key[i + 1], column);
     if (a != TN_NO_STATE) {
-        if (guess->plan->start_phases >> phase & 1) { /* c is here, before the tray */
+        if (guess->plan->start_phases >> phase & 1) { /* c is here, before the letter */
             uint32_t p = tn_operand_mark(&guess->a, a), q = mark_gap(guess, gap, guess->plan->gap_at_start);
             if (p != guess->a.dead && !(guess->gap.dfa && q == guess->gap.dead))
                 read_pair(guess, phase, p, q, column);
@@ -126,7 +126,7 @@ static bool guess_accepts(void *context, const uint32_t *key, size_t size)
     return false;
 }
 
-/* gap: or NULL. plain: an automaton over the classes alone, that reads the whole plan as the stretch. */
+/* gap: or NULL. plain: an automaton without the marker, that reads the whole word as the stretch. */
 static tn_status guess_stretch(const tn_marked *marked, const tn_guess_plan *plan, const tn_dfa *a, const tn_dfa *gap,
                                bool plain, tn_dfa **out, tn_error *error)
 {

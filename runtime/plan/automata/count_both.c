@@ -1,16 +1,16 @@
-/* Counts the plans that two automata agree about, without making the product of the two.
+/* Counts the words that two automata agree about, without making the product of the two.
  *
- * Plans are followed tray by tray from the start: after each tray there is a number of plans for every pair of states
- * that some plan of that length leads to. A pair's transitions are worked out when the first plan comes to it, all
- * those to one pair as one. Pairs from which an automaton accepts nothing within the length that is left are not
- * entered: the first plan that comes to a pair is the shortest, so what is too late for it is too late for all.
+ * Words are followed symbol by symbol from the start: after each symbol there is a number of words for every pair of
+ * states that some word of that length leads to. A pair's transitions are worked out when the first word comes to it,
+ * all those to one pair as one. Pairs from which an automaton accepts nothing within the length that is left are not
+ * entered: the first word that comes to a pair is the shortest, so what is too late for it is too late for all.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/plan/automata/count.h"
 #include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/library/count.h"
 
 #define TABLE_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB, of which only the pages used take memory */
 #define NEVER UINT32_MAX
@@ -19,24 +19,24 @@
 
 typedef struct tn_both_edge {
     uint32_t target;
-    mp_limb_t weight; /* trays that lead there */
+    mp_limb_t weight; /* symbols that lead there */
 } tn_both_edge;
 
-/* Where trays lead from a state of the first automaton, told apart by what the second one tells apart. */
+/* Where symbols lead from a state of the first automaton, told apart by what the second one tells apart. */
 typedef struct tn_both_step {
     uint32_t target, column; /* of a, and of b */
-    uint64_t weight;         /* trays */
+    uint64_t weight;         /* symbols */
 } tn_both_step;
 
-/* A pair of states that plans lead to. */
+/* A pair of states that words lead to. */
 typedef struct tn_both_pair {
     uint32_t p, q;
-    uint32_t away;     /* trays until both may accept, at least; 0: both do */
+    uint32_t away;     /* symbols until both may accept, at least; 0: both do */
     uint32_t queued;   /* 1 + the last length for which the pair was listed */
     size_t first, end; /* its edges; first NO_ROW: not worked out */
 } tn_both_pair;
 
-/* The plans of one length. */
+/* The words of one length. */
 typedef struct tn_both_front {
     uint32_t *listed; /* pairs that any lead to */
     uint32_t count;
@@ -51,7 +51,7 @@ typedef struct tn_both {
     size_t limbs;
     tn_splits splits;
     uint64_t *weights; /* [splits.columns] */
-    uint32_t *away_a;  /* [states]: trays to acceptance, or NEVER */
+    uint32_t *away_a;  /* [states]: symbols to acceptance, or NEVER */
     uint32_t *away_b;
     uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
     tn_numbering numbers;
@@ -68,35 +68,35 @@ typedef struct tn_both {
 
 /* ---- how far away acceptance is */
 
-static bool nearer_a(const tn_both *both, uint32_t state, uint32_t trays)
+static bool nearer_a(const tn_both *both, uint32_t state, uint32_t symbols)
 {
     const tn_sparse *a = both->a;
     for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
-        if (both->away_a[a->target[e]] < trays)
+        if (both->away_a[a->target[e]] < symbols)
             return true;
     return false;
 }
 
-static bool nearer_b(const tn_both *both, uint32_t state, uint32_t trays)
+static bool nearer_b(const tn_both *both, uint32_t state, uint32_t symbols)
 {
     const uint32_t *row = both->b->delta + (size_t)state * both->b->columns;
     for (uint32_t c = 0; c < both->b->columns; c++)
-        if (both->away_b[row[c]] < trays)
+        if (both->away_b[row[c]] < symbols)
             return true;
     return false;
 }
 
-/* Settles, tray by tray, the states that are so many trays away. */
+/* Settles, symbol by symbol, the states that are so many symbols away. */
 static void find_away(const tn_both *both, uint32_t *away, uint32_t states,
                       bool (*nearer)(const tn_both *, uint32_t, uint32_t))
 {
     bool any = true;
-    for (uint32_t trays = 1; any && trays <= both->max; trays++) {
+    for (uint32_t symbols = 1; any && symbols <= both->max; symbols++) {
         any = false;
         for (uint32_t s = 0; s < states; s++) {
-            if (away[s] != NEVER || !nearer(both, s, trays))
+            if (away[s] != NEVER || !nearer(both, s, symbols))
                 continue;
-            away[s] = trays;
+            away[s] = symbols;
             any = true;
         }
     }
@@ -134,7 +134,7 @@ static bool reserve_steps(tn_both *both)
                                  sizeof *both->steps);
 }
 
-/* Adds trays to a state's steps. What leads to one place by one column mostly lies side by side; what does not makes
+/* Adds symbols to a state's steps. What leads to one place by one column mostly lies side by side; what does not makes
  * two steps of one, which changes nothing but time. */
 static void add_step(tn_both *both, size_t first, uint32_t target, uint32_t column, uint64_t weight)
 {
@@ -207,7 +207,7 @@ static bool reserve_edges(tn_both *both)
                                  sizeof *both->edges);
 }
 
-/* Adds trays to the edge to a pair: as add_step. */
+/* Adds symbols to the edge to a pair: as add_step. */
 static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weight)
 {
     for (size_t e = both->edge_count; e > first && both->edge_count - e < NEAR; e--)
@@ -218,7 +218,7 @@ static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weig
     both->edges[both->edge_count++] = (tn_both_edge){target, weight};
 }
 
-/* Works out the edges of a pair that plans of `length` trays lead to. */
+/* Works out the edges of a pair that words of `length` symbols lead to. */
 static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
 {
     uint32_t p = both->pairs[pair].p, left = both->max - length - 1;
@@ -243,7 +243,7 @@ static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
 
 /* ---- counting */
 
-/* Adds the plans of `length` trays that both accept. */
+/* Adds the words of `length` symbols that both accept. */
 static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_t count)
 {
     for (uint32_t i = 0; i < front->count; i++) {
@@ -256,7 +256,7 @@ static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_
     }
 }
 
-/* Moves the plans of one pair, of `length` trays, on by a tray. */
+/* Moves the words of one pair, of `length` symbols, on by a symbol. */
 static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
 {
     tn_both_front *to = &both->fronts[!from];
@@ -275,18 +275,18 @@ static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
 }
 
 /* Trays that lead from a pair to one where both accept. */
-static uint64_t last_trays(const tn_both *both, uint32_t p, uint32_t q)
+static uint64_t last_symbols(const tn_both *both, uint32_t p, uint32_t q)
 {
     const uint32_t *row = both->b->delta + (size_t)q * both->b->columns;
-    uint64_t trays = 0;
+    uint64_t symbols = 0;
     for (size_t i = both->steps_first[p]; i < both->steps_end[p]; i++)
         if (both->away_a[both->steps[i].target] == 0 && both->away_b[row[both->steps[i].column]] == 0)
-            trays += both->steps[i].weight;
-    return trays;
+            symbols += both->steps[i].weight;
+    return symbols;
 }
 
-/* Adds the longest plans: those of the front, which are one tray shorter, by what their last tray may be. Where most
- * plans are so long, most pairs are only ever met here, and no edges of theirs are needed. */
+/* Adds the longest words: those of the front, which are one symbol shorter, by what their last symbol may be. Where
+ * most words are so long, most pairs are only ever met here, and no edges of theirs are needed. */
 static tn_status count_last(tn_both *both, const tn_both_front *front, mpz_t count, tn_error *error)
 {
     for (uint32_t i = 0; i < front->count; i++) {
@@ -295,7 +295,7 @@ static tn_status count_last(tn_both *both, const tn_both_front *front, mpz_t cou
         if (!find_steps(both, both->pairs[pair].p))
             return tn_fail_memory(error);
         mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
-        mpz_addmul_ui(count, value, last_trays(both, both->pairs[pair].p, both->pairs[pair].q));
+        mpz_addmul_ui(count, value, last_symbols(both, both->pairs[pair].p, both->pairs[pair].q));
     }
     return TN_OK;
 }
@@ -362,25 +362,26 @@ static void both_clear(tn_both *both)
 }
 
 /* Counts of so many limbs: from the product. */
-static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation,
-                               const tn_classes *classes, uint32_t min, uint32_t max, const char *what,
-                               tn_bounds *bounds, mpz_t count, tn_error *error)
+static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
+                               uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count,
+                               tn_error *error)
 {
     tn_sparse *product = NULL;
     tn_status status = tn_sparse_combine(a, b, operation, what, bounds, &product, error);
     if (status == TN_OK)
-        status = tn_count_range(product, classes, min, max, count, error);
+        status = tn_count_range(product, sizes, min, max, count, error);
     tn_sparse_free(product);
     return status;
 }
 
 /* Counts pair by pair. */
-static tn_status count_pairs(tn_both *both, const tn_classes *classes, uint32_t min, const char *what,
-                             tn_bounds *bounds, bool *fits, mpz_t count, tn_error *error)
+static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min, const char *what, tn_bounds *bounds,
+                             bool *fits, mpz_t count, tn_error *error)
 {
     tn_status status = tn_splits_make(&both->splits, both->a, both->b) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_column_weights(classes, both->splits.column, both->splits.columns, &both->weights, error);
+        status = tn_column_weights(sizes, both->a->letters, both->splits.column, both->splits.columns, &both->weights,
+                                   error);
     uint64_t limbs = status == TN_OK ? tn_count_limbs(both->weights, both->splits.columns, both->max) : 0;
     *fits = limbs <= TN_FORWARD_LIMBS_MAX;
     if (status != TN_OK || !*fits)
@@ -393,7 +394,7 @@ static tn_status count_pairs(tn_both *both, const tn_classes *classes, uint32_t 
 }
 
 /* Pairs that pass the bounds may still make an automaton within them, where that is folded as it is made. */
-tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const tn_classes *classes,
+tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
                         uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
 {
     tn_both both = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
@@ -402,10 +403,10 @@ tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation op
     mpz_set_ui(count, 0);
     if (min > max || (b->states == 1 && (b->accept[0] != 0) != both.agree))
         return TN_OK;
-    tn_status status = count_pairs(&both, classes, min, what, &own, &fits, count, error);
+    tn_status status = count_pairs(&both, sizes, min, what, &own, &fits, count, error);
     both_clear(&both);
     if ((status == TN_OK && !fits) || (status == TN_LIMIT && a->folded))
-        return count_product(a, b, operation, classes, min, max, what, bounds, count, error);
+        return count_product(a, b, operation, sizes, min, max, what, bounds, count, error);
     *bounds = own;
     return status;
 }
