@@ -41,7 +41,10 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
 
 bool tn_job_open(tn_job *job, const char *path)
 {
-    worsen(job, tn_exit_code(tn_open(path, job->settings->werror, &job->opened)));
+    const tn_settings *settings = job->settings;
+    tn_questions questions = {settings->library, settings->wheres.items, settings->wheres.count, settings->pattern};
+    bool asks = questions.where_count > 0 || questions.pattern;
+    worsen(job, tn_exit_code(tn_open_asking(path, settings->werror, asks ? &questions : NULL, &job->opened)));
     return job->opened.module != NULL;
 }
 

@@ -51,11 +51,19 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, TN_OPTION_REAL, HELP)                                                \
     }
 
+#define WISH(NAME, HELP)                                                                                               \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, 0, "MEASURE", wanted, TN_OPTION_WISH, HELP)                                                   \
+    }
+
 #define OPTION_WERROR FLAG("werror", 0, werror, "treat warnings as errors")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
 #define OPTION_LIBRARY                                                                                                 \
     TEXT("library", 'l', "NAME", library, "which library of the file; may be left out where the file has only one")
+#define OPTION_WHERE                                                                                                   \
+    LIST("where", 0, "EXPRESSION", wheres,                                                                             \
+         "only plans that meet EXPRESSION too, a requirement in the words of the file; may be repeated")
 #define OPTION_TRAYS                                                                                                   \
     RANGE("trays", 0, "A..B", trays, 0, UINT32_MAX - 1, "how many trays a plan has, instead of what the library says")
 #define OPTION_MAX_LENGTH                                                                                              \

@@ -240,7 +240,7 @@ static tn_status set_text(parse *p, const tn_option *option, const char *text)
 static tn_status list_add(parse *p, tn_option_list *list, const char *text)
 {
     if (!list->items)
-        list->items = malloc(sizeof *list->items * (size_t)(p->count + 1));
+        list->items = malloc(sizeof *list->items * 2 * (size_t)(p->count + 1));
     if (!list->items)
         return tn_fail_memory(p->error);
     list->items[list->count++] = text;
@@ -257,6 +257,10 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
         return set_text(p, option, text);
     case TN_OPTION_LIST:
         return list_add(p, place_of(p, option), text);
+    case TN_OPTION_WISH: {
+        tn_status status = list_add(p, place_of(p, option), option->name);
+        return status == TN_OK ? list_add(p, place_of(p, option), text) : status;
+    }
     case TN_OPTION_NUMBER:
         return set_number(p, option, text);
     case TN_OPTION_RANGE:
@@ -411,6 +415,8 @@ void tn_settings_clear(tn_settings *settings)
     free(settings->operands.items);
     free(settings->rules.items);
     free(settings->changes.items);
+    free(settings->wheres.items);
+    free(settings->wanted.items);
     free(settings->attractors.items);
     free(settings->repellers.items);
     free(settings->gravity.items);

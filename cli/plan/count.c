@@ -5,6 +5,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
+#include "cli/plan/count_by.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 
@@ -275,14 +276,17 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_ready_library ready;
     tn_job_begin(&job, settings);
     if (tn_job_library(&job, settings->operands.items[0], &ready))
-        tn_job_count(&job, &ready);
+        (settings->by ? tn_count_by : tn_job_count)(&job, &ready);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY,
+    OPTION_LIBRARY, OPTION_WHERE,
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
+    TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
+    NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
     FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
@@ -294,7 +298,7 @@ static const tn_option options[] = {
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage = "FILE [--library NAME] [--json] [--mirror]",
+    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
         "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "

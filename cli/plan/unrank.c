@@ -60,7 +60,7 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY,    FLAG("json", 0, json, "write the plan as a JSON object"),
+    OPTION_LIBRARY, OPTION_WHERE,    FLAG("json", 0, json, "write the plan as a JSON object"),
     OPTION_TRAYS,      OPTION_MAX_LENGTH,
     OPTION_MAX_STATES, OPTION_THREADS,
 };

@@ -68,6 +68,32 @@ tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *n
     return word;
 }
 
+tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high)
+{
+    if (!low || !high)
+        return NULL;
+    tn_ast_word *word = tn_ast_word_new(parse, TN_WORD_RANGE, span,
+                                        tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), 0);
+    if (word) {
+        word->broken = low->broken || high->broken;
+        word->low = low;
+        word->high = high;
+    }
+    return word;
+}
+
+tn_ast_word *tn_ast_group(tn_parse *parse, tn_span span, tn_ast_list alternatives)
+{
+    if (++parse->groups > TN_NESTING_MAX) { /* in all: more than anybody writes, and recursion ends there */
+        tn_ast_too_deep(parse, span);
+        return NULL;
+    }
+    tn_ast_word *word = tn_ast_word_new(parse, TN_WORD_GROUP, span, "(", 0);
+    if (word)
+        word->group = tn_ast_item_new(parse, span, alternatives);
+    return word && word->group ? word : NULL;
+}
+
 tn_ast_range tn_ast_range_new(tn_span span, const tn_ast_word *low, const tn_ast_word *high)
 {
     return (tn_ast_range){low, high, span};
@@ -297,17 +323,6 @@ tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn
     tn_ast_expr *expr = tn_ast_of(parse, kind, span, tn_ast_one(part));
     if (expr)
         expr->condition = condition;
-    return expr;
-}
-
-tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_expr *part, tn_ast_cond *condition)
-{
-    tn_ast_expr *expr = tn_ast_of(parse, TN_EXPR_SUM, span, tn_ast_one(part));
-    if (!expr || !field.first || !condition)
-        return NULL;
-    expr->name = (const tn_ast_word *)field.first;
-    expr->detail = (const tn_ast_word *)field.first->next;
-    expr->condition = condition;
     return expr;
 }
 

@@ -28,10 +28,15 @@ typedef enum tn_word_kind {
     TN_WORD_LENGTH,
     TN_WORD_STRING,
     TN_WORD_NOT,
-    TN_WORD_OPERATOR
+    TN_WORD_OPERATOR,
+    TN_WORD_AREA,    /* or a volume */
+    TN_WORD_DECIMAL, /* or a percentage */
+    TN_WORD_RANGE,   /* in a specifier: `4'..8'` */
+    TN_WORD_GROUP,   /* in a specifier: `(4' or 8')` */
+    TN_WORD_OLD,     /* `...`: the values that the field has in the schema that this one is made from */
 } tn_word_kind;
 
-/* A name, a number, a length, a string; in specifiers also `not` and comparison signs. */
+/* A name, a number, a length, a string; in specifiers also `not`, comparison signs, ranges and groups. */
 typedef struct tn_ast_word {
     tn_ast_node node;
     tn_word_kind kind;
@@ -39,6 +44,10 @@ typedef struct tn_ast_word {
     bool broken;      /* already reported as wrong: say nothing more about it */
     const char *text; /* a name, or what a string says; otherwise as written */
     int64_t value;    /* of a number or (nanometres) length */
+    const struct tn_ast_word *low, *high; /* of a range */
+    struct tn_ast_item *group;
+    const char *exact; /* of a constant that was worked out: its value, of this power of a length; NULL: as written */
+    int power;
 } tn_ast_word;
 
 /* ---- conditions: the E of `quantity`, `sum` and `occurrences` */
@@ -78,6 +87,7 @@ typedef struct tn_ast_alternative {
 typedef struct tn_ast_item {
     tn_ast_node node;
     tn_ast_list alternatives;
+    bool made; /* with bound words: no value need be so */
 } tn_ast_item;
 
 /* ---- rule expressions */
@@ -99,8 +109,39 @@ typedef enum tn_expr_kind {
     TN_EXPR_DISTANCE,
     TN_EXPR_BEGINNING,
     TN_EXPR_END,
+    TN_EXPR_IMPLIES,
+    TN_EXPR_EVERY,   /* every(a, b) */
+    TN_EXPR_SOME,    /* some v in FIELD (...): expanded before it is checked */
+    TN_EXPR_EACH,    /* every v in FIELD (...): likewise */
+    TN_EXPR_CALL,    /* of a rule with parameters: likewise */
+    TN_EXPR_PLAN,    /* plan [...] */
+    TN_EXPR_COMPARE, /* of two sums */
+    TN_EXPR_WITHIN,  /* a sum in a range: parts are the sum, low, high */
+    TN_EXPR_TRUE,    /* what a quantifier leaves: every stretch */
+    TN_EXPR_FALSE,
     TN_EXPR_BROKEN, /* already reported */
+
+    /* sums: QUANTITY, OCCURRENCES and SUM without a condition are such too */
+    TN_EXPR_NUMBER, /* a constant: `name` */
+    TN_EXPR_TRAYS,
+    TN_EXPR_MATCHES,
+    TN_EXPR_PLUS,
+    TN_EXPR_MINUS,
+    TN_EXPR_TIMES,
+    TN_EXPR_OVER,
+    TN_EXPR_NEGATIVE,
+    /* only in arithmetic over one tray */
+    TN_EXPR_FIGURE, /* a field of lengths, a zone's depth, a `number`: `name`, `detail` */
+    TN_EXPR_LEAST,
+    TN_EXPR_MOST,
 } tn_expr_kind;
+
+/* Constants of sums: an exact rational with a dimension (amount.h). */
+typedef struct tn_amount {
+    const char *value; /* "p/q" in nanometres to the power; NULL: not known */
+    int power;         /* of a length: 0 a plain number, 1 a length, 2 an area, 3 a volume */
+    bool any;          /* a literal 0: it fits every dimension */
+} tn_amount;
 
 struct tn_checked_rule;
 struct tn_checked_spec;
@@ -110,21 +151,44 @@ typedef struct tn_ast_expr {
     tn_ast_node node;
     tn_expr_kind kind;
     uint32_t depth;
-    const tn_ast_word *name;   /* of a rule; of the field of a sum */
+    const tn_ast_word *name;   /* of a rule; of the field of a sum or quantifier; a constant */
     const tn_ast_word *detail; /* the word after a sum's field: `depth` */
     tn_ast_list items;         /* tray: tn_ast_item */
-    tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator */
+    tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator; call: arguments */
+    tn_ast_list names;         /* quantifier: the words that it binds */
+    tn_operator op;            /* of a comparison */
+    struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;
+    size_t unit;  /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
     struct tn_checked_rule *rule;                   /* checked: what a name means */
     struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
     struct tn_checked_condition *condition_checked; /* checked */
+    struct tn_checked_sum *sum;                     /* checked: comparison: the left side less the right; a `within`: less low */
+    struct tn_checked_sum *high;                    /* checked: `within`: the sum less high */
+    struct tn_checked_number *number;               /* checked: figure: a number of the tray */
+    const char *constant;                           /* checked: figure: of a number that is written out */
+    bool figure_good;                               /* checked: sum */
+    tn_amount figure_amount;                        /* checked: sum: the dimension of what it adds up */
+    tn_ast_list tests;                              /* checked: tray: comparisons of its numbers */
+    bool resolved;                                  /* checked: its name has been looked up */
+    bool from_sum;                                  /* checked: a condition on a sum, written out */
+    bool whole;                                     /* checked: speaks of the whole plan, whatever it stands in */
     uint32_t field;                                 /* checked: of a sum */
     uint32_t function;                              /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    uint32_t part_whole, part_holds, tally;         /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
 /* ---- items of a file */
 
-typedef enum tn_item_kind { TN_ITEM_USE, TN_ITEM_SCHEMA, TN_ITEM_RULE, TN_ITEM_LIBRARY, TN_ITEM_TEST } tn_item_kind;
+typedef enum tn_item_kind {
+    TN_ITEM_USE,
+    TN_ITEM_SCHEMA,
+    TN_ITEM_RULE,
+    TN_ITEM_MEASURE, /* a tn_ast_rule whose body is a sum */
+    TN_ITEM_LET,     /* a tn_ast_rule whose body is a constant or a name */
+    TN_ITEM_LIBRARY,
+    TN_ITEM_TEST
+} tn_item_kind;
 
 typedef struct tn_ast_top {
     tn_ast_node node;
@@ -158,22 +222,36 @@ typedef struct tn_ast_forbid {
     tn_ast_expr *tray;
 } tn_ast_forbid;
 
+/* A number of a tray: the first of its cases that the tray meets says it. */
+typedef struct tn_ast_number {
+    tn_ast_node node;
+    const tn_ast_word *name, *doc;
+    tn_ast_list cases; /* tn_ast_number_case */
+} tn_ast_number;
+
+typedef struct tn_ast_number_case {
+    tn_ast_node node;
+    tn_ast_expr *sum;
+    tn_ast_expr *tray; /* NULL: every tray */
+} tn_ast_number_case;
+
 /* A schema's body under construction. */
 typedef struct tn_ast_body {
-    tn_ast_list fields, forbids;
+    tn_ast_list fields, forbids, numbers;
     bool broken;
 } tn_ast_body;
 
 typedef struct tn_ast_schema {
     tn_ast_top top;
-    const tn_ast_word *name, *doc;
+    const tn_ast_word *name, *doc, *from;
     tn_ast_body body;
 } tn_ast_schema;
 
 typedef struct tn_ast_rule {
     tn_ast_top top;
     const tn_ast_word *name, *doc, *using;
-    tn_ast_list allow; /* tn_ast_word */
+    tn_ast_list params; /* tn_ast_word */
+    tn_ast_list allow;  /* tn_ast_word */
     tn_ast_expr *body;
 } tn_ast_rule;
 
@@ -215,7 +293,8 @@ typedef struct tn_ast_case {
     bool todo;                /* expected to fail */
     tn_ast_list trays;        /* tn_ast_tray */
     const tn_ast_word *doc;
-    tn_ast_list by; /* tn_ast_word */
+    tn_ast_list by;      /* tn_ast_word */
+    tn_ast_expr *value;  /* of a measure: what it has to be */
 } tn_ast_case;
 
 typedef struct tn_ast_test {
@@ -226,6 +305,8 @@ typedef struct tn_ast_test {
 
 typedef struct tn_ast_file {
     tn_ast_list items; /* tn_ast_top */
+    tn_ast_expr *expression; /* where one was parsed alone */
+    tn_ast_list pattern;     /* where an open plan was */
     bool broken;       /* an item is missing: its name could not be read */
     bool skipped;      /* a clause is missing */
 } tn_ast_file;
@@ -249,6 +330,9 @@ tn_ast_word *tn_ast_word_new(tn_parse *parse, tn_word_kind kind, tn_span span, c
 tn_ast_word *tn_ast_not_word(tn_parse *parse, tn_span span);
 tn_ast_word *tn_ast_operator(tn_parse *parse, tn_span span, tn_operator op);
 tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *number);
+
+tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high);
+tn_ast_word *tn_ast_group(tn_parse *parse, tn_span span, tn_ast_list alternatives);
 
 tn_ast_range tn_ast_range_new(tn_span span, const tn_ast_word *low, const tn_ast_word *high);
 tn_ast_range tn_ast_range_dash(tn_parse *parse, tn_span span, const tn_ast_word *low,
@@ -277,7 +361,23 @@ tn_ast_expr *tn_ast_expr_add(tn_parse *parse, tn_ast_expr *joined, tn_ast_expr *
 tn_ast_expr *tn_ast_of(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list parts);
 tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part,
                             tn_ast_cond *condition);
-tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_expr *part, tn_ast_cond *condition);
+/* figure: arithmetic over one tray; condition: NULL for a number. */
+tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_cond *condition);
+tn_ast_expr *tn_ast_constant(tn_parse *parse, const tn_ast_word *word);
+tn_ast_expr *tn_ast_figure(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *detail);
+tn_ast_expr *tn_ast_arithmetic(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right);
+tn_ast_expr *tn_ast_sum_compared(tn_parse *parse, tn_span span, tn_ast_expr *left, tn_operator op, tn_ast_expr *right);
+tn_ast_expr *tn_ast_sum_within(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *low, tn_ast_expr *high);
+/* `a < b < c`: E0409, and the first comparison alone. */
+tn_ast_expr *tn_ast_compared_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
+tn_ast_expr *tn_ast_implies(tn_parse *parse, tn_span span, tn_ast_expr *left, tn_ast_expr *right);
+/* `a implies b implies c`: E0421, and the first two alone. */
+tn_ast_expr *tn_ast_implies_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
+tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_ast_expr *what);
+tn_ast_expr *tn_ast_quantifier(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list names,
+                               const tn_ast_word *field, tn_ast_expr *part);
+tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_list arguments);
+tn_ast_expr *tn_ast_gap(tn_parse *parse, tn_span span); /* `...` in a neighbour or pattern: optional(many(any)) */
 tn_ast_expr *tn_ast_distance(tn_parse *parse, tn_span span, tn_ast_expr *from, tn_ast_expr *to, tn_ast_expr *by);
 
 void *tn_ast_use_new(tn_parse *parse, tn_span span, const tn_ast_word *path);
@@ -285,7 +385,13 @@ void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, c
                        const tn_ast_word *doc, const tn_ast_word *role);
 void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values);
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        tn_ast_body body);
+                        const tn_ast_word *from, tn_ast_body body);
+void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases);
+void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray);
+tn_ast_body tn_ast_body_number(tn_ast_body body, void *number);
+void *tn_ast_measure_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                         const tn_ast_word *using, tn_ast_expr *body);
+void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *body);
 tn_ast_body tn_ast_body_field(tn_ast_body body, void *field);
 void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items);
 tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid);
@@ -306,6 +412,7 @@ tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_e
 void *tn_ast_case_todo(void *test_case);
 void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
                       const tn_ast_word *doc, tn_ast_list by);
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc);
 void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words);
 
 #endif

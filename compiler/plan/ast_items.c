@@ -56,13 +56,17 @@ void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast
 }
 
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        tn_ast_body body)
+                        const tn_ast_word *from, tn_ast_body body)
 {
     tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
     if (!schema || !name)
         return NULL;
     *schema =
-        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
+        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA},
+                              .name = name,
+                              .doc = doc,
+                              .from = from,
+                              .body = body};
     return schema;
 }
 
@@ -87,6 +91,30 @@ tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid)
     return body;
 }
 
+void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases)
+{
+    tn_ast_number *number = TN_NEW(parse->arena, tn_ast_number);
+    if (!number || !head.name || !cases.first)
+        return NULL;
+    *number = (tn_ast_number){.node.span = span, .name = head.name, .doc = head.doc, .cases = cases};
+    return number;
+}
+
+void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray)
+{
+    tn_ast_number_case *made = TN_NEW(parse->arena, tn_ast_number_case);
+    if (!made || !sum)
+        return NULL;
+    *made = (tn_ast_number_case){.node.span = span, .sum = sum, .tray = tray};
+    return made;
+}
+
+tn_ast_body tn_ast_body_number(tn_ast_body body, void *number)
+{
+    body.numbers = tn_ast_append(body.numbers, number);
+    return body;
+}
+
 tn_ast_body tn_ast_body_broken(tn_ast_body body)
 {
     body.broken = true;
@@ -104,6 +132,23 @@ void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_ex
     rule->top = (tn_ast_top){.node.span = span, .kind = TN_ITEM_RULE};
     rule->body = body ? body : tn_ast_leaf(parse, TN_EXPR_BROKEN, span);
     return rule->body ? rule : NULL;
+}
+
+void *tn_ast_measure_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                         const tn_ast_word *using, tn_ast_expr *body)
+{
+    tn_ast_rule *measure = tn_ast_rule_new(parse, span, (tn_ast_rule){.name = name, .doc = doc, .using = using}, body);
+    if (measure)
+        measure->top.kind = TN_ITEM_MEASURE;
+    return measure;
+}
+
+void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *body)
+{
+    tn_ast_rule *let = tn_ast_rule_new(parse, span, (tn_ast_rule){.name = name}, body);
+    if (let)
+        let->top.kind = TN_ITEM_LET;
+    return let;
 }
 
 void *tn_ast_library_new(tn_parse *parse, tn_span span, tn_ast_library head, tn_ast_list clauses)
@@ -227,6 +272,15 @@ void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, t
     if (!made)
         return NULL;
     *made = (tn_ast_case){.node.span = span, .expectations = expectations, .trays = trays, .doc = doc, .by = by};
+    return made;
+}
+
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc)
+{
+    tn_ast_word *word = tn_ast_expect(parse, span, "value", TN_EXPECT_VALUE);
+    tn_ast_case *made = word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), trays, doc, tn_ast_empty()) : NULL;
+    if (made)
+        made->value = value;
     return made;
 }
 

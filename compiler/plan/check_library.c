@@ -59,19 +59,31 @@ static bool name_is_free(tn_check *check, const tn_checked_library *library, con
     return false;
 }
 
-static void check_clause_expr(tn_check *check, tn_ast_expr *expr)
+/* Calls in it make rules, which are checked first. */
+static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
 {
+    tn_expand(check, &clause->expr);
+    tn_ast_expr *expr = clause->expr;
+    size_t unit = check->unit;
+    tn_checked_schema *schema = check->schema;
+    tn_ast_list allow = check->allow;
+    tn_check_settle(check);
+    check->unit = unit;
+    check->schema = schema;
+    check->allow = allow;
+    check->rule = NULL;
     tn_check_expr(check, expr);
     tn_check_meaning(check, expr);
+    tn_check_whole(check, expr);
     tn_check_warnings(check, expr);
 }
 
-static void add_expr_clause(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast,
+static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast,
                             tn_checked_clause *clause)
 {
+    check_clause_expr(check, ast);
     clause->expr = ast->expr;
-    check_clause_expr(check, ast->expr);
-    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule) {
+    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && (!ast->expr->rule->hidden || !ast->expr->rule->of->is_template)) {
         clause->rule = ast->expr->rule;
         clause->name = clause->rule->name;
         if (!clause->doc && clause->rule->ast->doc)
@@ -146,7 +158,7 @@ static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast
     library->trays_max = (uint32_t)high;
 }
 
-static void add_clause(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast)
+static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast)
 {
     static const tn_clause_kind kinds[] = {
         [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
@@ -233,7 +245,7 @@ static void check_library(tn_check *check, tn_checked_library *library)
         }
     }
     check->allow = library->allow;
-    for (TN_EACH(const tn_ast_clause, clause, ast->clauses))
+    for (TN_EACH(tn_ast_clause, clause, ast->clauses))
         add_clause(check, library, clause);
     library->state = DONE;
     library->broken |= ast->from && (!library->from || library->from->broken);
@@ -248,4 +260,74 @@ void tn_check_libraries(tn_check *check)
 {
     for (size_t i = 0; i < check->result->library_count; i++)
         check_library(check, check->result->libraries[i]);
+}
+
+/* ---- what the command line asks */
+
+/* The library named, or the only one of the file itself, or the only one at all; NULL where that is not clear: the command
+ * says so. */
+static tn_checked_library *asked_library(const tn_check *check)
+{
+    const tn_checked *result = check->result;
+    tn_checked_library *own = NULL, *any = NULL;
+    size_t owns = 0;
+    for (size_t i = 0; i < result->library_count; i++) {
+        tn_checked_library *library = any = result->libraries[i];
+        if (check->asked->library && strcmp(library->name, check->asked->library) == 0)
+            return library;
+        if (library->unit + 1 < check->imports->count)
+            continue;
+        own = library;
+        owns++;
+    }
+    if (check->asked->library)
+        return NULL;
+    return owns == 1 ? own : owns == 0 && result->library_count == 1 ? any : NULL;
+}
+
+static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr *expr, size_t number)
+{
+    tn_ast_clause *ast = TN_NEW(check->arena, tn_ast_clause);
+    tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
+    if (!ast || !clause)
+        return;
+    *ast = (tn_ast_clause){.node.span = expr->node.span, .form = TN_FORM_REQUIRE, .expr = expr};
+    check_clause_expr(check, ast);
+    *clause = (tn_checked_clause){.ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
+    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && !ast->expr->rule->hidden)
+        clause->rule = ast->expr->rule;
+    clause->name = make_name(check, library, "where", number);
+    if (clause->name)
+        put_clause(check, library, clause);
+}
+
+static void check_pattern(tn_check *check)
+{
+    tn_checked *result = check->result;
+    result->pattern = TN_NEW_ARRAY(check->arena, tn_ast_expr *, check->asked->pattern.count);
+    for (TN_EACH(tn_ast_expr, tray, check->asked->pattern)) {
+        if (!result->pattern)
+            return;
+        if (tray->kind != TN_EXPR_OPTIONAL) {
+            tn_check_expr(check, tray);
+            tn_check_meaning(check, tray);
+        }
+        result->pattern[result->pattern_count++] = tray->kind == TN_EXPR_OPTIONAL ? NULL : tray;
+    }
+}
+
+void tn_check_asked(tn_check *check)
+{
+    const tn_asked *asked = check->asked;
+    tn_checked_library *library = asked->where_count || asked->has_pattern ? asked_library(check) : NULL;
+    check->result->asked = library;
+    if (!library || !library->schema)
+        return;
+    check->unit = check->imports->count - 1;
+    check->schema = library->schema;
+    check->rule = NULL;
+    check->allow = library->allow;
+    for (size_t i = 0; i < asked->where_count; i++)
+        add_where(check, library, asked->wheres[i], i + 1);
+    check_pattern(check);
 }

@@ -20,7 +20,7 @@ static counts count_items(const tn_imports *imports)
         const tn_ast_file *file = imports->units[u]->tree;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
             n.schemas += item->kind == TN_ITEM_SCHEMA;
-            n.rules += item->kind == TN_ITEM_RULE;
+            n.rules += item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE || item->kind == TN_ITEM_LET;
             n.libraries += item->kind == TN_ITEM_LIBRARY;
             n.tests += item->kind == TN_ITEM_TEST;
         }
@@ -84,13 +84,18 @@ static void add_schema(tn_check *check, const tn_ast_schema *ast, size_t unit)
     tn_names_put(&check->schemas, schema->name, schema);
 }
 
+static const char *tn_name_kind(const tn_checked_name *name)
+{
+    return !name->rule ? "library" : name->rule->is_measure ? "measure" : name->rule->is_let ? "`let`" : "rule";
+}
+
 static tn_checked_name *add_name(tn_check *check, const tn_ast_word *word, size_t unit)
 {
     if (!name_fits(check, word))
         return NULL;
     const tn_checked_name *before = tn_names_get(&check->names, word->text);
     if (before) {
-        report_duplicate(check, word, before->rule ? "rule" : "library", before->span);
+        report_duplicate(check, word, tn_name_kind(before), before->span);
         return NULL;
     }
     tn_checked_name *name = TN_NEW(check->arena, tn_checked_name);
@@ -101,7 +106,26 @@ static tn_checked_name *add_name(tn_check *check, const tn_ast_word *word, size_
     return name;
 }
 
-static void add_rule(tn_check *check, const tn_ast_rule *ast, size_t unit)
+bool tn_check_grow_rules(tn_check *check)
+{
+    tn_checked *result = check->result;
+    size_t capacity = result->rule_capacity * 2 + 16;
+    tn_checked_rule **rules = TN_NEW_ARRAY(check->arena, tn_checked_rule *, capacity);
+    tn_checked_rule **order = TN_NEW_ARRAY(check->arena, tn_checked_rule *, capacity);
+    if (!rules || !order)
+        return false;
+    if (result->rule_count) {
+        memcpy(rules, result->rules, result->rule_count * sizeof *rules);
+        memcpy(order, result->order, result->ordered * sizeof *order);
+    }
+    result->rules = rules;
+    result->order = order;
+    result->rule_capacity = capacity;
+    return true;
+}
+
+/* A rule, a measure or a `let`. Rules with parameters and `let` are not among the rules: what is made of them is. */
+static void add_rule(tn_check *check, tn_ast_rule *ast, size_t unit)
 {
     tn_checked *result = check->result;
     if (!tn_check_room(check, result->rule_count, TN_RULES_MAX, "rule", ast->name->node.span, split_help))
@@ -110,8 +134,21 @@ static void add_rule(tn_check *check, const tn_ast_rule *ast, size_t unit)
     tn_checked_rule *rule = TN_NEW(check->arena, tn_checked_rule);
     if (!name || !rule)
         return;
-    *rule = (tn_checked_rule){.ast = ast, .name = ast->name->text, .unit = unit, .index = (uint32_t)result->rule_count};
+    *rule = (tn_checked_rule){.ast = ast,
+                              .name = ast->name->text,
+                              .unit = unit,
+                              .serial = (uint32_t)result->rule_count,
+                              .is_measure = ast->top.kind == TN_ITEM_MEASURE,
+                              .is_let = ast->top.kind == TN_ITEM_LET,
+                              .is_template = ast->params.first != NULL,
+                              .written = ast->body};
+    check->has_lets |= rule->is_let;
     name->rule = rule;
+    if (rule->is_template)
+        check->templates[check->template_count++] = rule;
+    if (rule->is_let || rule->is_template)
+        return;
+    rule->index = (uint32_t)(rule->is_measure ? result->measure_records++ : result->records++);
     result->rules[result->rule_count++] = rule;
 }
 
@@ -138,6 +175,8 @@ void tn_check_collect(tn_check *check)
     result->schemas = TN_NEW_ARRAY(check->arena, tn_checked_schema *, n.schemas);
     result->rules = TN_NEW_ARRAY(check->arena, tn_checked_rule *, n.rules);
     result->order = TN_NEW_ARRAY(check->arena, tn_checked_rule *, n.rules);
+    result->rule_capacity = n.rules;
+    check->templates = TN_NEW_ARRAY(check->arena, tn_checked_rule *, n.rules);
     result->libraries = TN_NEW_ARRAY(check->arena, tn_checked_library *, n.libraries);
     result->program = TN_NEW(check->arena, tn_program);
     check->no_schema_said = TN_NEW_ARRAY(check->arena, bool, check->imports->count);
@@ -147,11 +186,11 @@ void tn_check_collect(tn_check *check)
         const tn_ast_file *file = check->imports->units[u]->tree;
         check->incomplete |= file->broken || check->imports->units[u]->incomplete;
         check->skipped |= file->skipped;
-        for (TN_EACH(const tn_ast_top, item, file->items)) {
+        for (TN_EACH(tn_ast_top, item, file->items)) {
             if (item->kind == TN_ITEM_SCHEMA)
                 add_schema(check, (const tn_ast_schema *)item, u);
-            else if (item->kind == TN_ITEM_RULE)
-                add_rule(check, (const tn_ast_rule *)item, u);
+            else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE || item->kind == TN_ITEM_LET)
+                add_rule(check, (tn_ast_rule *)item, u);
             else if (item->kind == TN_ITEM_LIBRARY)
                 add_library(check, (const tn_ast_library *)item, u);
         }
@@ -303,6 +342,37 @@ const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, t
     tn_note(check->diagnostics, d, &name->span, "`%s` is here", word->text);
     tn_help(check->diagnostics, d, "name a %s here", wanted_words[want]);
     return NULL;
+}
+
+const tn_checked_name *tn_check_call_name(tn_check *check, const tn_ast_expr *call)
+{
+    const tn_checked_name *name = tn_check_name(check, call->name, TN_WANT_RULE);
+    if (!name || (!name->rule->is_measure && !name->rule->is_let))
+        return name;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, call->name->node.span, "`%s` is a %s, which has no parameters",
+                                 call->name->text, tn_name_kind(name));
+    tn_note(check->diagnostics, d, &name->span, "`%s` is here", call->name->text);
+    tn_help(check->diagnostics, d, "write its name alone");
+    return NULL;
+}
+
+bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word, bool bound)
+{
+    bool field = schema && tn_field_find(schema, word->text) != TN_NONE;
+    for (uint32_t f = 0; schema && f < schema->field_count; f++)
+        field |= tn_field_has(&schema->fields[f], word->text);
+    for (uint32_t n = 0; schema && n < schema->number_count; n++)
+        field |= strcmp(schema->numbers[n].name, word->text) == 0;
+    const tn_checked_name *name = tn_names_get(&check->names, word->text);
+    if (!field && !name && !bound)
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_NAME, word->node.span, "the name `%s` is already taken", word->text);
+    if (name)
+        tn_note(check->diagnostics, d, &name->span, "the %s `%s` is here", tn_name_kind(name), word->text);
+    else if (field)
+        tn_note(check->diagnostics, d, &schema->ast->name->node.span, "it is a word of schema `%s`", schema->name);
+    tn_help(check->diagnostics, d, "choose another name: one that means nothing yet");
+    return false;
 }
 
 /* ---- allowed warnings */

@@ -1,7 +1,7 @@
 /* Rule expressions: what may stand where, and what names mean. */
 #include <string.h>
 
-#include "compiler/plan/check.h"
+#include "compiler/plan/amount.h"
 #include "runtime/base/nearest.h"
 
 /* ---- names */
@@ -29,13 +29,20 @@ static void add_use(tn_check *check, tn_ast_expr *expr)
     rule->use_places[rule->use_count++] = expr;
 }
 
-static void check_rule_name(tn_check *check, tn_ast_expr *expr)
+void tn_check_expr_name(tn_check *check, tn_ast_expr *expr)
 {
-    const tn_checked_name *name = tn_check_name(check, expr->name, TN_WANT_RULE);
-    if (!name)
+    if (expr->resolved)
         return;
-    expr->rule = name->rule;
-    add_use(check, expr);
+    expr->resolved = true;
+    if (!expr->rule) {
+        size_t unit = check->unit;
+        check->unit = expr->unit ? expr->unit - 1 : unit;
+        const tn_checked_name *name = tn_check_name(check, expr->name, TN_WANT_RULE);
+        check->unit = unit;
+        expr->rule = name ? name->rule : NULL;
+    }
+    if (expr->rule)
+        add_use(check, expr);
 }
 
 /* ---- parts of a neighbour */
@@ -83,27 +90,6 @@ static void check_neighbour(tn_check *check, tn_ast_expr *neighbour)
 
 /* ---- sums */
 
-/* The field that was likely meant, or all that could be. */
-static void help_length_field(tn_check *check, tn_diagnostic *d, const char *word)
-{
-    const char *names[TN_FIELDS_MAX];
-    size_t count = 0;
-    char list[300] = "";
-    for (uint32_t f = 0; f < check->schema->field_count; f++) {
-        const tn_checked_field *field = &check->schema->fields[f];
-        if (field->kind != TN_FIELD_LENGTH && field->kind != TN_FIELD_ZONE)
-            continue;
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", count == 0 ? "" : ", ", field->name);
-        names[count++] = field->name;
-    }
-    const char *near = tn_nearest(word, names, count);
-    if (near)
-        tn_suggest(check->diagnostics, d, "%s", near);
-    else
-        tn_help(check->diagnostics, d, "the fields that have lengths are %s", list);
-}
-
 bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail)
 {
     if (!detail || (field->kind == TN_FIELD_ZONE && tn_word_is(detail, "depth")))
@@ -116,31 +102,27 @@ bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_as
     return false;
 }
 
+/* A sum of one field with a condition; other sums are comparisons (check_comparison.c). */
 static void check_sum(tn_check *check, tn_ast_expr *sum)
 {
-    const tn_checked_schema *schema = check->schema;
-    const tn_ast_word *name = sum->name;
-    sum->field = tn_field_find(schema, name->text);
-    const tn_checked_field *field = sum->field == TN_NONE ? NULL : &schema->fields[sum->field];
-    bool lengths = field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE);
-    if (!lengths && !schema->broken && !name->broken) {
-        tn_diagnostic *d = field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span,
-                                             "`%s` has no lengths to add up", name->text)
-                                 : tn_report(check->diagnostics, E_NOT_A_LENGTH, name->node.span,
-                                             "there is no field `%s` to add up", name->text);
-        tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
-        if (field)
-            tn_help(check->diagnostics, d,
-                    "fields of lengths and the depths of zones can be added up; to count trays write "
-                    "`quantity(tray(%s ...), n > 1)`",
-                    name->text);
-        else
-            help_length_field(check, d, name->text);
-    }
-    lengths = lengths && tn_check_detail(check, field, sum->detail);
+    tn_amount amount;
+    sum->field = tn_field_find(check->schema, sum->name->text);
+    bool lengths = tn_check_figure(check, check->schema, sum->figure, &amount);
     if (!sum->parts.first)
         sum->spec = tn_check_any(check, check->schema, sum->node.span);
     sum->condition_checked = lengths ? tn_check_condition(check, sum->condition, sum->field) : NULL;
+    for (TN_EACH(tn_ast_expr, part, sum->parts))
+        tn_check_expr(check, part);
+}
+
+/* Does it add up one field of the schema, as sums did before there was arithmetic? */
+static bool is_field_sum(const tn_check *check, const tn_ast_expr *sum)
+{
+    const tn_checked_schema *schema = check->schema;
+    bool number = false;
+    for (uint32_t n = 0; n < schema->number_count; n++)
+        number |= sum->name && strcmp(schema->numbers[n].name, sum->name->text) == 0;
+    return sum->figure->kind == TN_EXPR_FIGURE && !number;
 }
 
 /* ---- expressions */
@@ -154,23 +136,60 @@ static void check_parts(tn_check *check, tn_ast_expr *expr)
 static void check_leaf(tn_check *check, tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_NAME)
-        check_rule_name(check, expr);
+        tn_check_expr_name(check, expr);
     else if (!check->schema)
         return;
-    else if (expr->kind == TN_EXPR_TRAY)
+    else if (expr->kind == TN_EXPR_TRAY) {
+        tn_check_tests_of_numbers(check, expr);
         expr->spec = tn_check_spec(check, check->schema, expr);
-    else if (expr->kind == TN_EXPR_ANY)
+    } else
         expr->spec = tn_check_any(check, check->schema, expr->node.span);
+}
+
+static void report_number(tn_check *check, const tn_ast_expr *expr)
+{
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span, "a rule has to stand here, and this is a number");
+    tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
 }
 
 /* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */
 void tn_check_expr(tn_check *check, tn_ast_expr *expr)
 {
+    if (expr->kind == TN_EXPR_NAME)
+        tn_check_expr_name(check, expr);
+    if (tn_is_sum(expr)) {
+        report_number(check, expr);
+        return;
+    }
+    tn_check_expr_known(check, expr);
+}
+
+void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
+{
     switch (expr->kind) {
     case TN_EXPR_TRAY:
     case TN_EXPR_ANY:
     case TN_EXPR_NAME:
+    case TN_EXPR_TRUE:
+    case TN_EXPR_FALSE:
         check_leaf(check, expr);
+        break;
+    case TN_EXPR_COMPARE:
+    case TN_EXPR_WITHIN:
+        for (TN_EACH(tn_ast_expr, part, expr->parts))
+            tn_check_sum_expr(check, part);
+        break;
+    case TN_EXPR_PLAN:
+        if (check->schema)
+            expr->spec = tn_check_any(check, check->schema, expr->node.span);
+        for (TN_EACH(tn_ast_expr, part, expr->parts))
+            tn_check_expr_known(check, part->kind == TN_EXPR_OPTIONAL ? (tn_ast_expr *)part->parts.first : part);
+        break;
+    case TN_EXPR_EVERY:
+        if (check->schema)
+            expr->spec = tn_check_any(check, check->schema, expr->node.span);
+        check_parts(check, expr);
         break;
     case TN_EXPR_BEGINNING:
     case TN_EXPR_END:
@@ -187,9 +206,12 @@ void tn_check_expr(tn_check *check, tn_ast_expr *expr)
         break;
     }
     case TN_EXPR_SUM:
-        if (check->schema)
+        if (!check->schema)
+            check_parts(check, expr);
+        else if (is_field_sum(check, expr))
             check_sum(check, expr);
-        check_parts(check, expr);
+        else
+            tn_check_sum_condition(check, expr);
         break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
@@ -202,9 +224,10 @@ void tn_check_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_SYMMETRIC:
     case TN_EXPR_MANY:
     case TN_EXPR_DISTANCE:
+    case TN_EXPR_IMPLIES:
         check_parts(check, expr);
         break;
-    case TN_EXPR_BROKEN:
+    default: /* already reported, or written out before */
         break;
     }
 }
@@ -251,11 +274,24 @@ static void check_symmetric(tn_check *check, const tn_ast_expr *symmetric)
             "write `symmetric neighbour(...)`, or leave `symmetric` out: only an order can be mirrored");
 }
 
+/* Is it decided by numbers alone? */
+static bool is_counting(const tn_ast_expr *expr)
+{
+    const tn_ast_expr *meant = meaning(expr);
+    if (!meant)
+        return true;
+    bool joined = meant->kind == TN_EXPR_AND || meant->kind == TN_EXPR_OR || meant->kind == TN_EXPR_NOT;
+    for (TN_EACH(const tn_ast_expr, part, meant->parts))
+        joined = joined && meant->from_sum;
+    return joined || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM || meant->kind == TN_EXPR_OCCURRENCES ||
+           meant->kind == TN_EXPR_COMPARE || meant->kind == TN_EXPR_WITHIN;
+}
+
 static void check_distance(tn_check *check, const tn_ast_expr *distance)
 {
     const tn_ast_expr *by = (const tn_ast_expr *)distance->parts.last;
     const tn_ast_expr *meant = meaning(by);
-    if (!meant || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM || meant->kind == TN_EXPR_OCCURRENCES)
+    if (!meant || is_counting(meant))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_DISTANCE_BY, by->node.span,
                                  "what a distance is measured by has to be a number");
@@ -271,8 +307,12 @@ void tn_check_meaning(tn_check *check, tn_ast_expr *expr)
         check_symmetric(check, expr);
     else if (expr->kind == TN_EXPR_DISTANCE)
         check_distance(check, expr);
+    for (TN_EACH(tn_ast_expr, test, expr->tests))
+        tn_check_meaning(check, test);
     for (TN_EACH(tn_ast_expr, part, expr->parts))
         tn_check_meaning(check, part);
+    if (expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN)
+        tn_check_comparison(check, expr);
 }
 
 /* ---- sizes */
@@ -287,7 +327,7 @@ static uint32_t min_of_parts(const tn_ast_expr *expr)
         least = trays < least ? trays : least;
         greatest = trays > greatest ? trays : greatest;
     }
-    return expr->kind == TN_EXPR_NEIGHBOUR ? sum : expr->kind == TN_EXPR_OR ? least : greatest;
+    return expr->kind == TN_EXPR_NEIGHBOUR || expr->kind == TN_EXPR_PLAN ? sum : expr->kind == TN_EXPR_OR ? least : greatest;
 }
 
 uint32_t tn_min_trays(const tn_ast_expr *expr)
@@ -300,6 +340,7 @@ uint32_t tn_min_trays(const tn_ast_expr *expr)
     case TN_EXPR_END:
         return 0;
     case TN_EXPR_NEIGHBOUR:
+    case TN_EXPR_PLAN:
     case TN_EXPR_AND:
     case TN_EXPR_OR:
         return min_of_parts(expr);

@@ -15,6 +15,7 @@ typedef struct tn_item_reader {
     const char *fill; /* of the alternative before: `dense 4' or 8'` */
     bool chosen[TN_VALUES_MAX];
     bool found[TN_VALUES_MAX]; /* by the alternative at hand */
+    bool made;                 /* the words are bound ones: no value need be so */
     const tn_ast_word *word;   /* the next to be read; NULL at the end */
     tn_span span;              /* of the alternative */
 } tn_item_reader;
@@ -119,6 +120,22 @@ static bool field_of_name(tn_item_reader *item)
     return set_field(item, owner, word);
 }
 
+static bool find_field(tn_item_reader *item);
+
+/* The field that a group's first alternative is about. */
+static bool field_of_group(tn_item_reader *item, const tn_ast_item *group)
+{
+    const tn_ast_alternative *first = (const tn_ast_alternative *)group->alternatives.first;
+    tn_item_reader inner = *item;
+    inner.word = (const tn_ast_word *)first->words.first;
+    inner.span = first->node.span;
+    skip_nots(&inner);
+    if (!find_field(&inner))
+        return false;
+    item->field = inner.field;
+    return true;
+}
+
 static bool find_field(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
@@ -126,6 +143,8 @@ static bool find_field(tn_item_reader *item)
         return bad_item(item, item->span, "`not` of nothing");
     if (word->kind == TN_WORD_NAME)
         return field_of_name(item);
+    if (word->kind == TN_WORD_GROUP)
+        return item->field != TN_NONE || field_of_group(item, word->group);
     bool lengths = item->field != TN_NONE && (item->schema->fields[item->field].kind == TN_FIELD_LENGTH ||
                                               item->schema->fields[item->field].kind == TN_FIELD_ZONE);
     return lengths || length_field(item, word);
@@ -165,6 +184,19 @@ static const tn_ast_word *read_length(tn_item_reader *item)
     else if (!word || !word->broken)
         bad_item(item, word ? word->node.span : item->span, "a length is missing");
     return NULL;
+}
+
+static bool mark_range(tn_item_reader *item, const char *fill, const tn_ast_word *range)
+{
+    const tn_checked_field *field = &item->schema->fields[item->field];
+    const tn_ast_range bounds = {range->low, range->high, range->node.span};
+    if (range->broken || !tn_check_range(item->check, &bounds, true))
+        return false;
+    for (uint32_t v = 0; v < field->value_count; v++) {
+        const tn_checked_value *value = &field->values[v];
+        item->found[v] = (!fill || strcmp(value->name, fill) == 0) && range->low->value <= value->length && value->length <= range->high->value;
+    }
+    return true;
 }
 
 /* Marks the values whose fill is `fill` (NULL: any) and whose length compares so. A value that must be one of the
@@ -239,6 +271,24 @@ static bool read_name(tn_item_reader *item, tn_operator op)
     return true;
 }
 
+/* [op] length, or a range */
+static bool read_lengths(tn_item_reader *item, const char *fill, tn_operator op, bool compared)
+{
+    if (item->word && item->word->kind == TN_WORD_RANGE && !compared)
+        return mark_range(item, fill, next_word(item));
+    const tn_ast_word *length = read_length(item);
+    return length && mark_lengths(item, fill, op, length);
+}
+
+static bool fill_has_depth(const tn_item_reader *item, const char *fill)
+{
+    const tn_checked_field *field = &item->schema->fields[item->field];
+    for (uint32_t v = 0; v < field->value_count; v++)
+        if (field->values[v].has_depth && strcmp(field->values[v].name, fill) == 0)
+            return true;
+    return false;
+}
+
 /* [fill] [op] [length] | depth [op] length */
 static bool read_zone(tn_item_reader *item, tn_operator op, bool compared)
 {
@@ -252,17 +302,35 @@ static bool read_zone(tn_item_reader *item, tn_operator op, bool compared)
     } else if (word && word->kind == TN_WORD_NAME) {
         if (!read_name(item, op))
             return false;
-        item->fill = word->text;
+        item->fill = fill_has_depth(item, word->text) ? word->text : NULL; /* `empty or 8'`: 8' of the others */
         bool ends = !item->word || (item->word->kind != TN_WORD_LENGTH && item->word->kind != TN_WORD_OPERATOR &&
-                                    item->word->kind != TN_WORD_NUMBER);
+                                    item->word->kind != TN_WORD_NUMBER && item->word->kind != TN_WORD_RANGE);
         if (ends)
             return true;
         fill = word->text;
         if (read_operator(item, &op) && compared)
             return bad_item(item, item->span, "one comparison is enough");
     }
-    const tn_ast_word *length = read_length(item);
-    return length && mark_lengths(item, fill, op, length);
+    return read_lengths(item, fill, op, compared);
+}
+
+static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alternative);
+
+/* `(a or b)`: what any of them chooses, or, negated, what none does. Groups nest as deep as they are written, which the
+ * parser limits. */
+static bool read_group(tn_item_reader *item, bool negated)
+{
+    const tn_ast_word *word = next_word(item);
+    tn_item_reader inner = {.check = item->check, .schema = item->schema, .field = item->field, .made = item->made};
+    bool good = true;
+    for (TN_EACH(const tn_ast_alternative, alternative, word->group->alternatives))
+        good &= read_alternative(&inner, alternative);
+    if (good && item->word)
+        good = bad_item(item, item->word->node.span, "`%s` does not belong to the item about `%s`", item->word->text,
+                        item->schema->fields[item->field].name);
+    for (uint32_t v = 0; v < item->schema->fields[item->field].value_count; v++)
+        item->chosen[v] |= inner.chosen[v] != negated;
+    return good;
 }
 
 /* [field] [not] [op] value */
@@ -277,14 +345,15 @@ static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alt
     const tn_checked_field *field = &item->schema->fields[item->field];
     tn_operator op = TN_EQUAL;
     bool good = true;
-    if (field->kind == TN_FIELD_FLAG) {
+    if (field->kind == TN_FIELD_FLAG && !(item->word && item->word->kind == TN_WORD_GROUP)) {
         item->found[1] = true;
     } else {
         negated ^= skip_nots(item);
+        if (item->word && item->word->kind == TN_WORD_GROUP)
+            return read_group(item, negated);
         bool compared = read_operator(item, &op);
         if (field->kind == TN_FIELD_LENGTH) {
-            const tn_ast_word *length = read_length(item);
-            good = length && mark_lengths(item, NULL, op, length);
+            good = read_lengths(item, NULL, op, compared);
         } else {
             good = field->kind == TN_FIELD_CHOICE ? read_name(item, op) : read_zone(item, op, compared);
         }
@@ -310,6 +379,8 @@ static bool read_item(tn_item_reader *item, const tn_ast_item *ast)
     for (uint32_t v = 0; v < field->value_count; v++)
         if (item->chosen[v])
             return true;
+    if (item->made || ast->made)
+        return true;
     if (item->schema->broken)
         return false;
     char legal[400];
@@ -326,6 +397,11 @@ static bool read_item(tn_item_reader *item, const tn_ast_item *ast)
 static void set_bit(tn_checked_spec *spec, uint32_t bit)
 {
     spec->mask[bit / 64] |= UINT64_C(1) << (bit % 64);
+}
+
+static void clear_bit(tn_checked_spec *spec, uint32_t bit)
+{
+    spec->mask[bit / 64] &= ~(UINT64_C(1) << (bit % 64));
 }
 
 /* Equal masks of one schema share a specifier. */
@@ -365,24 +441,6 @@ static void allow_all(tn_checked_spec *spec, uint32_t field)
         set_bit(spec, f->first_bit + v);
 }
 
-static void report_field_twice(tn_check *check, const tn_checked_field *field, const tn_ast_item *first,
-                               const tn_ast_item *second)
-{
-    const char *text = check->diagnostics->sources->files[second->node.span.file].text;
-    tn_span a = first->node.span, b = second->node.span;
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_FIELD_TWICE, b, "`%s` is asked for twice in one specifier", field->name);
-    tn_note(check->diagnostics, d, &a, "the first time is here");
-    if (field->kind == TN_FIELD_ZONE)
-        tn_help(check->diagnostics, d,
-                "name a zone once, with fill and depth (`%s FILL DEPTH`), or join alternatives by `or`", field->name);
-    else if (field->kind == TN_FIELD_FLAG)
-        tn_help(check->diagnostics, d, "leave one of the two out");
-    else
-        tn_help(check->diagnostics, d, "for either of the two write `%.*s or %.*s`", (int)(a.end - a.begin),
-                text + a.begin, (int)(b.end - b.begin), text + b.begin);
-}
-
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span)
 {
     tn_checked_spec *spec = new_spec(check, schema, span);
@@ -394,28 +452,20 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray)
 {
     tn_checked_spec *spec = new_spec(check, schema, tray->node.span);
-    const tn_ast_item *first[TN_FIELDS_MAX] = {0};
     if (!spec)
         return NULL;
+    for (uint32_t f = 0; f < schema->field_count; f++)
+        allow_all(spec, f);
     for (TN_EACH(const tn_ast_item, ast, tray->items)) {
-        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE};
+        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE, .made = ast->made};
         if (!read_item(&item, ast)) {
             spec->broken = true;
             continue;
         }
-        const tn_checked_field *field = &schema->fields[item.field];
-        if (first[item.field]) {
-            report_field_twice(check, field, first[item.field], ast);
-            spec->broken = true;
-            continue;
-        }
-        first[item.field] = ast;
+        const tn_checked_field *field = &schema->fields[item.field]; /* items of one field mean both */
         for (uint32_t v = 0; v < field->value_count; v++)
-            if (item.chosen[v])
-                set_bit(spec, field->first_bit + v);
+            if (!item.chosen[v])
+                clear_bit(spec, field->first_bit + v);
     }
-    for (uint32_t f = 0; f < schema->field_count; f++)
-        if (!first[f])
-            allow_all(spec, f);
     return share(check, spec);
 }

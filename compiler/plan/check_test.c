@@ -2,12 +2,23 @@
 #include <string.h>
 
 #include "compiler/common/limits.h"
-#include "compiler/plan/check.h"
+#include "compiler/plan/amount.h"
 #include "runtime/base/nearest.h"
 
 static bool expectation_fits(tn_check *check, const tn_ast_word *word, const tn_checked_name *subject)
 {
     tn_expectation expectation = (tn_expectation)word->value;
+    bool measure = subject->rule && subject->rule->is_measure;
+    if (measure || expectation == TN_EXPECT_VALUE) {
+        if (measure && expectation == TN_EXPECT_VALUE)
+            return true;
+        tn_diagnostic *wrong = measure ? tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span, "a measure has values, it matches nothing")
+                                       : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span, "only a measure has values");
+        tn_note(check->diagnostics, wrong, &subject->span, "the %s is here", subject->library ? "library" : measure ? "measure" : "rule");
+        tn_help(check->diagnostics, wrong, measure ? "write `value [PLAN] = NUMBER`" : "write what is expected of it: %s",
+                subject->library ? "`keep` or `drop`" : "`match` or `reject`");
+        return false;
+    }
     bool for_library = expectation == TN_EXPECT_KEEP || expectation == TN_EXPECT_DROP;
     if (for_library == (subject->library != NULL))
         return true;
@@ -83,6 +94,26 @@ static const tn_ast_word *expectation_at(const tn_ast_case *ast, size_t column)
     return (const tn_ast_word *)node;
 }
 
+/* What the measure has to be: a constant of its dimension. */
+static bool check_value(tn_check *check, const tn_ast_case *ast, const tn_checked_rule *measure, tn_test_case *result)
+{
+    tn_ast_expr *value = ast->value;
+    tn_expand(check, &value);
+    size_t errors = check->diagnostics->error_count;
+    tn_check_sum_expr(check, value);
+    tn_checked_sum *sum = check->diagnostics->error_count == errors ? tn_check_sum(check, value) : NULL;
+    if (!sum || !measure->sum)
+        return false;
+    tn_amount wanted = {.value = sum->constant, .power = sum->power, .any = sum->any}, of = {.power = measure->sum->power}, both;
+    if (sum->count > 0) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, value->node.span, "a constant has to stand here");
+        tn_help(check->diagnostics, d, "write the value that the plan has, such as `31000` or `96ft2`");
+        return false;
+    }
+    result->value = sum->constant;
+    return tn_same_power(check, of, measure->ast->name->node.span, wanted, value->node.span, "the value of", &both);
+}
+
 static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, const tn_checked_name *subject,
                        tn_test_case *result)
 {
@@ -96,6 +127,8 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, c
     result->by = check_by(check, ast, result->expectation, subject);
     result->by_count = ast->by.count;
     result->values = check->schema ? tn_check_plan(check, check->schema, ast->trays, &result->length) : NULL;
+    if (ast->value && !check_value(check, ast, subject->rule, result))
+        return false;
     return result->by && result->values;
 }
 
@@ -110,10 +143,17 @@ static void check_subject(tn_check *check, const tn_ast_test *ast, const tn_ast_
     check->schema = subject->rule ? subject->rule->schema : subject->library->schema;
     block->subject = word->text;
     block->is_library = subject->library != NULL;
+    block->is_measure = subject->rule && subject->rule->is_measure;
     block->index = subject->rule ? subject->rule->index : subject->library->index;
     block->schema = check->schema ? check->schema->index : 0;
     block->span = ast->top.node.span;
     block->cases = cases;
+    if (subject->rule && (subject->rule->is_template || subject->rule->is_let)) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
+        tn_note(check->diagnostics, d, &subject->span, "`%s` is here", word->text);
+        tn_help(check->diagnostics, d, "give a call of it a name, as a rule, and test that");
+        return;
+    }
     for (TN_EACH(const tn_ast_case, c, ast->cases))
         block->case_count += check_case(check, c, column, subject, &cases[block->case_count]);
 }

@@ -39,16 +39,17 @@ uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind)
 
 /* The sources' texts and paths, and a hash over the texts: paths of the standard library are recorded as they are
  * everywhere. */
-tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
-                         uint8_t **bytes, size_t *size, tn_error *error)
+tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_imports *imports,
+                         tn_diagnostics *diagnostics, uint8_t **bytes, size_t *size, tn_error *error)
 {
-    tn_emit emit = {.builder = tn_builder_new(), .checked = checked, .imports = imports};
+    tn_emit emit = {.arena = arena, .builder = tn_builder_new(), .checked = checked, .imports = imports};
     if (!emit.builder)
         return tn_fail_memory(error);
     tn_emit_sources(emit.builder, imports, diagnostics->sources);
     tn_emit_schemas(&emit);
     tn_emit_rules(&emit);
     tn_emit_libraries(&emit);
+    tn_emit_measures(&emit);
     tn_status status = TN_OK;
     if (emit.instructions > TN_INSTRUCTIONS_MAX) {
         status =

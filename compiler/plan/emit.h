@@ -10,6 +10,7 @@
 #include "runtime/module/builder.h"
 
 typedef struct tn_emit {
+    tn_arena *arena;
     tn_builder *builder;
     const tn_checked *checked;
     const tn_imports *imports;
@@ -20,7 +21,7 @@ typedef struct tn_emit {
 } tn_emit;
 
 /* The module's bytes, which the caller frees with free(). E0810 where it would be too large to load. */
-tn_status tn_emit_module(const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
+tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
                          uint8_t **bytes, size_t *size, tn_error *error);
 
 /* ---- emit.c */
@@ -38,6 +39,16 @@ uint32_t tn_emit_condition(tn_emit *emit, tn_checked_condition *condition);
 /* The functions that an expression needs (conditions, what is mirrored). `name` is for people. */
 void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name);
 void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr);
+
+void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr);
+
+/* ---- emit_sum.c */
+void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name); /* the functions that its terms name */
+/* The relation of the stretches on which the sum compares so with 0. */
+void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op);
+void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
+void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure);
+void tn_emit_measures(tn_emit *emit); /* their records */
 
 /* ---- emit_library.c */
 void tn_emit_libraries(tn_emit *emit);

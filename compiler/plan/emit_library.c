@@ -64,8 +64,30 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                           });
 }
 
+/* The trays of an open plan that the command line gives: a function each. */
+static void emit_pattern(tn_emit *emit)
+{
+    const tn_checked *checked = emit->checked;
+    tn_program *program = checked->program;
+    program->pattern = TN_NEW_ARRAY(emit->arena, uint32_t, checked->pattern_count);
+    for (size_t i = 0; program->pattern && i < checked->pattern_count; i++) {
+        tn_ast_expr *tray = checked->pattern[i];
+        uint32_t function = TN_NO_RECORD;
+        if (tray) {
+            emit->schema = checked->asked->schema->index;
+            tn_emit_needs(emit, tray, "open plan");
+            tn_emit_begin(emit, emit->schema);
+            tn_emit_whole(emit, tray);
+            tn_emit_op(emit, tray->node.span, TN_OP_RETURN, 0, 0);
+            function = tn_emit_end(emit, "open plan", TN_FUNCTION_WHOLE);
+        }
+        program->pattern[program->pattern_count++] = function;
+    }
+}
+
 void tn_emit_libraries(tn_emit *emit)
 {
+    emit_pattern(emit);
     for (size_t i = 0; i < emit->checked->library_count; i++)
         emit_library(emit, emit->checked->libraries[i]);
 }

@@ -32,20 +32,18 @@ static uint32_t condition_of(const tn_ast_expr *expr)
 
 /* ---- M: the stretch taken whole */
 
-static void emit_whole(tn_emit *emit, const tn_ast_expr *expr);
-
 /* What makes the neighbour of its parts has the neighbour's own place, so that explaining it can name it. */
 static void emit_neighbour(tn_emit *emit, const tn_ast_expr *neighbour)
 {
     tn_span span = neighbour->node.span;
-    bool beginning = false, end = false, chained = false;
+    bool beginning = neighbour->kind == TN_EXPR_PLAN, end = beginning, chained = false;
     for (TN_EACH(const tn_ast_expr, part, neighbour->parts)) {
         beginning = beginning || part->kind == TN_EXPR_BEGINNING;
         end = end || part->kind == TN_EXPR_END;
         if (part->kind == TN_EXPR_BEGINNING || part->kind == TN_EXPR_END)
             continue;
         bool optional = part->kind == TN_EXPR_OPTIONAL;
-        emit_whole(emit, optional ? first_part(part) : part);
+        tn_emit_whole(emit, optional ? first_part(part) : part);
         tn_emit_op(emit, span, TN_OP_NONEMPTY, 0, 0);
         if (optional)
             tn_emit_op(emit, span, TN_OP_OPTIONAL, 0, 0);
@@ -80,33 +78,82 @@ static void emit_sum(tn_emit *emit, const tn_ast_expr *sum)
 {
     const tn_ast_expr *part = first_part(sum);
     if (part)
-        emit_whole(emit, part);
+        tn_emit_whole(emit, part);
     else
         tn_emit_op(emit, sum->node.span, TN_OP_TRAY, tn_emit_spec(emit, sum->spec), 0);
     uint32_t field = emit->checked->schemas[emit->schema]->field_first + sum->field;
     tn_emit_op(emit, sum->node.span, TN_OP_SUM, field, condition_of(sum));
 }
 
-static void emit_whole(tn_emit *emit, const tn_ast_expr *expr)
+/* `a implies b` is `not a or b`. */
+static void emit_implies(tn_emit *emit, const tn_ast_expr *expr, void (*emit_part)(tn_emit *, const tn_ast_expr *))
+{
+    tn_emit_holds(emit, first_part(expr));
+    tn_emit_op(emit, expr->node.span, TN_OP_NOT, 0, 0);
+    emit_part(emit, (const tn_ast_expr *)expr->parts.last);
+    tn_emit_op(emit, expr->node.span, TN_OP_OR, 0, 0);
+}
+
+/* No single tray is `a` and not `b`. */
+static void emit_every(tn_emit *emit, const tn_ast_expr *expr)
+{
+    tn_span span = expr->node.span;
+    tn_emit_op(emit, span, TN_OP_TRAY, tn_emit_spec(emit, expr->spec), 0);
+    tn_emit_whole(emit, first_part(expr));
+    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+    tn_emit_whole(emit, (const tn_ast_expr *)expr->parts.last);
+    tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+    tn_emit_op(emit, span, TN_OP_SOMEWHERE, 0, 0);
+    tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+}
+
+void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
 {
     tn_span span = expr->node.span;
     switch (expr->kind) {
     case TN_EXPR_TRAY:
     case TN_EXPR_ANY:
         tn_emit_op(emit, span, TN_OP_TRAY, tn_emit_spec(emit, expr->spec), 0);
+        for (TN_EACH(const tn_ast_expr, test, expr->tests)) {
+            tn_emit_whole(emit, test);
+            tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+        }
+        break;
+    case TN_EXPR_TRUE:
+    case TN_EXPR_FALSE:
+        tn_emit_op(emit, span, TN_OP_TRAY, tn_emit_spec(emit, expr->spec), 0);
+        tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+        tn_emit_op(emit, span, TN_OP_TRAY, tn_emit_spec(emit, expr->spec), 0);
+        tn_emit_op(emit, span, expr->kind == TN_EXPR_TRUE ? TN_OP_OR : TN_OP_AND, 0, 0);
+        break;
+    case TN_EXPR_IMPLIES:
+        emit_implies(emit, expr, tn_emit_whole);
+        break;
+    case TN_EXPR_EVERY:
+        emit_every(emit, expr);
+        break;
+    case TN_EXPR_COMPARE:
+        tn_emit_comparison(emit, span, expr->sum, expr->op);
+        break;
+    case TN_EXPR_WITHIN:
+        tn_emit_comparison(emit, span, expr->sum, TN_AT_LEAST);
+        tn_emit_comparison(emit, span, expr->high, TN_AT_MOST);
+        tn_emit_op(emit, span, TN_OP_AND, 0, 0);
         break;
     case TN_EXPR_NAME:
         tn_emit_op(emit, span, TN_OP_CALL, expr->rule->whole, 0);
         break;
     case TN_EXPR_AND:
     case TN_EXPR_OR:
-        emit_joined(emit, expr, emit_whole);
+        emit_joined(emit, expr, tn_emit_whole);
         break;
     case TN_EXPR_NOT:
         tn_emit_holds(emit, first_part(expr));
         tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
         break;
     case TN_EXPR_NEIGHBOUR:
+    case TN_EXPR_PLAN:
         emit_neighbour(emit, expr);
         break;
     case TN_EXPR_SYMMETRIC:
@@ -116,7 +163,7 @@ static void emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
-        emit_whole(emit, first_part(expr));
+        tn_emit_whole(emit, first_part(expr));
         tn_emit_op(emit, span, expr->kind == TN_EXPR_QUANTITY ? TN_OP_QUANTITY : TN_OP_OCCURRENCES, condition_of(expr),
                    0);
         break;
@@ -124,23 +171,39 @@ static void emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         emit_sum(emit, expr);
         break;
     case TN_EXPR_MANY:
-        emit_whole(emit, first_part(expr));
+        tn_emit_whole(emit, first_part(expr));
         tn_emit_op(emit, span, TN_OP_MANY, 0, 0);
         break;
     case TN_EXPR_DISTANCE:
         for (TN_EACH(const tn_ast_expr, part, expr->parts))
-            emit_whole(emit, part);
+            tn_emit_whole(emit, part);
         tn_emit_op(emit, span, TN_OP_DISTANCE, 0, 0);
         break;
-    case TN_EXPR_OPTIONAL:
-    case TN_EXPR_BEGINNING:
-    case TN_EXPR_END:
-    case TN_EXPR_BROKEN:
+    default:
         break; /* checking has seen to it that they do not come here */
     }
 }
 
 /* ---- H: somewhere in the region */
+
+/* Are M and H the same: does it say something of the stretch as a whole? */
+static bool holds_is_whole(tn_expr_kind kind)
+{
+    switch (kind) {
+    case TN_EXPR_QUANTITY:
+    case TN_EXPR_SUM:
+    case TN_EXPR_OCCURRENCES:
+    case TN_EXPR_COMPARE:
+    case TN_EXPR_WITHIN:
+    case TN_EXPR_EVERY:
+    case TN_EXPR_PLAN:
+    case TN_EXPR_TRUE:
+    case TN_EXPR_FALSE:
+        return true;
+    default:
+        return false;
+    }
+}
 
 void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr)
 {
@@ -156,14 +219,13 @@ void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr)
         tn_emit_holds(emit, first_part(expr));
         tn_emit_op(emit, expr->node.span, TN_OP_NOT, 0, 0);
         break;
-    case TN_EXPR_QUANTITY:
-    case TN_EXPR_SUM:
-    case TN_EXPR_OCCURRENCES:
-        emit_whole(emit, expr);
+    case TN_EXPR_IMPLIES:
+        emit_implies(emit, expr, tn_emit_holds);
         break;
     default:
-        emit_whole(emit, expr);
-        tn_emit_op(emit, expr->node.span, TN_OP_SOMEWHERE, 0, 0);
+        tn_emit_whole(emit, expr);
+        if (!holds_is_whole(expr->kind))
+            tn_emit_op(emit, expr->node.span, TN_OP_SOMEWHERE, 0, 0);
         break;
     }
 }
@@ -174,8 +236,12 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
 {
     for (TN_EACH(tn_ast_expr, part, expr->parts))
         tn_emit_needs(emit, part, name);
+    for (TN_EACH(tn_ast_expr, test, expr->tests))
+        tn_emit_needs(emit, test, name);
     if (expr->condition_checked)
         tn_emit_condition(emit, expr->condition_checked);
+    tn_emit_sum_needs(emit, expr->sum, name);
+    tn_emit_sum_needs(emit, expr->high, name);
     if (expr->kind != TN_EXPR_SYMMETRIC || first_part(expr)->kind == TN_EXPR_NAME)
         return;
     char label[TN_NAME_MAX + 1];
@@ -183,7 +249,7 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
     snprintf(label, sizeof label, "%.*s%s", (int)(TN_NAME_MAX - sizeof suffix), name, suffix);
     uint32_t schema = emit->schema;
     tn_emit_begin(emit, schema);
-    emit_whole(emit, first_part(expr));
+    tn_emit_whole(emit, first_part(expr));
     tn_emit_op(emit, first_part(expr)->node.span, TN_OP_RETURN, 0, 0);
     expr->function = tn_emit_end(emit, label, TN_FUNCTION_WHOLE) + 1;
 }
@@ -193,13 +259,13 @@ static void emit_rule_holds(tn_emit *emit, const tn_checked_rule *rule)
 {
     const tn_ast_expr *body = rule->ast->body;
     bool joined = body->kind == TN_EXPR_AND || body->kind == TN_EXPR_OR || body->kind == TN_EXPR_NOT ||
-                  body->kind == TN_EXPR_NAME;
+                  body->kind == TN_EXPR_NAME || body->kind == TN_EXPR_IMPLIES;
     if (joined) {
         tn_emit_holds(emit, body);
         return;
     }
     tn_emit_op(emit, body->node.span, TN_OP_CALL, rule->whole, 0);
-    if (body->kind != TN_EXPR_QUANTITY && body->kind != TN_EXPR_SUM && body->kind != TN_EXPR_OCCURRENCES)
+    if (!holds_is_whole(body->kind))
         tn_emit_op(emit, body->node.span, TN_OP_SOMEWHERE, 0, 0);
 }
 
@@ -209,7 +275,7 @@ static void emit_rule(tn_emit *emit, tn_checked_rule *rule)
     tn_ast_expr *body = rule->ast->body;
     tn_emit_needs(emit, body, rule->name);
     tn_emit_begin(emit, rule->schema->index);
-    emit_whole(emit, body);
+    tn_emit_whole(emit, body);
     tn_emit_op(emit, body->node.span, TN_OP_RETURN, 0, 0);
     rule->whole = tn_emit_end(emit, rule->name, TN_FUNCTION_WHOLE);
     tn_emit_begin(emit, rule->schema->index);
@@ -221,10 +287,16 @@ static void emit_rule(tn_emit *emit, tn_checked_rule *rule)
 void tn_emit_rules(tn_emit *emit)
 {
     const tn_checked *checked = emit->checked;
-    for (size_t i = 0; i < checked->rule_count; i++)
-        emit_rule(emit, checked->order[i]);
+    for (size_t i = 0; i < checked->rule_count; i++) {
+        if (checked->order[i]->is_measure)
+            tn_emit_plan_measure(emit, checked->order[i]);
+        else
+            emit_rule(emit, checked->order[i]);
+    }
     for (size_t i = 0; i < checked->rule_count; i++) {
         const tn_checked_rule *rule = checked->rules[i];
+        if (rule->is_measure || rule->hidden)
+            continue;
         tn_span span = rule->ast->top.node.span;
         tn_builder_add_RULE(emit->builder,
                             &(tn_rule_record){

@@ -12,7 +12,7 @@ struct tn_ast_file;
 
 /* What the words mean depends on where they stand: inside a schema, a tray specifier or a plan, the author's own names
  * count and the language keeps only a few words. */
-typedef enum tn_lex_mode { TN_LEX_TOP, TN_LEX_SCHEMA, TN_LEX_TRAY, TN_LEX_LITERAL } tn_lex_mode;
+typedef enum tn_lex_mode { TN_LEX_TOP, TN_LEX_SCHEMA, TN_LEX_TRAY, TN_LEX_LITERAL, TN_LEX_PATTERN, TN_LEX_TRAY_SUM } tn_lex_mode;
 
 typedef struct tn_parse {
     tn_arena *arena;
@@ -40,10 +40,16 @@ typedef struct tn_parse {
     int quiet;          /* tokens to come whose being out of place follows from what was reported */
     bool quiet_now;     /* is the token at hand one of them? */
 
-    bool too_deep; /* nesting was reported */
+    bool in_number;  /* inside a `number` of a schema: min and max are functions */
+    uint32_t groups; /* in parentheses, in specifiers */
+    bool too_deep;   /* nesting was reported */
 
     tn_lexer_pool pool;
 } tn_parse;
+
+/* Parses the source as one expression, or as one open plan: see tn_ast_file. */
+typedef enum tn_parse_what { TN_PARSE_FILE, TN_PARSE_EXPRESSION, TN_PARSE_PATTERN } tn_parse_what;
+struct tn_ast_file *tn_parse_plan_part(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_parse_what what);
 
 /* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`
  * where that is not NULL. */

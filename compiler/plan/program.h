@@ -5,7 +5,7 @@
 
 #include "compiler/common/source.h"
 
-typedef enum tn_expectation { TN_EXPECT_MATCH, TN_EXPECT_REJECT, TN_EXPECT_KEEP, TN_EXPECT_DROP } tn_expectation;
+typedef enum tn_expectation { TN_EXPECT_MATCH, TN_EXPECT_REJECT, TN_EXPECT_KEEP, TN_EXPECT_DROP, TN_EXPECT_VALUE } tn_expectation;
 
 typedef struct tn_test_case {
     tn_expectation expectation;
@@ -14,14 +14,15 @@ typedef struct tn_test_case {
     const char *doc;       /* or NULL */
     const char *const *by; /* drop ... by NAME, NAME: clause names; all must be among the reasons */
     size_t by_count;
-    bool todo; /* expected to fail */
+    const char *value; /* of a measure: what it has to be, "p/q" in nanometres to its power */
+    bool todo;         /* expected to fail */
     tn_span span;
 } tn_test_case;
 
 typedef struct tn_test_block {
-    const char *subject; /* name of the rule or library */
-    bool is_library;
-    uint32_t index;  /* of its RULE or LIBRARY record */
+    const char *subject; /* name of the rule, library or measure */
+    bool is_library, is_measure;
+    uint32_t index;  /* of its RULE, LIBRARY or MEASURE record */
     uint32_t schema; /* of its SCHEMA record */
     bool imported;
     const tn_test_case *cases;
@@ -40,6 +41,8 @@ typedef struct tn_program {
     size_t test_count;
     const tn_allowance *allowances;
     size_t allowance_count;
+    uint32_t *pattern; /* an open plan's trays: the function (of M) of each; TN_NO_RECORD: any number of trays */
+    size_t pattern_count;
 } tn_program;
 
 /* Does `allow` silence the warning at that place? For the warnings of the analysis, which runs after compiling. */

@@ -39,7 +39,8 @@ static tn_status compile(const tn_notation *notation, const tn_input *input, con
 }
 
 /* Compiles what lies in a file, or would: that it uses files itself is to be expected. */
-static tn_status compile_file(tn_opened *opened, const char *text, size_t size, bool warnings_are_errors)
+static tn_status compile_file(tn_opened *opened, const char *text, size_t size, bool warnings_are_errors,
+                              const tn_questions *questions)
 {
     tn_stdlib_dirs dirs;
     tn_files files;
@@ -49,7 +50,7 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     tn_files_begin(&files, &dirs);
     if (status == TN_OK && identity) {
         tn_input input = {text, size, opened->path, identity, NULL};
-        tn_compile_options options = {tn_files_resolver(&files), warnings_are_errors};
+        tn_compile_options options = {tn_files_resolver(&files), warnings_are_errors, questions};
         status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
     } else {
         tn_fail_memory(&error);
@@ -84,12 +85,29 @@ static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
     return status == TN_OK ? TN_OK : refuse(opened, &error);
 }
 
+/* A module was compiled already: nothing more can be asked in its words. */
+static tn_status refuse_questions(tn_opened *opened)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *d = tn_report_bare(list, TN_ERROR, E_USAGE, "%s is a module, and --where and open plans need the rule file",
+                                      opened->path);
+    tn_help(list, d, "name the rule file that it was built from");
+    return TN_INVALID;
+}
+
+static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
+                            const tn_questions *questions, tn_opened *opened)
+{
+    start(path, opened);
+    if (!tn_module_has_magic(bytes, size))
+        return compile_file(opened, (const char *)bytes, size, warnings_are_errors, questions);
+    return questions ? refuse_questions(opened) : load(opened, bytes, size);
+}
+
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened)
 {
-    start(path, opened);
-    return tn_module_has_magic(bytes, size) ? load(opened, bytes, size)
-                                            : compile_file(opened, (const char *)bytes, size, warnings_are_errors);
+    return open_bytes(path, bytes, size, warnings_are_errors, NULL, opened);
 }
 
 /* Reads the file that the path names, or the one of the standard library. */
@@ -108,13 +126,18 @@ static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **b
 
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 {
+    return tn_open_asking(path, warnings_are_errors, NULL, opened);
+}
+
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened)
+{
     uint8_t *bytes = NULL;
     size_t size;
     tn_error error;
     tn_stdlib_file found;
     tn_status status = read_named(path, &found, &bytes, &size, &error);
     if (status == TN_OK) {
-        status = tn_open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, opened);
+        status = open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, questions, opened);
         opened->path = path; /* the recorded path ends here */
     } else {
         start(path, opened);

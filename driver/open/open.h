@@ -22,6 +22,9 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
+/* The same, with what the command line asks of a .plan file. A module takes no such questions. */
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened);
+
 /* The same from bytes in memory, which would lie at `path`: that says the notation, and where relative imports start.
  */
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,

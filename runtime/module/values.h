@@ -50,7 +50,18 @@ typedef enum tn_clause_kind {
     TN_CLAUSE_KIND_COUNT
 } tn_clause_kind;
 
-/* Flags of rules and libraries. */
+/* What a term of a sum counts, on a stretch. */
+typedef enum tn_sum_kind {
+    TN_SUM_SINGLES, /* single trays that are in the part's relation, each with its tally */
+    TN_SUM_STARTS,  /* places where the part's relation starts, and ends within the stretch */
+    TN_SUM_MATCHES, /* 1 where the part holds of the whole plan */
+    TN_SUM_KIND_COUNT
+} tn_sum_kind;
+
+#define TN_TALLY_STACK_MAX 64u /* values on the stack of a function of kind TALLY */
+#define TN_RATIONAL_MAX 4096u  /* bytes of an exact number */
+
+/* Flags of rules, libraries and measures. */
 #define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
 
 /* ---- growth */

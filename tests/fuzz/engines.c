@@ -10,6 +10,7 @@
 #include "runtime/growth/model/records.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/rules.h"
 #include "tests/fuzz/grow.h"
@@ -111,6 +112,21 @@ void fuzz_schema(const tn_module *module)
 void fuzz_match(const tn_module *module)
 {
     with_schemas(module, use_rules);
+}
+
+static void use_sums(const tn_module *module, const tn_schema *schema, uint32_t index)
+{
+    for (uint32_t i = 0; i < module->SUM_count && i < RULES; i++) {
+        tn_sum *sum;
+        tn_error error;
+        if (module->SUM_records[i].schema == index && tn_sum_new(schema, i, &sum, &error) == TN_OK)
+            tn_sum_free(sum);
+    }
+}
+
+void fuzz_sum(const tn_module *module)
+{
+    with_schemas(module, use_sums);
 }
 
 void fuzz_number(const tn_module *module)
