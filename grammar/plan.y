@@ -389,7 +389,7 @@ pattern
 pattern_tray
     : QUESTION                                  { $$ = tn_ast_leaf(parse, TN_EXPR_ANY, @$); }
     | ELLIPSIS                                  { $$ = tn_ast_gap(parse, @$); }
-    | spec_items                                { $$ = tn_ast_tray_new(parse, @$, $1); }
+    | spec_items                                { $$ = tn_ast_open_tray(parse, @$, $1); }
     ;
 
 parts

@@ -85,7 +85,7 @@ static bool choose_bins(tn_job *job, paper *p)
             return false;
         }
     }
-    p->binned = p->d->count > 0 && (settings->step || settings->bins.given || p->d->count > VALUES_LISTED);
+    p->binned = p->d->count > 0 && (settings->step || settings->bins.given || (p->d->count > VALUES_LISTED && !settings->json));
     if (!p->binned)
         return true;
     if (!settings->step)

@@ -155,6 +155,7 @@ typedef struct tn_ast_expr {
     const tn_ast_word *detail; /* the word after a sum's field: `depth` */
     tn_ast_list items;         /* tray: tn_ast_item */
     tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator; call: arguments */
+    bool loose;                /* tray: of an open plan: blanks alone may separate its items */
     tn_ast_list names;         /* quantifier: the words that it binds */
     tn_operator op;            /* of a comparison */
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
@@ -377,6 +378,7 @@ tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_
 tn_ast_expr *tn_ast_quantifier(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list names,
                                const tn_ast_word *field, tn_ast_expr *part);
 tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_list arguments);
+tn_ast_expr *tn_ast_open_tray(tn_parse *parse, tn_span span, tn_ast_list items); /* of an open plan */
 tn_ast_expr *tn_ast_gap(tn_parse *parse, tn_span span); /* `...` in a neighbour or pattern: optional(many(any)) */
 tn_ast_expr *tn_ast_distance(tn_parse *parse, tn_span span, tn_ast_expr *from, tn_ast_expr *to, tn_ast_expr *by);
 

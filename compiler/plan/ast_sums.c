@@ -112,6 +112,14 @@ tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name,
     return expr;
 }
 
+tn_ast_expr *tn_ast_open_tray(tn_parse *parse, tn_span span, tn_ast_list items)
+{
+    tn_ast_expr *tray = tn_ast_tray_new(parse, span, items);
+    if (tray)
+        tray->loose = true;
+    return tray;
+}
+
 tn_ast_expr *tn_ast_gap(tn_parse *parse, tn_span span)
 {
     tn_ast_expr *any = tn_ast_leaf(parse, TN_EXPR_ANY, span);

@@ -344,8 +344,28 @@ const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, t
     return NULL;
 }
 
+/* A misspelled word of the language that `(` follows reads as a call: `trai(4')`. */
+static bool report_misspelled(tn_check *check, const tn_ast_word *word)
+{
+    static const char *const words[] = {"tray",     "neighbour", "many", "optional", "quantity", "occurrences",
+                                        "distance", "sum",       "every", "matches"};
+    if (tn_names_get(&check->names, word->text))
+        return false;
+    const char *near = nearest_name(check, word->text, TN_WANT_RULE);
+    const char *meant = near ? NULL : tn_nearest(word->text, words, sizeof words / sizeof *words);
+    if (!meant)
+        return false;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_RULE, word->node.span,
+                                 "`%s` is no word of the language that `(` follows, and there is no rule `%s`", word->text, word->text);
+    tn_suggest(check->diagnostics, d, "%s", meant);
+    return true;
+}
+
 const tn_checked_name *tn_check_call_name(tn_check *check, const tn_ast_expr *call)
 {
+    if (report_misspelled(check, call->name))
+        return NULL;
+
     const tn_checked_name *name = tn_check_name(check, call->name, TN_WANT_RULE);
     if (!name || (!name->rule->is_measure && !name->rule->is_let))
         return name;

@@ -15,6 +15,7 @@ typedef struct tn_item_reader {
     const char *fill; /* of the alternative before: `dense 4' or 8'` */
     bool chosen[TN_VALUES_MAX];
     bool found[TN_VALUES_MAX]; /* by the alternative at hand */
+    bool loose;                /* what is left of the words is another item */
     bool made;                 /* the words are bound ones: no value need be so */
     const tn_ast_word *word;   /* the next to be read; NULL at the end */
     tn_span span;              /* of the alternative */
@@ -358,7 +359,7 @@ static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alt
             good = field->kind == TN_FIELD_CHOICE ? read_name(item, op) : read_zone(item, op, compared);
         }
     }
-    if (good && item->word)
+    if (good && item->word && !item->loose)
         good = bad_item(item, item->word->node.span, "`%s` does not belong to the item about `%s`", item->word->text,
                         field->name);
     if (good && negated)
@@ -449,6 +450,29 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
     return spec ? share(check, spec) : NULL;
 }
 
+/* Leaves the values that an item lets in; items of one field mean both. In an open plan an item ends where it is whole. */
+static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_ast_item *ast, bool loose)
+{
+    const tn_checked_schema *schema = spec->schema;
+    tn_ast_alternative rest = {.node = ast->node};
+    tn_ast_item one = *ast;
+    for (;;) {
+        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE, .made = ast->made, .loose = loose};
+        if (!read_item(&item, &one)) {
+            spec->broken = true;
+            return;
+        }
+        const tn_checked_field *field = &schema->fields[item.field];
+        for (uint32_t v = 0; v < field->value_count; v++)
+            if (!item.chosen[v])
+                clear_bit(spec, field->first_bit + v);
+        if (!item.word)
+            return;
+        rest.words = (tn_ast_list){.first = &((tn_ast_word *)(uintptr_t)item.word)->node, .count = 1};
+        one.alternatives = tn_ast_one(&rest);
+    }
+}
+
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray)
 {
     tn_checked_spec *spec = new_spec(check, schema, tray->node.span);
@@ -456,16 +480,7 @@ tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const
         return NULL;
     for (uint32_t f = 0; f < schema->field_count; f++)
         allow_all(spec, f);
-    for (TN_EACH(const tn_ast_item, ast, tray->items)) {
-        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE, .made = ast->made};
-        if (!read_item(&item, ast)) {
-            spec->broken = true;
-            continue;
-        }
-        const tn_checked_field *field = &schema->fields[item.field]; /* items of one field mean both */
-        for (uint32_t v = 0; v < field->value_count; v++)
-            if (!item.chosen[v])
-                clear_bit(spec, field->first_bit + v);
-    }
+    for (TN_EACH(const tn_ast_item, ast, tray->items))
+        narrow_by_item(check, spec, ast, tray->loose && ast->alternatives.count == 1);
     return share(check, spec);
 }

@@ -23,22 +23,26 @@ static bool expects(const tn_expected *e, const char *token)
  * all of its tokens. */
 static const struct {
     const char *phrase;
-    const char *tokens[18];
+    const char *tokens[28];
 } groups[] = {
     {"a rule expression",
      {"`tray`", "`neighbour`", "`any`", "a name", "`not`", "`symmetric`", "`quantity`", "`sum`", "`many`",
-      "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`"}},
-    {"a condition such as `n > 1`", {"`-`", "`(`", "`not`", "a number", "a name", "a length"}},
-    {"a variable or a number", {"`-`", "a name", "a number", "a length"}},
-    {"a number", {"`-`", "a number", "a length"}},
-    {"a value", {"a length", "a name", "a number", "`not`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+      "`occurrences`", "`optional`", "`distance`", "`beginning`", "`end`", "`(`", "`trays`", "an area", "a decimal number", "`matches`", "`some`", "`every`",
+      "`plan`", "a number", "a length", "`-`"}},
+    {"an operator such as `and`, `or` or `>`",
+     {"`and`", "`+`", "`or`", "`implies`", "`in`", "`*`", "`/`", "`-`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+    {"`+`, `-`, `*` or `/`", {"`+`", "`*`", "`/`", "`-`"}},
+    {"a condition such as `n > 1`", {"`-`", "`(`", "`not`", "a number", "a name", "a length", "an area", "a decimal number"}},
+    {"a variable or a number", {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
+    {"a number", {"`-`", "a number", "a length", "an area", "a decimal number"}},
+    {"a value", {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`not`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"the next `rule`, `schema`, `library`, `test` or `use`",
-     {"`rule`", "`schema`", "`library`", "`test`", "`use`", "the end of the file"}},
+     {"`rule`", "`schema`", "`library`", "`test`", "`use`", "`measure`", "`let`", "an expression", "an open plan", "the end of the file"}},
     {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
-    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`"}},
+    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`", "`value`"}},
     {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
-    {"a field (`name = values`)", {"a field", "`forbid`", "`zone`"}},
+    {"a field (`name = values`)", {"a field", "`forbid`", "`zone`", "`number`"}},
 };
 
 static void add_phrase(char *text, size_t size, const char *phrase, size_t *said)
@@ -58,7 +62,7 @@ static size_t say_groups(tn_expected *e, char *text, size_t size)
             open |= !e->said[i] && strcmp(e->tokens[i], tokens[0]) == 0;
         if (!open || !expects(e, tokens[1]))
             continue;
-        for (size_t t = 0; t < 18 && tokens[t]; t++)
+        for (size_t t = 0; t < 28 && tokens[t]; t++)
             for (size_t i = 0; i < e->count; i++)
                 e->said[i] |= strcmp(e->tokens[i], tokens[t]) == 0;
         add_phrase(text, size, groups[g].phrase, &said);
@@ -207,7 +211,7 @@ static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, con
     enum { WORDS = sizeof words / sizeof *words, PREFIXES = 2, CALLS = 10 };
     bool expression = expects(e, "`and`"), call = expression && strcmp(found->name, "`(`") == 0;
     const char *near = NULL;
-    if (found->after.end == found->after.begin || parse->mode != TN_LEX_TOP)
+    if (found->after.end == found->after.begin || (parse->mode != TN_LEX_TOP && parse->mode != TN_LEX_TRAY_SUM))
         return false;
     if (call)
         near = nearest(parse, found->after, words, CALLS);
