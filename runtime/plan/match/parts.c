@@ -24,6 +24,25 @@ static tn_status foreign(const reading *r, uint32_t offset)
     return status;
 }
 
+/* What the language has and parts have not: comparisons of sums, and calls of rules with parameters. */
+static tn_status unexplained(const reading *r, uint32_t offset, const char *what)
+{
+    tn_status status = tn_fail(r->error, TN_INVALID, E_NO_PARTS, "a rule with %s is not explained, drawn or exported", what);
+    tn_error_help(r->error, "it can be matched, tested and counted; `tartan test` shows whether a plan meets it");
+    if (r->error)
+        r->error->code_offset = offset;
+    return status;
+}
+
+/* A call that is not of a rule is one of a rule with parameters, or part of a `symmetric` that has not been read. */
+static tn_status check_calls(const reading *r)
+{
+    for (uint32_t i = 0; i < r->parts->count; i++)
+        if (r->parts->parts[i].kind == TN_PART_RULE && r->parts->parts[i].rule == UINT32_MAX)
+            return unexplained(r, r->parts->parts[i].root, "a call of a rule with parameters");
+    return TN_OK;
+}
+
 static tn_status read_function(reading *r, uint32_t function);
 
 uint32_t tn_function_rule(const tn_module *module, uint32_t function)
@@ -238,6 +257,10 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
         return read_counted(r, TN_PART_OCCURRENCES, offset, code);
     case TN_OP_DISTANCE:
         return wrap(r, leaf(TN_PART_DISTANCE, offset, code->length), 3);
+    case TN_OP_BELOW:
+    case TN_OP_ZERO:
+    case TN_OP_ABOVE:
+        return unexplained(r, offset, "a comparison of sums");
     default:
         return foreign(r, offset);
     }
@@ -328,6 +351,8 @@ tn_status tn_parts_read(const tn_module *module, uint32_t function, tn_parts *pa
     tn_status status = read_rule(&r, function);
     if (status == TN_OK)
         status = number(&r);
+    if (status == TN_OK)
+        status = check_calls(&r);
     free(r.stack);
     return status;
 }
