@@ -42,7 +42,7 @@ typedef enum tn_option_kind {
     TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the
                          first */
     TN_OPTION_REAL,   /* tn_option_real */
-    TN_OPTION_WISH,   /* tn_option_list: adds the option's name and its word, so that several options keep their order */
+    TN_OPTION_WISH, /* tn_option_list: adds the option's name and its word, so that several options keep their order */
 } tn_option_kind;
 
 typedef struct tn_option {
@@ -64,12 +64,12 @@ typedef struct tn_settings {
     bool werror;
 
     const char *library;
-    tn_option_list wheres;  /* further requirements */
-    const char *pattern;    /* of `complete`: set by the command */
-    const char *by;         /* the measure that is counted by */
-    const char *step;       /* of its bins */
+    tn_option_list wheres; /* further requirements */
+    const char *pattern;   /* of `complete`: set by the command */
+    const char *by;        /* the measure that is counted by */
+    const char *step;      /* of its bins */
     tn_option_number bins;
-    tn_option_list wanted;  /* --least M, --most M and what follows them, in order: the option's name, then its word */
+    tn_option_list wanted; /* --least M, --most M and what follows them, in order: the option's name, then its word */
     tn_option_list rules;
     tn_option_range trays;
     tn_option_number max_length, max_states, threads;
@@ -82,7 +82,7 @@ typedef struct tn_settings {
     bool no_analysis, relations, examples; /* of check */
     bool with_tests, with_counts;
     const char *before; /* check --diff: the file before an edit */
-    int notation;                          /* 0: what the file's name says; otherwise one more than a tn_notation */
+    int notation;       /* 0: what the file's name says; otherwise one more than a tn_notation */
     const char *from, *to;
     tn_option_number limit, seed, length, per_length, sample;
 

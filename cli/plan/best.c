@@ -22,7 +22,8 @@ typedef struct sink {
 
 static bool put_values(sink *s, const int64_t *values)
 {
-    bool list = s->wishes->count > 1, ok = tn_buffer_printf(&s->text, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
+    bool list = s->wishes->count > 1,
+         ok = tn_buffer_printf(&s->text, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
     for (uint32_t k = 0; ok && k < s->wishes->count; k++) {
         ok = k == 0 || tn_buffer_printf(&s->text, s->json ? "," : "  ");
         if (!s->json) {
@@ -35,7 +36,8 @@ static bool put_values(sink *s, const int64_t *values)
     return ok && (!s->json || !list || tn_buffer_printf(&s->text, "]"));
 }
 
-static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank, tn_error *error)
+static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
+                          tn_error *error)
 {
     if (s->writer)
         return tn_plan_writer_write(s->writer, rank, trays, length, error);
@@ -46,8 +48,8 @@ static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const 
         ok = ok && tn_buffer_printf(&s->text, ",\"rank\":\"%s\",\"trays\":", digits) &&
              tn_plan_write_trays(s->ready->schema, trays, length, &s->text) && tn_buffer_printf(&s->text, "}\n");
     else
-        ok = ok && tn_buffer_printf(&s->text, "  rank %s\n", digits) && tn_plan_write_line(s->ready->schema, trays, length, &s->text) &&
-             tn_buffer_printf(&s->text, "\n");
+        ok = ok && tn_buffer_printf(&s->text, "  rank %s\n", digits) &&
+             tn_plan_write_line(s->ready->schema, trays, length, &s->text) && tn_buffer_printf(&s->text, "\n");
     free(digits);
     if (!ok)
         return tn_fail_memory(error);
@@ -92,7 +94,8 @@ static bool open_sink(sink *s)
     tn_plan_format format = (tn_plan_format)settings->format;
     s->json = format == TN_FORMAT_JSON;
     bool text = s->json || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !settings->output);
-    return text ? tn_job_output(s->job, settings->output, &s->output) : tn_job_plan_writer(s->job, s->ready, "best", &s->writer);
+    return text ? tn_job_output(s->job, settings->output, &s->output)
+                : tn_job_plan_writer(s->job, s->ready, "best", &s->writer);
 }
 
 static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wanted)
@@ -130,7 +133,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     uint64_t wanted = BEST_DEFAULT;
     tn_job_begin(&job, settings);
     if (settings->operands.count > 1 && (!tn_number_read(settings->operands.items[1], &wanted) || wanted > BEST_MAX)) {
-        tn_diagnostic *d = tn_job_usage(&job, "the number of plans is a number from 0 to %d, not `%.60s`", BEST_MAX, settings->operands.items[1]);
+        tn_diagnostic *d = tn_job_usage(&job, "the number of plans is a number from 0 to %d, not `%.60s`", BEST_MAX,
+                                        settings->operands.items[1]);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan best FILE N --least MEASURE");
     } else if (tn_job_library(&job, settings->operands.items[0], &ready)) {
         find_best(&job, &ready, wanted);
@@ -159,10 +163,12 @@ const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
     .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]",
-    .description = "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
-                   "the measures named after it, then by rank. They are found from the library's automaton; no other plan is looked "
-                   "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
-                   "them exactly, in feet or metres.",
+    .description =
+        "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
+        "the measures named after it, then by rank. They are found from the library's automaton; no other plan is "
+        "looked "
+        "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
+        "them exactly, in feet or metres.",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),

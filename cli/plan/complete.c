@@ -109,23 +109,21 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
-    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    OPTION_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_LIBRARY,    OPTION_WHERE,   FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    OPTION_OUTPUT,     OPTION_TRAYS,   OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES, OPTION_THREADS,
 };
 
 const tn_command tn_command_complete = {
     .name = "complete",
     .summary = "count what completes an open plan, and which values may stand where",
     .usage = "FILE PATTERN [--library NAME] [--json]",
-    .description = "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for any tray, `...` "
-                   "for any number of trays, also none. Says how many plans of the library complete it, and of each written tray how "
-                   "many of these have which value there. Where a plan fits in several ways, the leftmost counts. To list completions, "
+    .description = "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
+                   "any tray, `...` "
+                   "for any number of trays, also none. Says how many plans of the library complete it, and of each "
+                   "written tray how "
+                   "many of these have which value there. Where a plan fits in several ways, the leftmost counts. To "
+                   "list completions, "
                    "give other commands --where \"plan [PATTERN]\".",
     .example = "$ tartan complete lahave-houses \"8' public | ? | great | ...\"",
     .options = options,

@@ -282,7 +282,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY, OPTION_WHERE,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),

@@ -85,7 +85,8 @@ static bool choose_bins(tn_job *job, paper *p)
             return false;
         }
     }
-    p->binned = p->d->count > 0 && (settings->step || settings->bins.given || (p->d->count > VALUES_LISTED && !settings->json));
+    p->binned =
+        p->d->count > 0 && (settings->step || settings->bins.given || (p->d->count > VALUES_LISTED && !settings->json));
     if (!p->binned)
         return true;
     if (!settings->step)
@@ -96,7 +97,8 @@ static bool choose_bins(tn_job *job, paper *p)
     bool good = mpz_cmp_ui(bins, BINS_MAX) <= 0;
     mpz_clear(bins);
     if (!good)
-        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the step makes more than %d bins", BINS_MAX), "give a greater one");
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the step makes more than %d bins", BINS_MAX),
+                "give a greater one");
     return good;
 }
 
@@ -258,8 +260,8 @@ static void write_statistics(const paper *p, FILE *out)
     tn_buffer deviation = {0};
     tn_amount_write_root(p->unit, variance, &deviation);
     tn_amount_convert(p->unit, value);
-    fprintf(out, "%-20s  %.6g %s\n%-20s  %.6s %s\n\n", "mean", mpq_get_d(value), tn_amount_unit_name(p->unit), "standard deviation",
-            deviation.data ? deviation.data : "", tn_amount_unit_name(p->unit));
+    fprintf(out, "%-20s  %.6g %s\n%-20s  %.6s %s\n\n", "mean", mpq_get_d(value), tn_amount_unit_name(p->unit),
+            "standard deviation", deviation.data ? deviation.data : "", tn_amount_unit_name(p->unit));
     free(deviation.data);
     mpq_clears(value, variance, NULL);
 }
@@ -291,7 +293,8 @@ static void write_rows(const paper *p, FILE *out)
     tn_buffer heading = {0};
     if (p->binned) {
         put_bound(p, p->step, &heading);
-        fprintf(out, "%zu values, in bins of %s %s\n", p->d->count, heading.data ? heading.data : "", tn_amount_unit_name(p->unit));
+        fprintf(out, "%zu values, in bins of %s %s\n", p->d->count, heading.data ? heading.data : "",
+                tn_amount_unit_name(p->unit));
     }
     free(heading.data);
     fprintf(out, "%24s  %24s  %7s  %7s\n", p->binned ? "from, to below" : "value", "plans", "share", "so far");
@@ -304,8 +307,8 @@ static void write_rows(const paper *p, FILE *out)
         }
         char *plans = tn_digits(r.plans, true);
         mpz_add(running, running, r.plans);
-        fprintf(out, "%24s  %24s  %6.2f%%  %6.2f%%\n", text.data ? text.data : "", plans ? plans : "", share(r.plans, p->d->all),
-                share(running, p->d->all));
+        fprintf(out, "%24s  %24s  %6.2f%%  %6.2f%%\n", text.data ? text.data : "", plans ? plans : "",
+                share(r.plans, p->d->all), share(running, p->d->all));
         free(plans);
         free(text.data);
     }
@@ -318,8 +321,8 @@ static void write_text(const paper *p, FILE *out)
     const tn_module *module = p->ready->schema->module;
     const char *doc = tn_text(module, p->measure->doc), *unit = tn_amount_unit_name(p->unit);
     char *all = tn_digits(p->d->all, true);
-    fprintf(out, "%s%s%s%s%s%s of %s plans of %s\n\n", tn_text(module, p->measure->name), *doc ? " " : "", doc, *unit ? " (" : "", unit,
-            *unit ? ")" : "", all ? all : "", tn_text(module, p->ready->record->name));
+    fprintf(out, "%s%s%s%s%s%s of %s plans of %s\n\n", tn_text(module, p->measure->name), *doc ? " " : "", doc,
+            *unit ? " (" : "", unit, *unit ? ")" : "", all ? all : "", tn_text(module, p->ready->record->name));
     free(all);
     if (p->d->count == 0)
         return;

@@ -284,7 +284,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 static const tn_option options[] = {
     TEXT("plan", 0, "FILE", plan_file, "explain every plan of FILE; - is standard input"),
     LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
-    OPTION_LIBRARY, OPTION_WHERE,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),

@@ -143,9 +143,11 @@ const tn_command tn_command_pareto = {
     .name = "pareto",
     .summary = "show what can be had by two or three measures at once",
     .usage = "FILE --least MEASURE --most MEASURE [--least MEASURE] [--json]",
-    .description = "Lists the front of the library: the values that no plan betters in one measure without losing in another, best "
-                   "first by the measures in the order named, with how many plans have them and the first of these by rank. It is "
-                   "found from the library's automaton, exactly; no plan is listed.",
+    .description =
+        "Lists the front of the library: the values that no plan betters in one measure without losing in another, "
+        "best "
+        "first by the measures in the order named, with how many plans have them and the first of these by rank. It is "
+        "found from the library's automaton, exactly; no plan is listed.",
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -167,7 +167,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY, OPTION_WHERE,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
     TEXT("dropped", 'd', "FILE", dropped,
          "write the plans that are dropped to FILE, each with the clauses that drop it"),
     CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),

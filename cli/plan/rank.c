@@ -102,7 +102,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
-static const tn_option options[] = {OPTION_LIBRARY, OPTION_WHERE, OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS};
+static const tn_option options[] = {OPTION_LIBRARY,    OPTION_WHERE,      OPTION_TRAYS,
+                                    OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS};
 
 const tn_command tn_command_rank = {
     .name = "rank",

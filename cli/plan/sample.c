@@ -88,7 +88,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY, OPTION_WHERE,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
     NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),

@@ -60,9 +60,9 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 static const tn_option options[] = {
-    OPTION_LIBRARY, OPTION_WHERE,    FLAG("json", 0, json, "write the plan as a JSON object"),
-    OPTION_TRAYS,      OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES, OPTION_THREADS,
+    OPTION_LIBRARY, OPTION_WHERE,      FLAG("json", 0, json, "write the plan as a JSON object"),
+    OPTION_TRAYS,   OPTION_MAX_LENGTH, OPTION_MAX_STATES,
+    OPTION_THREADS,
 };
 
 const tn_command tn_command_unrank = {

@@ -9,8 +9,8 @@ bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, uint32_t least, 
     const tn_module *module = job->opened.module;
     *wishes = (tn_wishes){0};
     if (list->count / 2 < least || list->count / 2 > TN_WEIGHED_MAX) {
-        tn_diagnostic *d = tn_job_usage(job, "%s measures to go by: %u to %d are needed", list->count / 2 < least ? "too few" : "too many",
-                                        least, TN_WEIGHED_MAX);
+        tn_diagnostic *d = tn_job_usage(job, "%s measures to go by: %u to %d are needed",
+                                        list->count / 2 < least ? "too few" : "too many", least, TN_WEIGHED_MAX);
         tn_help(tn_job_diagnostics(job), d, "name them with --least MEASURE or --most MEASURE");
         return false;
     }
@@ -19,15 +19,18 @@ bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, uint32_t least, 
         bool then = strncmp(list->items[i], "then-", 5) == 0;
         if (then != (i > 0 && least == 1)) {
             tn_diagnostic *d = tn_job_usage(job, then ? "--%s is first" : "--%s stands twice", list->items[i]);
-            tn_help(tn_job_diagnostics(job), d, "the first measure is told by --least or --most, the next by --then-least or --then-most");
+            tn_help(tn_job_diagnostics(job), d,
+                    "the first measure is told by --least or --most, the next by --then-least or --then-most");
             return false;
         }
-        tn_status status = tn_measure_choose(&job->opened, list->items[i + 1], ready->record->schema, &wishes->measures[k]);
+        tn_status status =
+            tn_measure_choose(&job->opened, list->items[i + 1], ready->record->schema, &wishes->measures[k]);
         tn_job_status(job, status);
         if (status != TN_OK)
             return false;
         wishes->most[k] = strstr(list->items[i], "most") != NULL;
-        wishes->unit[k] = tn_amount_unit_of(ready->schema, module->SUM_records[module->MEASURE_records[wishes->measures[k]].sum].power);
+        wishes->unit[k] = tn_amount_unit_of(
+            ready->schema, module->SUM_records[module->MEASURE_records[wishes->measures[k]].sum].power);
         wishes->count++;
     }
     return true;

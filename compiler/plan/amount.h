@@ -15,8 +15,8 @@ bool tn_amount_is_zero(const char *value);
 const char *tn_power_name(int power, char *text, size_t size); /* "an area" */
 
 /* Do both have one dimension? Where not, says so at the second; *power is then that of both. */
-bool tn_same_power(tn_check *check, tn_amount left, tn_span left_span, tn_amount right, tn_span right_span, const char *verb,
-                   tn_amount *both);
+bool tn_same_power(tn_check *check, tn_amount left, tn_span left_span, tn_amount right, tn_span right_span,
+                   const char *verb, tn_amount *both);
 
 /* The dimension and, where it has one, the constant value of arithmetic over one tray. false: reported. */
 bool tn_check_figure(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_amount *amount);

@@ -3,8 +3,8 @@
 
 #include "compiler/plan/check.h"
 
-static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const char *path, const char *text,
-                       tn_parse_what what, tn_ast_file **tree, tn_error *error)
+static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const char *path,
+                       const char *text, tn_parse_what what, tn_ast_file **tree, tn_error *error)
 {
     uint32_t file;
     tn_status status = tn_sources_add(sources, path, text, strlen(text), &file, error);
@@ -14,8 +14,8 @@ static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources 
     return *tree ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions, tn_asked *asked,
-                 tn_error *error)
+tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions,
+                 tn_asked *asked, tn_error *error)
 {
     tn_ast_file *tree = NULL;
     *asked = (tn_asked){.library = questions->library};

@@ -72,8 +72,8 @@ tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word 
 {
     if (!low || !high)
         return NULL;
-    tn_ast_word *word = tn_ast_word_new(parse, TN_WORD_RANGE, span,
-                                        tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), 0);
+    tn_ast_word *word = tn_ast_word_new(
+        parse, TN_WORD_RANGE, span, tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), 0);
     if (word) {
         word->broken = low->broken || high->broken;
         word->low = low;

@@ -41,9 +41,9 @@ typedef struct tn_ast_word {
     tn_ast_node node;
     tn_word_kind kind;
     tn_operator op;
-    bool broken;      /* already reported as wrong: say nothing more about it */
-    const char *text; /* a name, or what a string says; otherwise as written */
-    int64_t value;    /* of a number or (nanometres) length */
+    bool broken;                          /* already reported as wrong: say nothing more about it */
+    const char *text;                     /* a name, or what a string says; otherwise as written */
+    int64_t value;                        /* of a number or (nanometres) length */
     const struct tn_ast_word *low, *high; /* of a range */
     struct tn_ast_item *group;
     const char *exact; /* of a constant that was worked out: its value, of this power of a length; NULL: as written */
@@ -151,32 +151,32 @@ typedef struct tn_ast_expr {
     tn_ast_node node;
     tn_expr_kind kind;
     uint32_t depth;
-    const tn_ast_word *name;   /* of a rule; of the field of a sum or quantifier; a constant */
-    const tn_ast_word *detail; /* the word after a sum's field: `depth` */
-    tn_ast_list items;         /* tray: tn_ast_item */
-    tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator; call: arguments */
-    bool loose;                /* tray: of an open plan: blanks alone may separate its items */
-    tn_ast_list names;         /* quantifier: the words that it binds */
-    tn_operator op;            /* of a comparison */
+    const tn_ast_word *name;    /* of a rule; of the field of a sum or quantifier; a constant */
+    const tn_ast_word *detail;  /* the word after a sum's field: `depth` */
+    tn_ast_list items;          /* tray: tn_ast_item */
+    tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
+    bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
+    tn_ast_list names;          /* quantifier: the words that it binds */
+    tn_operator op;             /* of a comparison */
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;
-    size_t unit;  /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
+    size_t unit; /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
     struct tn_checked_rule *rule;                   /* checked: what a name means */
     struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
     struct tn_checked_condition *condition_checked; /* checked */
-    struct tn_checked_sum *sum;                     /* checked: comparison: the left side less the right; a `within`: less low */
-    struct tn_checked_sum *high;                    /* checked: `within`: the sum less high */
-    struct tn_checked_number *number;               /* checked: figure: a number of the tray */
-    const char *constant;                           /* checked: figure: of a number that is written out */
-    bool figure_good;                               /* checked: sum */
-    tn_amount figure_amount;                        /* checked: sum: the dimension of what it adds up */
-    tn_ast_list tests;                              /* checked: tray: comparisons of its numbers */
-    bool resolved;                                  /* checked: its name has been looked up */
-    bool from_sum;                                  /* checked: a condition on a sum, written out */
-    bool whole;                                     /* checked: speaks of the whole plan, whatever it stands in */
-    uint32_t field;                                 /* checked: of a sum */
-    uint32_t function;                              /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
-    uint32_t part_whole, part_holds, tally;         /* emitted: of a sum's part or figure, plus one; 0: not yet */
+    struct tn_checked_sum *sum;       /* checked: comparison: the left side less the right; a `within`: less low */
+    struct tn_checked_sum *high;      /* checked: `within`: the sum less high */
+    struct tn_checked_number *number; /* checked: figure: a number of the tray */
+    const char *constant;             /* checked: figure: of a number that is written out */
+    bool figure_good;                 /* checked: sum */
+    tn_amount figure_amount;          /* checked: sum: the dimension of what it adds up */
+    tn_ast_list tests;                /* checked: tray: comparisons of its numbers */
+    bool resolved;                    /* checked: its name has been looked up */
+    bool from_sum;                    /* checked: a condition on a sum, written out */
+    bool whole;                       /* checked: speaks of the whole plan, whatever it stands in */
+    uint32_t field;                   /* checked: of a sum */
+    uint32_t function;                /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    uint32_t part_whole, part_holds, tally; /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
 /* ---- items of a file */
@@ -294,8 +294,8 @@ typedef struct tn_ast_case {
     bool todo;                /* expected to fail */
     tn_ast_list trays;        /* tn_ast_tray */
     const tn_ast_word *doc;
-    tn_ast_list by;      /* tn_ast_word */
-    tn_ast_expr *value;  /* of a measure: what it has to be */
+    tn_ast_list by;     /* tn_ast_word */
+    tn_ast_expr *value; /* of a measure: what it has to be */
 } tn_ast_case;
 
 typedef struct tn_ast_test {
@@ -305,11 +305,11 @@ typedef struct tn_ast_test {
 } tn_ast_test;
 
 typedef struct tn_ast_file {
-    tn_ast_list items; /* tn_ast_top */
+    tn_ast_list items;       /* tn_ast_top */
     tn_ast_expr *expression; /* where one was parsed alone */
     tn_ast_list pattern;     /* where an open plan was */
-    bool broken;       /* an item is missing: its name could not be read */
-    bool skipped;      /* a clause is missing */
+    bool broken;             /* an item is missing: its name could not be read */
+    bool skipped;            /* a clause is missing */
 } tn_ast_file;
 
 /* Iterates over a list whose nodes are `TYPE`s. */

@@ -61,12 +61,8 @@ void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, 
     tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
     if (!schema || !name)
         return NULL;
-    *schema =
-        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA},
-                              .name = name,
-                              .doc = doc,
-                              .from = from,
-                              .body = body};
+    *schema = (tn_ast_schema){
+        .top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .from = from, .body = body};
     return schema;
 }
 
@@ -278,7 +274,8 @@ void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, t
 void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc)
 {
     tn_ast_word *word = tn_ast_expect(parse, span, "value", TN_EXPECT_VALUE);
-    tn_ast_case *made = word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), trays, doc, tn_ast_empty()) : NULL;
+    tn_ast_case *made =
+        word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), trays, doc, tn_ast_empty()) : NULL;
     if (made)
         made->value = value;
     return made;

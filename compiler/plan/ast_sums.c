@@ -79,7 +79,8 @@ tn_ast_expr *tn_ast_implies(tn_parse *parse, tn_span span, tn_ast_expr *left, tn
 
 tn_ast_expr *tn_ast_implies_chained(tn_parse *parse, tn_span span, tn_ast_expr *first)
 {
-    tn_diagnostic *d = tn_report(parse->diagnostics, E_IMPLIES_CHAINED, span, "it is not clear which `implies` comes first");
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_IMPLIES_CHAINED, span, "it is not clear which `implies` comes first");
     tn_help(parse->diagnostics, d, "use parentheses: `(a implies b) implies c` or `a implies (b implies c)`");
     return first;
 }

@@ -24,7 +24,8 @@ static void note_call(tn_check *check, tn_checked_rule *rule, size_t errors)
     if (!rule->call || diagnostics->error_count == errors || diagnostics->count == 0)
         return;
     tn_span place = rule->call->node.span;
-    tn_note(diagnostics, &diagnostics->items[diagnostics->count - 1], &place, "%s", rule->of->is_template ? "it is called here" : "it is used here");
+    tn_note(diagnostics, &diagnostics->items[diagnostics->count - 1], &place, "%s",
+            rule->of->is_template ? "it is called here" : "it is used here");
     rule->of->failed = true;
 }
 
@@ -80,8 +81,8 @@ void tn_check_settle(tn_check *check)
         check_meaning(check, result->order[i]);
 }
 
-tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, const tn_asked *asked,
-                           tn_checked *result)
+tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                           const tn_asked *asked, tn_checked *result)
 {
     tn_check check = {.arena = arena, .diagnostics = diagnostics, .imports = imports, .asked = asked, .result = result};
     check.schemas.arena = check.names.arena = check.specs.arena = check.conditions.arena = check.calls.arena = arena;
@@ -95,7 +96,8 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {find_schemas, tn_check_settle, tn_check_libraries, tn_check_asked, tn_check_tests, tn_check_allowances};
+    static void (*const steps[])(tn_check *) = {find_schemas,   tn_check_settle, tn_check_libraries,
+                                                tn_check_asked, tn_check_tests,  tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

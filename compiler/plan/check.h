@@ -13,7 +13,7 @@
 #include "runtime/module/opcodes.h"
 
 #define TN_NONE UINT32_MAX
-#define TN_NUMBER_CASES_MAX 256   /* of a number of a tray */
+#define TN_NUMBER_CASES_MAX 256  /* of a number of a tray */
 #define TN_EXPANSIONS_MAX 10000u /* of calls and quantifiers, over all files */
 
 typedef struct tn_checked_value {
@@ -48,7 +48,7 @@ typedef struct tn_checked_number {
     const tn_ast_number *ast;
     const char *name, *doc;
     int power;
-    tn_checked_spec **specs;  /* of each case */
+    tn_checked_spec **specs; /* of each case */
     bool broken;
 } tn_checked_number;
 
@@ -127,14 +127,14 @@ typedef struct tn_checked_rule {
     bool is_measure;
     const struct tn_checked_rule *outer; /* while it is being written out: the call that it stands in */
     tn_ast_expr *written;                /* the body before anything was written out */
-    bool is_template; /* has parameters: only calls of it mean something */
+    bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
-    bool hidden;               /* made of a call: it has no record of its own */
-    bool about_plan;           /* has a comparison that speaks of the whole plan */
-    bool failed;               /* of a template: a call of it was wrong inside */
-    const tn_ast_expr *call;   /* what a hidden rule was made for first, or NULL */
-    struct tn_checked_rule *of; /* the template that a hidden rule was made of */
-    tn_checked_sum *sum;       /* of a measure; NULL: already reported */
+    bool hidden;                  /* made of a call: it has no record of its own */
+    bool about_plan;              /* has a comparison that speaks of the whole plan */
+    bool failed;                  /* of a template: a call of it was wrong inside */
+    const tn_ast_expr *call;      /* what a hidden rule was made for first, or NULL */
+    struct tn_checked_rule *of;   /* the template that a hidden rule was made of */
+    tn_checked_sum *sum;          /* of a measure; NULL: already reported */
     uint32_t serial;              /* among all that is checked as rules are */
     uint32_t index, whole, holds; /* emitted: of its record and functions */
 } tn_checked_rule;
@@ -180,8 +180,8 @@ typedef struct tn_checked_name {
 typedef struct tn_checked {
     tn_checked_schema **schemas;
     size_t schema_count;
-    tn_checked_rule **rules; /* in file order, imported files first */
-    tn_checked_rule **order; /* callees first */
+    tn_checked_rule **rules;         /* in file order, imported files first */
+    tn_checked_rule **order;         /* callees first */
     size_t records, measure_records; /* of rules and measures so far */
     size_t rule_count, rule_capacity, ordered, settled;
     tn_checked_library **libraries;
@@ -216,8 +216,8 @@ typedef struct tn_check {
     bool skipped;         /* clauses may be missing because of errors already reported */
     bool *no_schema_said; /* per unit */
     bool too_many_said;
-    tn_names calls;   /* key -> tn_checked_rule made of a call */
-    size_t expanded;  /* calls and values of quantifiers written out so far */
+    tn_names calls;  /* key -> tn_checked_rule made of a call */
+    size_t expanded; /* calls and values of quantifiers written out so far */
     bool has_lets;
     tn_checked_rule **templates; /* rules with parameters */
     size_t template_count;
@@ -231,12 +231,12 @@ typedef struct tn_check {
 } tn_check;
 
 /* Reads them as sources of their own, "--where" and "PATTERN"; what is wrong is reported there. */
-tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions, tn_asked *asked,
-                 tn_error *error);
+tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions,
+                 tn_asked *asked, tn_error *error);
 
 /* Checks everything. TN_MEMORY, else TN_OK: errors are in the diagnostics. */
-tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, const tn_asked *asked,
-                           tn_checked *result);
+tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                           const tn_asked *asked, tn_checked *result);
 
 /* ---- check_names.c */
 typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want; /* RULE: or a measure */
@@ -246,8 +246,9 @@ bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what
 tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_ast_word *using,
                                        tn_span place);                                        /* NULL: reported */
 const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, tn_want want); /* NULL: reported */
-const tn_checked_name *tn_check_call_name(tn_check *check, const tn_ast_expr *call); /* the rule called; NULL: reported */
-bool tn_check_grow_rules(tn_check *check);                                           /* room for one more */
+const tn_checked_name *tn_check_call_name(tn_check *check,
+                                          const tn_ast_expr *call); /* the rule called; NULL: reported */
+bool tn_check_grow_rules(tn_check *check);                          /* room for one more */
 /* Is the word that a parameter or quantifier binds none that means something already? */
 bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word, bool bound);
 void tn_check_allow(tn_check *check,
@@ -287,11 +288,11 @@ void tn_check_truth(tn_check *check, const tn_checked_condition *condition, cons
 /* ---- check_rule.c */
 /* Is the word after the field of a sum or total `depth`, and the field a zone? NULL is good. */
 bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail);
-void tn_check_expr(tn_check *check, tn_ast_expr *expr);    /* names, specifiers, conditions, what may stand where */
+void tn_check_expr(tn_check *check, tn_ast_expr *expr);       /* names, specifiers, conditions, what may stand where */
 void tn_check_expr_known(tn_check *check, tn_ast_expr *expr); /* the same where a name in its place is resolved */
 void tn_check_expr_name(tn_check *check, tn_ast_expr *expr);  /* finds what a name means, once */
-void tn_check_meaning(tn_check *check, tn_ast_expr *expr); /* what needs the rules that it names to be in order */
-uint32_t tn_min_trays(const tn_ast_expr *expr);            /* a lower bound of what it fits */
+void tn_check_meaning(tn_check *check, tn_ast_expr *expr);    /* what needs the rules that it names to be in order */
+uint32_t tn_min_trays(const tn_ast_expr *expr);               /* a lower bound of what it fits */
 
 /* ---- check_sum.c */
 bool tn_is_sum(const tn_ast_expr *expr); /* is it a number, not a rule? Names are to be resolved */
@@ -301,8 +302,8 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr);     /* makes its s
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure);
 
 /* ---- check_comparison.c */
-void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);         /* makes comparisons of a sum's condition */
-void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray);     /* takes the items about numbers out: `tests` */
+void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);     /* makes comparisons of a sum's condition */
+void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray); /* takes the items about numbers out: `tests` */
 
 /* ---- check_whole.c */
 /* Comparisons with `matches` stand only where the plan as a whole is meant. Is one in it? */
@@ -314,7 +315,7 @@ void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
 /* ---- expand.c: calls, values of `let`, quantifiers */
 void tn_expand(tn_check *check, tn_ast_expr **expr);
 tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: reported */
-#define TN_PARAMETERS_MAX 16 /* of a rule */
+#define TN_PARAMETERS_MAX 16                                      /* of a rule */
 
 /* ---- check.c */
 void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */

@@ -19,7 +19,8 @@ static const char *keep(tn_check *check, const mpq_t number)
 
 static void report_digits(tn_check *check, tn_span span)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_FINE, span, "this number has more digits than sums are made with");
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_TOO_FINE, span, "this number has more digits than sums are made with");
     tn_help(check->diagnostics, d, "use rounder numbers");
 }
 
@@ -30,8 +31,9 @@ static const struct {
     int power;
     bool metric;
 } units[] = {
-    {"m2", 2, true},  {"m\xc2\xb2", 2, true},  {"m3", 3, true},   {"m\xc2\xb3", 3, true}, {"ft2", 2, false}, {"ft\xc2\xb2", 2, false},
-    {"sf", 2, false}, {"sqft", 2, false},      {"ft3", 3, false}, {"ft\xc2\xb3", 3, false}, {"cf", 3, false},
+    {"m2", 2, true},   {"m\xc2\xb2", 2, true},   {"m3", 3, true},  {"m\xc2\xb3", 3, true},
+    {"ft2", 2, false}, {"ft\xc2\xb2", 2, false}, {"sf", 2, false}, {"sqft", 2, false},
+    {"ft3", 3, false}, {"ft\xc2\xb3", 3, false}, {"cf", 3, false},
 };
 
 /* number *= what a square or cube of metres or feet is in nanometres; its power, or 0. */
@@ -125,21 +127,23 @@ const char *tn_power_name(int power, char *text, size_t size)
     return text;
 }
 
-bool tn_same_power(tn_check *check, tn_amount left, tn_span left_span, tn_amount right, tn_span right_span, const char *verb,
-                   tn_amount *both)
+bool tn_same_power(tn_check *check, tn_amount left, tn_span left_span, tn_amount right, tn_span right_span,
+                   const char *verb, tn_amount *both)
 {
     *both = left.any ? right : left;
     if (left.any || right.any || left.power == right.power)
         return true;
     char one[48], other[48];
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, right_span, "%s cannot be %s %s",
-                                 tn_power_name(right.power, other, sizeof other), verb,
-                                 tn_power_name(left.power, one, sizeof one));
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_DIMENSIONS, right_span, "%s cannot be %s %s",
+                  tn_power_name(right.power, other, sizeof other), verb, tn_power_name(left.power, one, sizeof one));
     tn_note(check->diagnostics, d, &left_span, "this is %s", one);
     if (left.power == 2 || right.power == 2)
-        tn_help(check->diagnostics, d, "areas are written `120m2` or `96ft2`; divide by `1m2` or `1sf` for a plain number");
+        tn_help(check->diagnostics, d,
+                "areas are written `120m2` or `96ft2`; divide by `1m2` or `1sf` for a plain number");
     else
-        tn_help(check->diagnostics, d, "lengths are written `3.6m` or `12'`; divide by `1m` or `1'` for a plain number");
+        tn_help(check->diagnostics, d,
+                "lengths are written `3.6m` or `12'`; divide by `1m` or `1'` for a plain number");
     return false;
 }
 
@@ -203,8 +207,10 @@ static bool power_fits(tn_check *check, const tn_ast_expr *expr, int power)
 {
     if (power >= -POWER_MAX && power <= POWER_MAX)
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, expr->node.span, "this is a length to the power of %d", power);
-    tn_help(check->diagnostics, d, "powers go from -%d to %d; a measure is a number, a length, an area or a volume", POWER_MAX, POWER_MAX);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_DIMENSIONS, expr->node.span, "this is a length to the power of %d", power);
+    tn_help(check->diagnostics, d, "powers go from -%d to %d; a measure is a number, a length, an area or a volume",
+            POWER_MAX, POWER_MAX);
     return false;
 }
 

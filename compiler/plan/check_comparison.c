@@ -29,7 +29,8 @@ static tn_ast_expr *constant(tn_check *check, const tn_ast_word *word)
     return expr;
 }
 
-static tn_ast_expr *compared(tn_check *check, tn_span span, const tn_ast_expr *sum, tn_operator op, const tn_ast_word *word, bool turned)
+static tn_ast_expr *compared(tn_check *check, tn_span span, const tn_ast_expr *sum, tn_operator op,
+                             const tn_ast_word *word, bool turned)
 {
     tn_ast_expr *expr = make(check, TN_EXPR_COMPARE, span), *left = copy_of(check, sum), *right = constant(check, word);
     if (!expr || !left || !right)
@@ -39,7 +40,8 @@ static tn_ast_expr *compared(tn_check *check, tn_span span, const tn_ast_expr *s
     return expr;
 }
 
-static tn_ast_expr *within(tn_check *check, tn_span span, const tn_ast_expr *sum, const tn_ast_word *low, const tn_ast_word *high)
+static tn_ast_expr *within(tn_check *check, tn_span span, const tn_ast_expr *sum, const tn_ast_word *low,
+                           const tn_ast_word *high)
 {
     tn_ast_expr *expr = make(check, TN_EXPR_WITHIN, span), *value = copy_of(check, sum), *from = constant(check, low),
                 *to = constant(check, high);
@@ -56,7 +58,8 @@ static tn_ast_expr *broken(tn_check *check, tn_span span)
 
 /* ---- conditions of sums */
 
-static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum, const tn_ast_word **variable);
+static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum,
+                                 const tn_ast_word **variable);
 
 static bool is_variable(tn_check *check, const tn_ast_word *word, const tn_ast_word **variable)
 {
@@ -72,13 +75,14 @@ static bool is_variable(tn_check *check, const tn_ast_word *word, const tn_ast_w
         tn_help(check->diagnostics, d, "a condition says something about a number that you name: `n > 1`");
         return false;
     }
-    d = tn_report(check->diagnostics, E_TWO_VARIABLES, word->node.span, "a condition has one variable, and this one has `%s` and `%s`",
-                  (*variable)->text, word->text);
+    d = tn_report(check->diagnostics, E_TWO_VARIABLES, word->node.span,
+                  "a condition has one variable, and this one has `%s` and `%s`", (*variable)->text, word->text);
     tn_help(check->diagnostics, d, "use the same name for both, or join two rules by `and`");
     return false;
 }
 
-static tn_ast_expr *of_compare(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum, const tn_ast_word **variable)
+static tn_ast_expr *of_compare(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum,
+                               const tn_ast_word **variable)
 {
     bool turned = cond->left->kind != TN_WORD_NAME;
     const tn_ast_word *name = turned ? cond->right : cond->left, *number = turned ? cond->left : cond->right;
@@ -102,7 +106,8 @@ static tn_ast_expr *of_parts(tn_check *check, tn_expr_kind kind, const tn_ast_co
     return expr;
 }
 
-static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum, const tn_ast_word **variable)
+static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum,
+                                 const tn_ast_word **variable)
 {
     switch (cond->kind) {
     case TN_COND_COMPARE:
@@ -165,7 +170,8 @@ static const tn_ast_word *after_nots(const tn_ast_list *words, bool *negated)
 
 static void report_test(tn_check *check, const tn_ast_word *name, tn_span span)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ITEM, span, "the number `%s` has to be compared", name->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_ITEM, span, "the number `%s` has to be compared", name->text);
     tn_help(check->diagnostics, d, "write `%s >= 2` or `%s in 2..4`", name->text, name->text);
 }
 
@@ -176,26 +182,29 @@ static tn_ast_expr *test_of(tn_check *check, const tn_ast_alternative *alternati
     tn_span span = alternative->node.span;
     const tn_ast_word *name = after_nots(&alternative->words, &negated), *op = (const tn_ast_word *)name->node.next;
     const tn_ast_word *value = op && op->kind == TN_WORD_OPERATOR ? (const tn_ast_word *)op->node.next : op;
-    tn_ast_expr *figure = make(check, TN_EXPR_FIGURE, name->node.span), *sum = make(check, TN_EXPR_SUM, name->node.span);
+    tn_ast_expr *figure = make(check, TN_EXPR_FIGURE, name->node.span),
+                *sum = make(check, TN_EXPR_SUM, name->node.span);
     if (!figure || !sum)
         return NULL;
     figure->name = name;
     sum->name = name;
     sum->figure = figure;
     tn_check_sum_expr(check, sum);
-    if (!value || value->node.next || value->kind == TN_WORD_NAME || value->kind == TN_WORD_GROUP || value->kind == TN_WORD_NOT ||
-        value->kind == TN_WORD_OPERATOR || (value->kind == TN_WORD_RANGE && op != value)) {
+    if (!value || value->node.next || value->kind == TN_WORD_NAME || value->kind == TN_WORD_GROUP ||
+        value->kind == TN_WORD_NOT || value->kind == TN_WORD_OPERATOR ||
+        (value->kind == TN_WORD_RANGE && op != value)) {
         report_test(check, name, span);
         return broken(check, span);
     }
-    tn_ast_expr *test = value->kind == TN_WORD_RANGE ? within(check, span, sum, value->low, value->high)
-                                                     : compared(check, span, sum, op == value ? TN_EQUAL : op->op, value, false);
+    tn_ast_expr *test = value->kind == TN_WORD_RANGE
+                            ? within(check, span, sum, value->low, value->high)
+                            : compared(check, span, sum, op == value ? TN_EQUAL : op->op, value, false);
     if (!negated || !test)
         return test;
     tn_ast_expr *not = make(check, TN_EXPR_NOT, span);
-    if (not)
-        not->parts = tn_ast_one(test);
-    return not;
+    if (not )
+        not ->parts = tn_ast_one(test);
+    return not ;
 }
 
 static bool about_number(const tn_checked_schema *schema, const tn_ast_alternative *alternative)

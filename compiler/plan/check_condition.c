@@ -60,12 +60,13 @@ static void report_constant(tn_check *check, const tn_ast_word *word, bool lengt
     size_t digits = strspn(word->text, "0123456789.");
     if (word->kind == TN_WORD_DECIMAL && word->text[digits] == '\0') {
         tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, word->node.span, "`%s` has no unit", word->text);
-        tn_help(check->diagnostics, d, "write a length with its unit, such as `%s'` or `%sm`; counts are whole numbers", word->text,
-                word->text);
+        tn_help(check->diagnostics, d, "write a length with its unit, such as `%s'` or `%sm`; counts are whole numbers",
+                word->text, word->text);
         return;
     }
-    tn_diagnostic *d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is none",
-                                 lengths ? "a sum of one field is a length" : "trays are counted in whole numbers", word->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is none",
+                  lengths ? "a sum of one field is a length" : "trays are counted in whole numbers", word->text);
     tn_help(check->diagnostics, d, "compare sums with sums: `sum(width * body) > 90m2`, `quantity(a) >= 25%% * trays`");
 }
 

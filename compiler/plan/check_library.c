@@ -78,12 +78,12 @@ static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
     tn_check_warnings(check, expr);
 }
 
-static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast,
-                            tn_checked_clause *clause)
+static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast, tn_checked_clause *clause)
 {
     check_clause_expr(check, ast);
     clause->expr = ast->expr;
-    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && (!ast->expr->rule->hidden || !ast->expr->rule->of->is_template)) {
+    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule &&
+        (!ast->expr->rule->hidden || !ast->expr->rule->of->is_template)) {
         clause->rule = ast->expr->rule;
         clause->name = clause->rule->name;
         if (!clause->doc && clause->rule->ast->doc)
@@ -264,8 +264,8 @@ void tn_check_libraries(tn_check *check)
 
 /* ---- what the command line asks */
 
-/* The library named, or the only one of the file itself, or the only one at all; NULL where that is not clear: the command
- * says so. */
+/* The library named, or the only one of the file itself, or the only one at all; NULL where that is not clear: the
+ * command says so. */
 static tn_checked_library *asked_library(const tn_check *check)
 {
     const tn_checked *result = check->result;
@@ -293,7 +293,8 @@ static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr 
         return;
     *ast = (tn_ast_clause){.node.span = expr->node.span, .form = TN_FORM_REQUIRE, .expr = expr};
     check_clause_expr(check, ast);
-    *clause = (tn_checked_clause){.ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
+    *clause = (tn_checked_clause){
+        .ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
     if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && !ast->expr->rule->hidden)
         clause->rule = ast->expr->rule;
     clause->name = make_name(check, library, "where", number);

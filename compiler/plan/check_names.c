@@ -347,8 +347,8 @@ const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, t
 /* A misspelled word of the language that `(` follows reads as a call: `trai(4')`. */
 static bool report_misspelled(tn_check *check, const tn_ast_word *word)
 {
-    static const char *const words[] = {"tray",     "neighbour", "many", "optional", "quantity", "occurrences",
-                                        "distance", "sum",       "every", "matches"};
+    static const char *const words[] = {"tray",        "neighbour", "many", "optional", "quantity",
+                                        "occurrences", "distance",  "sum",  "every",    "matches"};
     if (tn_names_get(&check->names, word->text))
         return false;
     const char *near = nearest_name(check, word->text, TN_WANT_RULE);
@@ -356,7 +356,8 @@ static bool report_misspelled(tn_check *check, const tn_ast_word *word)
     if (!meant)
         return false;
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_RULE, word->node.span,
-                                 "`%s` is no word of the language that `(` follows, and there is no rule `%s`", word->text, word->text);
+                                 "`%s` is no word of the language that `(` follows, and there is no rule `%s`",
+                                 word->text, word->text);
     tn_suggest(check->diagnostics, d, "%s", meant);
     return true;
 }
@@ -369,8 +370,8 @@ const tn_checked_name *tn_check_call_name(tn_check *check, const tn_ast_expr *ca
     const tn_checked_name *name = tn_check_name(check, call->name, TN_WANT_RULE);
     if (!name || (!name->rule->is_measure && !name->rule->is_let))
         return name;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, call->name->node.span, "`%s` is a %s, which has no parameters",
-                                 call->name->text, tn_name_kind(name));
+    tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, call->name->node.span,
+                                 "`%s` is a %s, which has no parameters", call->name->text, tn_name_kind(name));
     tn_note(check->diagnostics, d, &name->span, "`%s` is here", call->name->text);
     tn_help(check->diagnostics, d, "write its name alone");
     return NULL;
@@ -386,7 +387,8 @@ bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const t
     const tn_checked_name *name = tn_names_get(&check->names, word->text);
     if (!field && !name && !bound)
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_NAME, word->node.span, "the name `%s` is already taken", word->text);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_DUPLICATE_NAME, word->node.span, "the name `%s` is already taken", word->text);
     if (name)
         tn_note(check->diagnostics, d, &name->span, "the %s `%s` is here", tn_name_kind(name), word->text);
     else if (field)

@@ -14,23 +14,24 @@ static bool uses_number(const tn_ast_expr *figure)
     return uses;
 }
 
-static bool check_case(tn_check *check, tn_checked_schema *schema, tn_checked_number *number, const tn_ast_number_case *c, size_t i,
-                       tn_amount *all)
+static bool check_case(tn_check *check, tn_checked_schema *schema, tn_checked_number *number,
+                       const tn_ast_number_case *c, size_t i, tn_amount *all)
 {
     tn_amount amount;
     number->specs[i] = c->tray ? tn_check_spec(check, schema, c->tray) : tn_check_any(check, schema, c->node.span);
     if (!tn_check_figure(check, schema, c->sum, &amount))
         return false;
     if (uses_number(c->sum)) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_NUMBER, c->sum->node.span, "a number cannot be made of other numbers");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_NUMBER, c->sum->node.span, "a number cannot be made of other numbers");
         tn_help(check->diagnostics, d, "write out what the other one means");
         return false;
     }
     tn_span first = ((const tn_ast_number_case *)number->ast->cases.first)->sum->node.span;
     if (i == 0)
         *all = amount;
-    return (i == 0 || tn_same_power(check, *all, first, amount, c->sum->node.span, "an alternative to", all)) && number->specs[i] &&
-           !number->specs[i]->broken;
+    return (i == 0 || tn_same_power(check, *all, first, amount, c->sum->node.span, "an alternative to", all)) &&
+           number->specs[i] && !number->specs[i]->broken;
 }
 
 static bool meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
@@ -51,7 +52,8 @@ static bool next(const tn_checked_schema *schema, uint8_t *values)
     return f > 0;
 }
 
-static void report_tray(tn_check *check, const tn_checked_schema *schema, const tn_checked_number *number, const uint8_t *values)
+static void report_tray(tn_check *check, const tn_checked_schema *schema, const tn_checked_number *number,
+                        const uint8_t *values)
 {
     char tray[400] = "";
     for (uint32_t f = 0; f < schema->field_count; f++) {
@@ -101,7 +103,8 @@ static void check_number(tn_check *check, tn_checked_schema *schema, const tn_as
     if (!number.specs)
         return;
     bool good = name_is_new(check, schema, ast->name) &&
-                tn_check_room(check, ast->cases.count, TN_NUMBER_CASES_MAX, "alternative", ast->node.span, "join some of them by `or`");
+                tn_check_room(check, ast->cases.count, TN_NUMBER_CASES_MAX, "alternative", ast->node.span,
+                              "join some of them by `or`");
     size_t i = 0;
     for (TN_EACH(const tn_ast_number_case, c, ast->cases))
         good &= check_case(check, schema, &number, c, i++, &all);
@@ -120,7 +123,8 @@ void tn_check_numbers(tn_check *check, tn_checked_schema *schema)
     for (uint32_t n = 0; from && n < from->number_count; n++)
         check_number(check, schema, from->numbers[n].ast);
     for (TN_EACH(const tn_ast_number, number, schema->ast->body.numbers)) {
-        if (!tn_check_room(check, schema->number_count, TN_FIELDS_MAX, "`number`", number->node.span, "declare fewer numbers"))
+        if (!tn_check_room(check, schema->number_count, TN_FIELDS_MAX, "`number`", number->node.span,
+                           "declare fewer numbers"))
             return;
         check_number(check, schema, number);
     }

@@ -16,7 +16,8 @@ static void report_circle(tn_order_walk *walk, size_t start)
     tn_diagnostics *diagnostics = walk->check->diagnostics;
     tn_checked_rule *first = walk->stack[start];
     tn_diagnostic *d = tn_report(diagnostics, E_RULE_CYCLE, first->ast->name->node.span, "%s `%s` uses itself%s",
-                                 first->is_measure ? "measure" : "rule", first->name, start + 1 == walk->depth ? "" : ", by way of others");
+                                 first->is_measure ? "measure" : "rule", first->name,
+                                 start + 1 == walk->depth ? "" : ", by way of others");
     enum { SHOWN = 8 };
     for (size_t i = start; i < walk->depth && i < start + SHOWN; i++) {
         tn_checked_rule *rule = walk->stack[i];
@@ -46,7 +47,9 @@ static void follow(tn_order_walk *walk, tn_checked_rule *rule)
 void tn_check_order(tn_check *check)
 {
     tn_checked *result = check->result;
-    tn_order_walk walk = {.check = check, .ordered = result->ordered, .stack = TN_NEW_ARRAY(check->arena, tn_checked_rule *, result->rule_count)};
+    tn_order_walk walk = {.check = check,
+                          .ordered = result->ordered,
+                          .stack = TN_NEW_ARRAY(check->arena, tn_checked_rule *, result->rule_count)};
     if (!walk.stack)
         return;
     for (size_t i = 0; i < result->rule_count; i++) {

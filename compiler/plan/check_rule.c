@@ -148,8 +148,8 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
 
 static void report_number(tn_check *check, const tn_ast_expr *expr)
 {
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span, "a rule has to stand here, and this is a number");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
+                                 "a rule has to stand here, and this is a number");
     tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
 }
 
@@ -283,8 +283,8 @@ static bool is_counting(const tn_ast_expr *expr)
     bool joined = meant->kind == TN_EXPR_AND || meant->kind == TN_EXPR_OR || meant->kind == TN_EXPR_NOT;
     for (TN_EACH(const tn_ast_expr, part, meant->parts))
         joined = joined && meant->from_sum;
-    return joined || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM || meant->kind == TN_EXPR_OCCURRENCES ||
-           meant->kind == TN_EXPR_COMPARE || meant->kind == TN_EXPR_WITHIN;
+    return joined || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM ||
+           meant->kind == TN_EXPR_OCCURRENCES || meant->kind == TN_EXPR_COMPARE || meant->kind == TN_EXPR_WITHIN;
 }
 
 static void check_distance(tn_check *check, const tn_ast_expr *distance)
@@ -327,7 +327,9 @@ static uint32_t min_of_parts(const tn_ast_expr *expr)
         least = trays < least ? trays : least;
         greatest = trays > greatest ? trays : greatest;
     }
-    return expr->kind == TN_EXPR_NEIGHBOUR || expr->kind == TN_EXPR_PLAN ? sum : expr->kind == TN_EXPR_OR ? least : greatest;
+    return expr->kind == TN_EXPR_NEIGHBOUR || expr->kind == TN_EXPR_PLAN ? sum
+           : expr->kind == TN_EXPR_OR                                    ? least
+                                                                         : greatest;
 }
 
 uint32_t tn_min_trays(const tn_ast_expr *expr)

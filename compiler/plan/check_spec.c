@@ -195,7 +195,8 @@ static bool mark_range(tn_item_reader *item, const char *fill, const tn_ast_word
         return false;
     for (uint32_t v = 0; v < field->value_count; v++) {
         const tn_checked_value *value = &field->values[v];
-        item->found[v] = (!fill || strcmp(value->name, fill) == 0) && range->low->value <= value->length && value->length <= range->high->value;
+        item->found[v] = (!fill || strcmp(value->name, fill) == 0) && range->low->value <= value->length &&
+                         value->length <= range->high->value;
     }
     return true;
 }
@@ -450,7 +451,8 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
     return spec ? share(check, spec) : NULL;
 }
 
-/* Leaves the values that an item lets in; items of one field mean both. In an open plan an item ends where it is whole. */
+/* Leaves the values that an item lets in; items of one field mean both. In an open plan an item ends where it is whole.
+ */
 static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_ast_item *ast, bool loose)
 {
     const tn_checked_schema *schema = spec->schema;

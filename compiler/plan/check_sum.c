@@ -38,8 +38,10 @@ static void report_rule(tn_check *check, const tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_BROKEN || (expr->kind == TN_EXPR_NAME && !expr->rule))
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span, "a number has to stand here, and this is a rule");
-    tn_help(check->diagnostics, d, "`quantity(...)` counts trays, `occurrences(...)` places, and `matches(...)` is 1 or 0");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
+                                 "a number has to stand here, and this is a rule");
+    tn_help(check->diagnostics, d,
+            "`quantity(...)` counts trays, `occurrences(...)` places, and `matches(...)` is 1 or 0");
 }
 
 void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
@@ -142,11 +144,13 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out);
 
 static void report_product(tn_check *check, const tn_ast_expr *expr, bool divides)
 {
-    tn_diagnostic *d = divides ? tn_report(check->diagnostics, E_NOT_ADDITIVE, expr->node.span, "this divides by what depends on the plan")
+    tn_diagnostic *d = divides ? tn_report(check->diagnostics, E_NOT_ADDITIVE, expr->node.span,
+                                           "this divides by what depends on the plan")
                                : tn_report(check->diagnostics, E_NOT_ADDITIVE, expr->node.span,
                                            "both sides of this product depend on the plan");
-    tn_help(check->diagnostics, d, "over the plan sums are only added, and multiplied by constants; inside `sum(...)` any "
-                                   "arithmetic over one tray is allowed: `sum(width * body)`");
+    tn_help(check->diagnostics, d,
+            "over the plan sums are only added, and multiplied by constants; inside `sum(...)` any "
+            "arithmetic over one tray is allowed: `sum(width * body)`");
 }
 
 static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum *out)
@@ -157,21 +161,25 @@ static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum
         return false;
     }
     if (divides && tn_amount_is_zero(b->constant.value)) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_DIVIDED_BY_ZERO, ((tn_ast_expr *)expr->parts.last)->node.span, "this divides by 0");
+        tn_diagnostic *d = tn_report(check->diagnostics, E_DIVIDED_BY_ZERO,
+                                     ((tn_ast_expr *)expr->parts.last)->node.span, "this divides by 0");
         tn_help(check->diagnostics, d, "divide by another number");
         return false;
     }
     *out = b->count > 0 ? *b : *a;
     if (scale(check, out, expr->kind, b->count > 0 ? a->constant : b->constant))
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_FINE, expr->node.span, "this number has more digits than sums are made with");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_FINE, expr->node.span,
+                                 "this number has more digits than sums are made with");
     tn_help(check->diagnostics, d, "use rounder numbers");
     return false;
 }
 
-static bool add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, const char *verb, const sum *a, const sum *b, sum *out)
+static bool add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, const char *verb, const sum *a,
+                   const sum *b, sum *out)
 {
-    tn_span left = ((const tn_ast_expr *)expr->parts.first)->node.span, right = ((const tn_ast_expr *)expr->parts.last)->node.span;
+    tn_span left = ((const tn_ast_expr *)expr->parts.first)->node.span,
+            right = ((const tn_ast_expr *)expr->parts.last)->node.span;
     tn_amount both;
     if (!tn_same_power(check, a->constant, left, b->constant, right, verb, &both))
         return false;
@@ -235,7 +243,8 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
     case TN_EXPR_MATCHES:
         return one_term(check, TN_TERM_MATCHES, expr, 0, out);
     case TN_EXPR_SUM:
-        return !expr->condition && expr->figure_good && one_term(check, TN_TERM_SINGLES, expr, expr->figure_amount.power, out);
+        return !expr->condition && expr->figure_good &&
+               one_term(check, TN_TERM_SINGLES, expr, expr->figure_amount.power, out);
     case TN_EXPR_NAME:
         return expr->rule && expr->rule->is_measure && eval_measure(check, expr->rule, out);
     case TN_EXPR_NEGATIVE:
@@ -277,8 +286,8 @@ tn_checked_sum *tn_check_sum(tn_check *check, tn_ast_expr *expr)
 }
 
 /* The left side less the right. */
-static tn_checked_sum *difference(tn_check *check, const tn_ast_expr *expr, const tn_ast_expr *left, const tn_ast_expr *right,
-                                  const sum *a, const sum *b)
+static tn_checked_sum *difference(tn_check *check, const tn_ast_expr *expr, const tn_ast_expr *left,
+                                  const tn_ast_expr *right, const sum *a, const sum *b)
 {
     tn_ast_expr both = {.node.span = expr->node.span};
     tn_ast_expr one = *left, other = *right;
@@ -296,8 +305,9 @@ static bool few_matches(tn_check *check, const tn_ast_expr *expr, const sum *sid
             matches += sides[i].terms[t].kind == TN_TERM_MATCHES;
     if (matches <= MATCHES_MAX)
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, expr->node.span, "this comparison has %zu different `matches`, more than the limit of %d",
-                                 matches, MATCHES_MAX);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_TOO_MANY, expr->node.span,
+                  "this comparison has %zu different `matches`, more than the limit of %d", matches, MATCHES_MAX);
     tn_help(check->diagnostics, d, "count fewer rules in one comparison, or join some of them by `or`");
     return false;
 }

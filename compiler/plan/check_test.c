@@ -12,10 +12,16 @@ static bool expectation_fits(tn_check *check, const tn_ast_word *word, const tn_
     if (measure || expectation == TN_EXPECT_VALUE) {
         if (measure && expectation == TN_EXPECT_VALUE)
             return true;
-        tn_diagnostic *wrong = measure ? tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span, "a measure has values, it matches nothing")
-                                       : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span, "only a measure has values");
-        tn_note(check->diagnostics, wrong, &subject->span, "the %s is here", subject->library ? "library" : measure ? "measure" : "rule");
-        tn_help(check->diagnostics, wrong, measure ? "write `value [PLAN] = NUMBER`" : "write what is expected of it: %s",
+        tn_diagnostic *wrong =
+            measure ? tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span,
+                                "a measure has values, it matches nothing")
+                    : tn_report(check->diagnostics, E_WRONG_EXPECTATION, word->node.span, "only a measure has values");
+        tn_note(check->diagnostics, wrong, &subject->span, "the %s is here",
+                subject->library ? "library"
+                : measure        ? "measure"
+                                 : "rule");
+        tn_help(check->diagnostics, wrong,
+                measure ? "write `value [PLAN] = NUMBER`" : "write what is expected of it: %s",
                 subject->library ? "`keep` or `drop`" : "`match` or `reject`");
         return false;
     }
@@ -104,9 +110,11 @@ static bool check_value(tn_check *check, const tn_ast_case *ast, const tn_checke
     tn_checked_sum *sum = check->diagnostics->error_count == errors ? tn_check_sum(check, value) : NULL;
     if (!sum || !measure->sum)
         return false;
-    tn_amount wanted = {.value = sum->constant, .power = sum->power, .any = sum->any}, of = {.power = measure->sum->power}, both;
+    tn_amount wanted = {.value = sum->constant, .power = sum->power, .any = sum->any},
+              of = {.power = measure->sum->power}, both;
     if (sum->count > 0) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, value->node.span, "a constant has to stand here");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_RULE_OR_NUMBER, value->node.span, "a constant has to stand here");
         tn_help(check->diagnostics, d, "write the value that the plan has, such as `31000` or `96ft2`");
         return false;
     }
@@ -149,7 +157,8 @@ static void check_subject(tn_check *check, const tn_ast_test *ast, const tn_ast_
     block->span = ast->top.node.span;
     block->cases = cases;
     if (subject->rule && (subject->rule->is_template || subject->rule->is_let)) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
         tn_note(check->diagnostics, d, &subject->span, "`%s` is here", word->text);
         tn_help(check->diagnostics, d, "give a call of it a name, as a rule, and test that");
         return;

@@ -6,7 +6,9 @@ static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
     if (expr->whole)
         return expr;
     if (expr->kind == TN_EXPR_NAME)
-        return expr->rule && expr->rule->about_plan && expr->rule->ast->body != expr ? comparison_in(expr->rule->ast->body) : NULL;
+        return expr->rule && expr->rule->about_plan && expr->rule->ast->body != expr
+                   ? comparison_in(expr->rule->ast->body)
+                   : NULL;
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         const tn_ast_expr *found = comparison_in(part);
         if (found)
@@ -28,11 +30,13 @@ static void report(tn_check *check, const tn_ast_expr *expr)
 /* level: is the plan as a whole meant? */
 static bool walk(tn_check *check, const tn_ast_expr *expr, bool level)
 {
-    bool whole = expr->whole || (expr->kind == TN_EXPR_NAME && expr->rule && !expr->rule->is_measure && expr->rule->about_plan);
+    bool whole =
+        expr->whole || (expr->kind == TN_EXPR_NAME && expr->rule && !expr->rule->is_measure && expr->rule->about_plan);
     if (whole && !level)
         report(check, expr);
     bool plan = expr->kind == TN_EXPR_MATCHES;
-    bool through = level && (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR || expr->kind == TN_EXPR_NOT || expr->kind == TN_EXPR_IMPLIES);
+    bool through = level && (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR || expr->kind == TN_EXPR_NOT ||
+                             expr->kind == TN_EXPR_IMPLIES);
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         bool inside = walk(check, part, plan || through);
         whole = whole || (inside && !plan);

@@ -46,7 +46,8 @@ static tn_status compile(tn_compilation *compilation, const tn_compile_options *
     compilation->checked = checked;
     if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;
-    status = tn_emit_module(compilation->arena, checked, imports, diagnostics, &compilation->module, &compilation->module_size, error);
+    status = tn_emit_module(compilation->arena, checked, imports, diagnostics, &compilation->module,
+                            &compilation->module_size, error);
     if (status == TN_OK)
         compilation->program = checked->program;
     return status;

@@ -21,8 +21,8 @@ typedef struct tn_emit {
 } tn_emit;
 
 /* The module's bytes, which the caller frees with free(). E0810 where it would be too large to load. */
-tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_imports *imports, tn_diagnostics *diagnostics,
-                         uint8_t **bytes, size_t *size, tn_error *error);
+tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_imports *imports,
+                         tn_diagnostics *diagnostics, uint8_t **bytes, size_t *size, tn_error *error);
 
 /* ---- emit.c */
 void tn_emit_begin(tn_emit *emit, uint32_t schema); /* a function's code begins */

@@ -9,8 +9,9 @@
 
 static void emit_figure(tn_emit *emit, const tn_ast_expr *figure)
 {
-    static const tn_opcode opcodes[] = {[TN_EXPR_PLUS] = TN_OP_PLUS,   [TN_EXPR_MINUS] = TN_OP_MINUS,  [TN_EXPR_TIMES] = TN_OP_TIMES,
-                                        [TN_EXPR_OVER] = TN_OP_OVER,   [TN_EXPR_LEAST] = TN_OP_LESSER, [TN_EXPR_MOST] = TN_OP_LARGER};
+    static const tn_opcode opcodes[] = {
+        [TN_EXPR_PLUS] = TN_OP_PLUS, [TN_EXPR_MINUS] = TN_OP_MINUS,  [TN_EXPR_TIMES] = TN_OP_TIMES,
+        [TN_EXPR_OVER] = TN_OP_OVER, [TN_EXPR_LEAST] = TN_OP_LESSER, [TN_EXPR_MOST] = TN_OP_LARGER};
     tn_span span = figure->node.span;
     if (figure->kind == TN_EXPR_NUMBER) {
         tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, figure->constant), 0);
@@ -133,7 +134,8 @@ static void emit_plain(tn_emit *emit, tn_span span, const tn_checked_sum *sum, c
 }
 
 /* `matches` is 1 or 0: either of the two, each with what the rest of the sum then has to be. */
-static void emit_cases(tn_emit *emit, tn_span span, const tn_checked_sum *sum, size_t from, const char *constant, tn_operator op)
+static void emit_cases(tn_emit *emit, tn_span span, const tn_checked_sum *sum, size_t from, const char *constant,
+                       tn_operator op)
 {
     while (from < sum->count && sum->terms[from].kind != TN_TERM_MATCHES)
         from++;

@@ -29,7 +29,8 @@ static bool words_bound(const tn_expansion *expansion, const tn_ast_item *item)
 {
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
         for (TN_EACH(const tn_ast_word, word, alternative->words))
-            if ((word->kind == TN_WORD_NAME && tn_bound(expansion, word).value) || (word->group && words_bound(expansion, word->group)))
+            if ((word->kind == TN_WORD_NAME && tn_bound(expansion, word).value) ||
+                (word->group && words_bound(expansion, word->group)))
                 return true;
     return false;
 }
@@ -139,7 +140,8 @@ static bool count_expansion(tn_check *check, tn_span span)
 /* ---- quantifiers */
 
 /* What `v` stands for as one value of a field. */
-static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_checked_field *field, uint32_t v)
+static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_checked_field *field,
+                               uint32_t v)
 {
     tn_arena *arena = expansion->check->arena;
     const tn_checked_value *value = &field->values[v];
@@ -148,9 +150,14 @@ static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quant
     if (!expr || !word || !depth)
         return NULL;
     bool length = field->kind == TN_FIELD_LENGTH;
-    *word = (tn_ast_word){.node.span = quantifier->name->node.span, .kind = length ? TN_WORD_LENGTH : TN_WORD_NAME, .text = value->name, .value = value->length};
-    *depth = (tn_ast_word){.node.span = word->node.span, .kind = TN_WORD_LENGTH, .text = value->measure, .value = value->length};
-    *expr = (tn_ast_expr){.node.span = word->node.span, .kind = length ? TN_EXPR_NUMBER : TN_EXPR_FIGURE, .depth = 1, .name = word};
+    *word = (tn_ast_word){.node.span = quantifier->name->node.span,
+                          .kind = length ? TN_WORD_LENGTH : TN_WORD_NAME,
+                          .text = value->name,
+                          .value = value->length};
+    *depth = (tn_ast_word){
+        .node.span = word->node.span, .kind = TN_WORD_LENGTH, .text = value->measure, .value = value->length};
+    *expr = (tn_ast_expr){
+        .node.span = word->node.span, .kind = length ? TN_EXPR_NUMBER : TN_EXPR_FIGURE, .depth = 1, .name = word};
     if (field->kind == TN_FIELD_ZONE && value->has_depth)
         expr->detail = depth;
     return expr;
@@ -159,7 +166,8 @@ static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quant
 /* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
 static tn_ast_expr *joined(tn_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
 {
-    tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE, idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
+    tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE,
+                 idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
     tn_ast_list left = tn_ast_empty();
     tn_ast_expr *result = shallow(expansion, place);
     if (!result)
@@ -189,12 +197,13 @@ static bool bound_names_good(tn_expansion *expansion, const tn_ast_expr *quantif
 {
     bool good = true;
     for (TN_EACH(const tn_ast_word, word, quantifier->names))
-        good &= tn_check_new_word(expansion->check, expansion->check->schema, word, expansion->bindings != NULL && tn_bound(expansion, word).value);
+        good &= tn_check_new_word(expansion->check, expansion->check->schema, word,
+                                  expansion->bindings != NULL && tn_bound(expansion, word).value);
     return good;
 }
 
-static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_ast_word *name, const tn_checked_field *field,
-                     tn_ast_list *parts)
+static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_ast_word *name,
+                     const tn_checked_field *field, tn_ast_list *parts)
 {
     if (!name) {
         if (!count_expansion(expansion->check, quantifier->node.span))
@@ -205,7 +214,8 @@ static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, con
     const tn_binding *outer = expansion->bindings;
     bool good = true;
     for (uint32_t v = 0; good && v < field->value_count; v++) {
-        tn_binding binding = {.outer = outer, .word = name, .value = value_expr(expansion, quantifier, field, v), .is_value = true};
+        tn_binding binding = {
+            .outer = outer, .word = name, .value = value_expr(expansion, quantifier, field, v), .is_value = true};
         expansion->bindings = &binding;
         good = binding.value && quantify(expansion, quantifier, (const tn_ast_word *)name->node.next, field, parts);
         expansion->bindings = outer;
@@ -219,8 +229,8 @@ static tn_ast_expr *expand_quantifier(tn_expansion *expansion, const tn_ast_expr
     const tn_checked_schema *schema = check->schema;
     uint32_t field = schema ? tn_field_find(schema, expr->name->text) : TN_NONE;
     if (schema && field == TN_NONE && !schema->broken) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span, "`%s` is no field of schema `%s`",
-                                     expr->name->text, schema->name);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span,
+                                     "`%s` is no field of schema `%s`", expr->name->text, schema->name);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
         tn_help(check->diagnostics, d, "a quantifier goes through the values of a field: `some v in %s (...)`",
                 schema->field_count ? schema->fields[0].name : "width");
@@ -233,20 +243,23 @@ static tn_ast_expr *expand_quantifier(tn_expansion *expansion, const tn_ast_expr
 }
 
 /* Both sides are bound values: decided at once. */
-static tn_ast_expr *decide(tn_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left, const tn_ast_expr *right)
+static tn_ast_expr *decide(tn_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left,
+                           const tn_ast_expr *right)
 {
     bool lengths = left->kind == TN_EXPR_NUMBER && right->kind == TN_EXPR_NUMBER;
     bool same = lengths ? left->name->value == right->name->value
-                        : strcmp(left->name->text, right->name->text) == 0 && (left->detail ? left->detail->value : -1) == (right->detail ? right->detail->value : -1);
+                        : strcmp(left->name->text, right->name->text) == 0 &&
+                              (left->detail ? left->detail->value : -1) == (right->detail ? right->detail->value : -1);
     bool less = lengths && left->name->value < right->name->value;
     if (!lengths && expr->op != TN_EQUAL && expr->op != TN_UNEQUAL) {
         tn_check *check = expansion->check;
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values have no size to compare");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values have no size to compare");
         tn_help(check->diagnostics, d, "lengths are compared by order; names and zones by `=` and `!=`");
         return broken(expansion, expr);
     }
-    bool truths[] = {[TN_LESS] = less,         [TN_AT_MOST] = less || same, [TN_EQUAL] = same,
-                     [TN_UNEQUAL] = !same,     [TN_AT_LEAST] = !less,       [TN_GREATER] = !less && !same};
+    bool truths[] = {[TN_LESS] = less,     [TN_AT_MOST] = less || same, [TN_EQUAL] = same,
+                     [TN_UNEQUAL] = !same, [TN_AT_LEAST] = !less,       [TN_GREATER] = !less && !same};
     tn_ast_expr *made = shallow(expansion, expr);
     if (made) {
         made->kind = truths[expr->op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
@@ -270,7 +283,9 @@ static tn_checked_rule *new_rule(tn_expansion *expansion, const tn_ast_expr *cal
     const char *source = check->diagnostics->sources->files[call->node.span.file].text;
     size_t size = call->node.span.end - call->node.span.begin;
     *rule = (tn_checked_rule){.ast = ast,
-                              .name = of->is_template ? tn_arena_copy(check->arena, source + call->node.span.begin, size < TN_NAME_MAX ? size : TN_NAME_MAX) : of->name,
+                              .name = of->is_template ? tn_arena_copy(check->arena, source + call->node.span.begin,
+                                                                      size < TN_NAME_MAX ? size : TN_NAME_MAX)
+                                                      : of->name,
                               .unit = of->unit,
                               .schema = check->schema,
                               .is_measure = of->is_measure,
@@ -287,13 +302,15 @@ static tn_checked_rule *new_rule(tn_expansion *expansion, const tn_ast_expr *cal
 static void report_circle(tn_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *of)
 {
     tn_check *check = expansion->check;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_CYCLE, of->ast->name->node.span, "rule `%s` uses itself", of->name);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RULE_CYCLE, of->ast->name->node.span, "rule `%s` uses itself", of->name);
     tn_note(check->diagnostics, d, &call->node.span, "it is called here, while it is being written out");
     tn_help(check->diagnostics, d, "write out what one of them means instead of naming the other");
 }
 
 /* The rule made for the template (or older rule) with these arguments; NULL: reported. */
-static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of, tn_ast_list arguments)
+static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of,
+                                 tn_ast_list arguments)
 {
     tn_check *check = expansion->check;
     const char *key = tn_expression_key(check, check->schema, of->name, arguments);
@@ -310,7 +327,8 @@ static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *cal
         }
     }
     if (deep > CALLS_DEEP) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_DEEP, call->node.span, "calls are nested more than %d deep", CALLS_DEEP);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_DEEP, call->node.span,
+                                     "calls are nested more than %d deep", CALLS_DEEP);
         tn_help(check->diagnostics, d, "write out what some of the rules mean");
         return NULL;
     }
@@ -355,13 +373,16 @@ static bool arguments_fit(tn_expansion *expansion, const tn_ast_expr *call, cons
     size_t wanted = rule->ast->params.count;
     if (wanted == given)
         return true;
-    tn_diagnostic *d =
-        wanted == 0 ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span, "`%s` has no parameters", rule->name)
-        : given == 0 ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span, "`%s` needs %zu argument%s", rule->name, wanted, wanted == 1 ? "" : "s")
-                     : tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span, "`%s` needs %zu argument%s, and this call has %zu",
-                                 rule->name, wanted, wanted == 1 ? "" : "s", given);
+    tn_diagnostic *d = wanted == 0  ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` has no parameters", rule->name)
+                       : given == 0 ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` needs %zu argument%s", rule->name, wanted, wanted == 1 ? "" : "s")
+                                    : tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` needs %zu argument%s, and this call has %zu", rule->name, wanted,
+                                                wanted == 1 ? "" : "s", given);
     tn_note(check->diagnostics, d, &rule->ast->name->node.span, "`%s` is here", rule->name);
-    tn_help(check->diagnostics, d, wanted == 0 ? "write its name alone" : "write one argument for each parameter, in their order");
+    tn_help(check->diagnostics, d,
+            wanted == 0 ? "write its name alone" : "write one argument for each parameter, in their order");
     return false;
 }
 
@@ -395,12 +416,14 @@ static tn_ast_expr *expand_name(tn_expansion *expansion, const tn_ast_expr *expr
     tn_binding bound = tn_bound(expansion, expr->name);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
         tn_check *check = expansion->check;
-        tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span, "`%s` stands for values of a field", expr->name->text);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
+                                     "`%s` stands for values of a field", expr->name->text);
         tn_help(check->diagnostics, d, "write `tray(%s)`", expr->name->text);
         return broken(expansion, expr);
     }
     if (bound.value) {
-        tn_expansion none = {.check = expansion->check, .unit = expansion->unit}; /* what is bound is written out already */
+        tn_expansion none = {.check = expansion->check,
+                             .unit = expansion->unit}; /* what is bound is written out already */
         return expand(&none, bound.value);
     }
     tn_checked_rule *rule = rule_named(expansion, expr->name);
@@ -433,7 +456,8 @@ static tn_ast_expr *expand(tn_expansion *expansion, const tn_ast_expr *expr)
     case TN_EXPR_EACH:
         return expand_quantifier(expansion, expr);
     case TN_EXPR_COMPARE: {
-        const tn_ast_expr *left = bound_value(expansion, expr->parts.first), *right = bound_value(expansion, expr->parts.last);
+        const tn_ast_expr *left = bound_value(expansion, expr->parts.first),
+                          *right = bound_value(expansion, expr->parts.last);
         if (left && right)
             return decide(expansion, expr, left, right);
         break;

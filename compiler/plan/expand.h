@@ -11,7 +11,7 @@ typedef struct tn_binding {
     const struct tn_binding *outer;
     const tn_ast_word *word;
     tn_ast_expr *value;
-    bool is_value; /* of a quantifier */
+    bool is_value;               /* of a quantifier */
     struct tn_checked_rule *let; /* of a `let`, or NULL */
 } tn_binding;
 

@@ -18,7 +18,8 @@ typedef struct parameters {
     size_t count;
 } parameters;
 
-static const char *const kind_names[] = {[USE_EXPRESSION] = "an expression", [USE_VALUES] = "values of a field", [USE_NUMBER] = "a number"};
+static const char *const kind_names[] = {
+    [USE_EXPRESSION] = "an expression", [USE_VALUES] = "values of a field", [USE_NUMBER] = "a number"};
 
 static void use(parameters *p, const tn_ast_word *word, use_kind kind)
 {
@@ -32,8 +33,9 @@ static void use(parameters *p, const tn_ast_word *word, use_kind kind)
         } else if (item->kind != kind && !item->said) {
             item->said = true;
             tn_diagnostics *diagnostics = p->check->diagnostics;
-            tn_diagnostic *d = tn_report(diagnostics, E_PARAMETER_KINDS, word->node.span, "`%s` is %s here, and %s before", word->text,
-                                         kind_names[kind], kind_names[item->kind]);
+            tn_diagnostic *d =
+                tn_report(diagnostics, E_PARAMETER_KINDS, word->node.span, "`%s` is %s here, and %s before", word->text,
+                          kind_names[kind], kind_names[item->kind]);
             tn_note(diagnostics, d, &item->first, "it is %s here", kind_names[item->kind]);
             tn_help(diagnostics, d, "use two parameters: one for each");
         }
@@ -65,9 +67,9 @@ static void use_condition(parameters *p, const tn_ast_cond *cond)
 /* number: does the expression stand where a number does? */
 static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
 {
-    bool sum = expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN || expr->kind == TN_EXPR_PLUS || expr->kind == TN_EXPR_MINUS ||
-               expr->kind == TN_EXPR_TIMES || expr->kind == TN_EXPR_OVER || expr->kind == TN_EXPR_NEGATIVE ||
-               expr->kind == TN_EXPR_LEAST || expr->kind == TN_EXPR_MOST;
+    bool sum = expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN || expr->kind == TN_EXPR_PLUS ||
+               expr->kind == TN_EXPR_MINUS || expr->kind == TN_EXPR_TIMES || expr->kind == TN_EXPR_OVER ||
+               expr->kind == TN_EXPR_NEGATIVE || expr->kind == TN_EXPR_LEAST || expr->kind == TN_EXPR_MOST;
     if (expr->kind == TN_EXPR_NAME)
         use(p, expr->name, number ? USE_NUMBER : USE_EXPRESSION);
     if (expr->kind == TN_EXPR_FIGURE)
@@ -99,15 +101,16 @@ void tn_check_parameters(tn_check *check, const tn_checked_rule *rule)
         for (size_t i = 0; i < p.count; i++)
             bound |= strcmp(p.items[i].word->text, word->text) == 0;
         tn_check_new_word(check, rule->schema, word, bound);
-        if (tn_check_room(check, p.count, TN_PARAMETERS_MAX, "parameter", word->node.span, "give the rule fewer parameters"))
+        if (tn_check_room(check, p.count, TN_PARAMETERS_MAX, "parameter", word->node.span,
+                          "give the rule fewer parameters"))
             p.items[p.count++] = (parameter){.word = word};
     }
     use_expression(&p, rule->written, false);
     for (size_t i = 0; i < p.count; i++) {
         if (p.items[i].kind != USE_NONE || p.items[i].said || !tn_check_wanted(check, W_UNUSED_PARAMETER))
             continue;
-        tn_diagnostic *d = tn_report(check->diagnostics, W_UNUSED_PARAMETER, p.items[i].word->node.span, "the parameter `%s` is not used",
-                                     p.items[i].word->text);
+        tn_diagnostic *d = tn_report(check->diagnostics, W_UNUSED_PARAMETER, p.items[i].word->node.span,
+                                     "the parameter `%s` is not used", p.items[i].word->text);
         tn_help(check->diagnostics, d, "leave it out, also in calls");
     }
 }

@@ -122,7 +122,8 @@ static tn_ast_item *expand_item(tn_expansion *expansion, const tn_ast_item *item
         tn_ast_alternative *other = TN_NEW(expansion->check->arena, tn_ast_alternative);
         if (!other)
             return copy;
-        *other = (tn_ast_alternative){.node.span = alternative->node.span, .words = expand_words(expansion, alternative->words)};
+        *other = (tn_ast_alternative){.node.span = alternative->node.span,
+                                      .words = expand_words(expansion, alternative->words)};
         if (other->words.first) /* where nothing is left, that was reported */
             copy->alternatives = tn_ast_append(copy->alternatives, other);
     }
@@ -152,7 +153,8 @@ const tn_ast_word *tn_expand_constant(tn_expansion *expansion, tn_ast_expr *valu
     if (!word)
         return NULL;
     bool good = constant_kind(value) && tn_check_figure(check, NULL, value, &amount);
-    bool whole = good && amount.value && !strchr(amount.value, '/') && strlen(amount.value) < 18 && (amount.power == 0 || amount.power == 1);
+    bool whole = good && amount.value && !strchr(amount.value, '/') && strlen(amount.value) < 18 &&
+                 (amount.power == 0 || amount.power == 1);
     if (!constant_kind(value)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span, "a number is needed here");
         tn_note(check->diagnostics, d, &place, "it is used here");
@@ -161,12 +163,15 @@ const tn_ast_word *tn_expand_constant(tn_expansion *expansion, tn_ast_expr *valu
     if (!good)
         return NULL;
     *word = (tn_ast_word){.node.span = value->node.span,
-                          .kind = !whole ? TN_WORD_DECIMAL : amount.power ? TN_WORD_LENGTH : TN_WORD_NUMBER,
+                          .kind = !whole         ? TN_WORD_DECIMAL
+                                  : amount.power ? TN_WORD_LENGTH
+                                                 : TN_WORD_NUMBER,
                           .exact = amount.value,
                           .power = amount.power};
     word->value = whole ? strtoll(amount.value, NULL, 10) : 0;
     const char *text = check->diagnostics->sources->files[value->node.span.file].text;
-    word->text = tn_arena_copy(check->arena, text + value->node.span.begin, value->node.span.end - value->node.span.begin);
+    word->text =
+        tn_arena_copy(check->arena, text + value->node.span.begin, value->node.span.end - value->node.span.begin);
     return word;
 }
 

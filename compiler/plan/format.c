@@ -14,9 +14,8 @@ enum {
 /* Does a bracket stand directly at the word before it? */
 static bool takes_bracket(const tn_format *format, size_t i)
 {
-    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences",
-                                        "sum",  "distance",  "many",     "optional", "every", "matches",
-                                        "min",  "max",       NULL};
+    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences", "sum", "distance",
+                                        "many", "optional",  "every",    "matches",  "min",         "max", NULL};
     return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
 }
 
@@ -27,7 +26,8 @@ static bool is_sign(const tn_format *format, size_t i)
     if (!tn_format_is(format, i, "-") || i == 0)
         return tn_format_is(format, i, "-");
     tn_token_kind before = format->tokens[i - 1].kind;
-    return before != TN_TOKEN_NAME && before != TN_TOKEN_NUMBER && before != TN_TOKEN_LENGTH && !tn_format_is_any(format, i - 1, operands);
+    return before != TN_TOKEN_NAME && before != TN_TOKEN_NUMBER && before != TN_TOKEN_LENGTH &&
+           !tn_format_is_any(format, i - 1, operands);
 }
 
 /* The blanks between token i and the one before it. */
@@ -35,7 +35,8 @@ static size_t gap_before(const tn_format *format, size_t i)
 {
     static const char *const tight_before[] = {")", "]", ",", "..", NULL};
     static const char *const tight_after[] = {"(", "[", "..", NULL};
-    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after) || is_sign(format, i - 1))
+    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after) ||
+        is_sign(format, i - 1))
         return 0;
     return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
 }
@@ -113,7 +114,10 @@ static bool at_bar(const tn_format *format, size_t i)
 /* The name's column and width: `zone wall` is five columns in. */
 static size_t field_name(const tn_format *format, size_t first)
 {
-    return tn_format_is(format, first, "zone") || (tn_format_is(format, first, "number") && format->tokens[first].kind == TN_TOKEN_WORD) ? first + 1 : first;
+    return tn_format_is(format, first, "zone") ||
+                   (tn_format_is(format, first, "number") && format->tokens[first].kind == TN_TOKEN_WORD)
+               ? first + 1
+               : first;
 }
 
 static void put_forbid(tn_format *format, size_t first, size_t last)
@@ -316,7 +320,8 @@ void tn_format_plan(tn_format *format)
     for (size_t first = 0, last; first < format->count; first = last) {
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||
-                        ((tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure") || tn_format_is(format, first, "let")) &&
+                        ((tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure") ||
+                          tn_format_is(format, first, "let")) &&
                          is_short_rule(format, first, last));
         tn_format_gap(format, first, 0, first > 0 && (tall || !one_line));
         put_item(format, first, last, one_line);

@@ -12,7 +12,14 @@ struct tn_ast_file;
 
 /* What the words mean depends on where they stand: inside a schema, a tray specifier or a plan, the author's own names
  * count and the language keeps only a few words. */
-typedef enum tn_lex_mode { TN_LEX_TOP, TN_LEX_SCHEMA, TN_LEX_TRAY, TN_LEX_LITERAL, TN_LEX_PATTERN, TN_LEX_TRAY_SUM } tn_lex_mode;
+typedef enum tn_lex_mode {
+    TN_LEX_TOP,
+    TN_LEX_SCHEMA,
+    TN_LEX_TRAY,
+    TN_LEX_LITERAL,
+    TN_LEX_PATTERN,
+    TN_LEX_TRAY_SUM
+} tn_lex_mode;
 
 typedef struct tn_parse {
     tn_arena *arena;

@@ -5,7 +5,13 @@
 
 #include "compiler/common/source.h"
 
-typedef enum tn_expectation { TN_EXPECT_MATCH, TN_EXPECT_REJECT, TN_EXPECT_KEEP, TN_EXPECT_DROP, TN_EXPECT_VALUE } tn_expectation;
+typedef enum tn_expectation {
+    TN_EXPECT_MATCH,
+    TN_EXPECT_REJECT,
+    TN_EXPECT_KEEP,
+    TN_EXPECT_DROP,
+    TN_EXPECT_VALUE
+} tn_expectation;
 
 typedef struct tn_test_case {
     tn_expectation expectation;

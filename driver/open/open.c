@@ -89,8 +89,8 @@ static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
 static tn_status refuse_questions(tn_opened *opened)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_diagnostic *d = tn_report_bare(list, TN_ERROR, E_USAGE, "%s is a module, and --where and open plans need the rule file",
-                                      opened->path);
+    tn_diagnostic *d = tn_report_bare(list, TN_ERROR, E_USAGE,
+                                      "%s is a module, and --where and open plans need the rule file", opened->path);
     tn_help(list, d, "name the rule file that it was built from");
     return TN_INVALID;
 }

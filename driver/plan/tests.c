@@ -348,7 +348,8 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *c
         tn_error error;
         if (b.tests->imported)
             continue;
-        tn_status status = b.tests->is_measure ? run_values(&b, counts, &error) : run_block(&b, max_states, counts, &error);
+        tn_status status =
+            b.tests->is_measure ? run_values(&b, counts, &error) : run_block(&b, max_states, counts, &error);
         if (status != TN_OK) {
             tn_finding_error(opened, &error);
             return status;

@@ -36,8 +36,8 @@ static void report(const tn_value_tests *values, const tn_test_case *test, const
     tn_buffer is = {0}, should = {0}, plan = {0};
     tn_amount_write(unit, value, &is);
     tn_amount_write(unit, wanted, &should);
-    tn_diagnostic *d = tn_report(list, E_TEST_FAILED, test->span, "`%s` is %s for this plan, not %s", values->tests->subject,
-                                 is.data ? is.data : "?", should.data ? should.data : "?");
+    tn_diagnostic *d = tn_report(list, E_TEST_FAILED, test->span, "`%s` is %s for this plan, not %s",
+                                 values->tests->subject, is.data ? is.data : "?", should.data ? should.data : "?");
     if (test->doc)
         tn_note(list, d, NULL, "expected because: %s", test->doc);
     if (tn_plan_write_line(values->schema, values->trays, test->length, &plan))

@@ -10,9 +10,9 @@
 #include "runtime/growth/model/records.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
-#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/rules.h"
+#include "runtime/plan/schema/sum.h"
 #include "tests/fuzz/grow.h"
 
 enum {

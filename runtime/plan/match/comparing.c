@@ -39,7 +39,8 @@ static bool comparing_step(void *context, const uint32_t *key, size_t size, uint
     if (total >= comparing->low && total <= comparing->high)
         total += gain;
     total = total > comparing->high ? comparing->high + 1 : total < comparing->low ? comparing->low - 1 : total;
-    if (next->data[MACHINE] == 2 && !tn_summing_waits(&comparing->summing, next->size - MACHINE)) /* only the outcome is left */
+    if (next->data[MACHINE] == 2 &&
+        !tn_summing_waits(&comparing->summing, next->size - MACHINE)) /* only the outcome is left */
         total = (total > 0) - (total < 0);
     next->data[LOW] = (uint32_t)(uint64_t)total;
     next->data[HIGH] = (uint32_t)((uint64_t)total >> 32);
@@ -63,8 +64,9 @@ static tn_status find_bounds(tn_comparing *comparing, uint32_t max_trays, tn_err
     const tn_summing *summing = &comparing->summing;
     const int64_t most = INT64_MAX / 4;
     if (max_trays == 0 && summing->most_up > 0 && summing->most_down > 0) {
-        tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
-                "a sum that rises and falls has as many states as plans have trays, and it is not known how many that is");
+        tn_fail(
+            error, TN_LIMIT, E_TOO_MANY_STATES,
+            "a sum that rises and falls has as many states as plans have trays, and it is not known how many that is");
         tn_error_help(error, "in a library the automaton is made for its own lengths");
         return TN_LIMIT;
     }
@@ -77,18 +79,20 @@ static tn_status find_bounds(tn_comparing *comparing, uint32_t max_trays, tn_err
     return TN_OK;
 }
 
-tn_status tn_marked_compare(const tn_marked *marked, const tn_sum *sum, tn_dfa *const *parts, bool reversed, tn_opcode opcode,
-                            uint32_t max_trays, tn_dfa **out, tn_error *error)
+tn_status tn_marked_compare(const tn_marked *marked, const tn_sum *sum, tn_dfa *const *parts, bool reversed,
+                            tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error)
 {
     tn_comparing comparing = {.opcode = opcode, .constant = sum->constant};
     tn_key start = {0};
     tn_status status = tn_summing_make(&comparing.summing, sum, marked, parts, reversed, error);
     if (status == TN_OK)
         status = find_bounds(&comparing, max_trays, error);
-    if (status == TN_OK && (!tn_key_push(&start, 0) || !tn_key_push(&start, 0) || !tn_summing_start(&comparing.summing, &start)))
+    if (status == TN_OK &&
+        (!tn_key_push(&start, 0) || !tn_key_push(&start, 0) || !tn_summing_start(&comparing.summing, &start)))
         status = tn_fail_memory(error);
     if (status == TN_OK) {
-        tn_construction construction = {"comparison", &comparing.summing.join, &comparing, comparing_step, comparing_accepts};
+        tn_construction construction = {"comparison", &comparing.summing.join, &comparing, comparing_step,
+                                        comparing_accepts};
         status = tn_explore(&construction, &start, &comparing.effort, marked->bounds, out, error);
     }
     free(start.data);

@@ -91,8 +91,8 @@ static bool places_write(tn_counting *counting, tn_key *next)
 
 static bool finish_key(tn_counting *counting, uint32_t phase, uint32_t thread, uint32_t running, tn_key *next)
 {
-    return !counting->failed && !counting->guesses.failed && tn_key_push(next, phase) && tn_key_push(next, thread) && tn_key_push(next, running) &&
-           places_write(counting, next) && !counting->guesses.failed;
+    return !counting->failed && !counting->guesses.failed && tn_key_push(next, phase) && tn_key_push(next, thread) &&
+           tn_key_push(next, running) && places_write(counting, next) && !counting->guesses.failed;
 }
 
 static bool step_marker(tn_counting *counting, const uint32_t *key, size_t size, tn_key *next)
@@ -208,7 +208,8 @@ tn_status tn_marked_count(const tn_marked *marked, const tn_dfa *a, tn_tally tal
         status = prepare_columns(&counting, marked, a, field, unit, error);
     if (status == TN_OK)
         status = tn_guesses_make(&counting.guesses, a, tally, &counting.join, 0, error);
-    if (status == TN_OK && !finish_key(&counting, 0, counting.guesses.a.dead == 0 ? TN_NO_STATE : 0, TN_NO_GUESSES, &start))
+    if (status == TN_OK &&
+        !finish_key(&counting, 0, counting.guesses.a.dead == 0 ? TN_NO_STATE : 0, TN_NO_GUESSES, &start))
         status = tn_fail_memory(error);
     if (status == TN_OK) {
         tn_construction construction = {tally == TN_TALLY_SINGLES ? "quantity" : "occurrences", &counting.join,

@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 
-tn_status tn_guesses_make(tn_guesses *guesses, const tn_dfa *dfa, tn_tally tally, const tn_join *join, uint32_t part, tn_error *error)
+tn_status tn_guesses_make(tn_guesses *guesses, const tn_dfa *dfa, tn_tally tally, const tn_join *join, uint32_t part,
+                          tn_error *error)
 {
     *guesses = (tn_guesses){.tally = tally, .join = join, .part = part};
     guesses->members.first = &guesses->a;
@@ -46,8 +47,8 @@ static void set_add(tn_guesses *guesses, uint32_t state)
     tn_pairs_add(&guesses->members, state, 0);
 }
 
-/* The number of the set built, TN_NO_GUESSES where it is empty. A set that accepts whatever follows is the same as that state
- * alone. */
+/* The number of the set built, TN_NO_GUESSES where it is empty. A set that accepts whatever follows is the same as that
+ * state alone. */
 static uint32_t set_end(tn_guesses *guesses)
 {
     tn_pairs *members = &guesses->members;

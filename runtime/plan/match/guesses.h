@@ -1,8 +1,9 @@
 /* Guesses about which places of a stretch [x, y) are in a relation, while the plan is read from left to right.
  *
  * Whether a place counts may depend on what comes after it, even after y (the relation may look at the whole plan). So
- * for each place read so far the set of states is kept that the relation's automaton may be in if that place is guessed;
- * equal sets have equal futures. Sets are numbers. A tn_guesses borrows its automaton and join; clear it after use.
+ * for each place read so far the set of states is kept that the relation's automaton may be in if that place is
+ * guessed; equal sets have equal futures. Sets are numbers. A tn_guesses borrows its automaton and join; clear it after
+ * use.
  */
 #ifndef TARTAN_PLAN_MATCH_GUESSES_H
 #define TARTAN_PLAN_MATCH_GUESSES_H
@@ -24,13 +25,15 @@ typedef struct tn_guesses {
     bool failed; /* out of memory */
 } tn_guesses;
 
-tn_status tn_guesses_make(tn_guesses *guesses, const tn_dfa *dfa, tn_tally tally, const tn_join *join, uint32_t part, tn_error *error);
+tn_status tn_guesses_make(tn_guesses *guesses, const tn_dfa *dfa, tn_tally tally, const tn_join *join, uint32_t part,
+                          tn_error *error);
 void tn_guesses_clear(tn_guesses *guesses);
 
 /* The state after one more tray. */
 static inline uint32_t tn_guesses_state(const tn_guesses *guesses, uint32_t state, uint32_t column)
 {
-    return tn_operand_read(&guesses->a, state, guesses->join->pick[(size_t)column * guesses->join->parts + guesses->part]);
+    return tn_operand_read(&guesses->a, state,
+                           guesses->join->pick[(size_t)column * guesses->join->parts + guesses->part]);
 }
 
 /* A set after one more tray. In phase 1 (between x and y), guesses of TALLY_STARTS that are under way may end. */

@@ -59,8 +59,9 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
     lowering->bounds.watch = lowering->module->watch;
     lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
     lowering->local = calloc(lowering->module->FUNCTION_count + 1, 1);
-    tn_status status = lowering->lowered && lowering->local ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
-                                         : tn_fail_memory(error);
+    tn_status status = lowering->lowered && lowering->local
+                           ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
+                           : tn_fail_memory(error);
     if (status != TN_OK) {
         tn_lowering_free(lowering);
         return status;
@@ -243,7 +244,8 @@ static tn_status summed(tn_lowering *lowering, uint32_t index, const tn_sum **su
 {
     if (!lowering->sums && !(lowering->sums = calloc(lowering->module->SUM_count + 1, sizeof(tn_sum *))))
         return tn_fail_memory(error);
-    tn_status status = lowering->sums[index] ? TN_OK : tn_sum_new(lowering->classes->schema, index, &lowering->sums[index], error);
+    tn_status status =
+        lowering->sums[index] ? TN_OK : tn_sum_new(lowering->classes->schema, index, &lowering->sums[index], error);
     if (status == TN_OK)
         *sum = lowering->sums[index];
     return status;
@@ -261,7 +263,8 @@ static uint32_t part_wanted(const tn_term_record *term, uint32_t form)
 }
 
 /* BELOW, ZERO, ABOVE: the parts are lowered. */
-static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa **out, tn_error *error)
+static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa **out,
+                                  tn_error *error)
 {
     const tn_sum *sum = NULL;
     tn_status status = summed(lowering, (uint32_t)node->code.first, &sum, error);
@@ -275,7 +278,8 @@ static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, ui
         if (needs_part(lowering, term))
             parts[i] = lowering->lowered[part_wanted(term, form)].dfa;
     }
-    status = tn_marked_compare(&lowering->marked, sum, parts, form & FORM_REVERSED, node->code.opcode, lowering->max_trays, out, error);
+    status = tn_marked_compare(&lowering->marked, sum, parts, form & FORM_REVERSED, node->code.opcode,
+                               lowering->max_trays, out, error);
     free(parts);
     return status;
 }
@@ -308,8 +312,9 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
         break;
     }
     tn_dfa *relation = NULL;
-    tn_status status = compares(node->code.opcode) ? lower_comparison(lowering, node, form, &relation, error)
-                                                   : lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
+    tn_status status = compares(node->code.opcode)
+                           ? lower_comparison(lowering, node, form, &relation, error)
+                           : lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
     if (status != TN_OK || !node->plain) {
         *out = relation;
         return status;
@@ -354,7 +359,8 @@ static tn_status push_callee(const tn_lowering *lowering, uint32_t wanted, tn_ke
     return callee->dfa || tn_key_push(pending, wanted) ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status push_parts(const tn_lowering *lowering, const tn_node *node, uint32_t form, tn_key *pending, tn_error *error)
+static tn_status push_parts(const tn_lowering *lowering, const tn_node *node, uint32_t form, tn_key *pending,
+                            tn_error *error)
 {
     const tn_sum_record *sum = &lowering->module->SUM_records[node->code.first];
     tn_status status = TN_OK;

@@ -27,7 +27,8 @@ static tn_status foreign(const reading *r, uint32_t offset)
 /* What the language has and parts have not: comparisons of sums, and calls of rules with parameters. */
 static tn_status unexplained(const reading *r, uint32_t offset, const char *what)
 {
-    tn_status status = tn_fail(r->error, TN_INVALID, E_NO_PARTS, "a rule with %s is not explained, drawn or exported", what);
+    tn_status status =
+        tn_fail(r->error, TN_INVALID, E_NO_PARTS, "a rule with %s is not explained, drawn or exported", what);
     tn_error_help(r->error, "it can be matched, tested and counted; `tartan test` shows whether a plan meets it");
     if (r->error)
         r->error->code_offset = offset;

@@ -62,7 +62,8 @@ static int64_t weight_of(const tn_sum_term *term, tn_tray tray)
 }
 
 /* What each class's tray adds by the terms that it decides alone. */
-static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, int64_t *local, tn_error *error)
+static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, int64_t *local,
+                            tn_error *error)
 {
     tn_plan_vm *vm = NULL;
     tn_status status = tn_plan_vm_new(sum->schema, 1, &vm, error);
@@ -82,8 +83,8 @@ static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa
 }
 
 /* Numbers what tells the classes apart: *extra[class]. */
-static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts,
-                           const int64_t *local, uint32_t *extra)
+static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, const int64_t *local,
+                           uint32_t *extra)
 {
     tn_numbering values = {0}, pairs = {0};
     bool ok = true;
@@ -129,13 +130,16 @@ static void find_range(tn_summing *summing)
     }
 }
 
-static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts, bool reversed, tn_error *error)
+static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
+                           bool reversed, tn_error *error)
 {
     for (uint32_t i = 0; i < sum->count; i++) {
         if (!parts[i])
             continue;
         tn_summing_term *term = &summing->terms[summing->count];
-        tn_tally tally = sum->terms[i].kind == TN_SUM_SINGLES ? TN_TALLY_SINGLES : reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS;
+        tn_tally tally = sum->terms[i].kind == TN_SUM_SINGLES ? TN_TALLY_SINGLES
+                         : reversed                           ? TN_TALLY_ENDS
+                                                              : TN_TALLY_STARTS;
         tn_status status = tn_guesses_make(&term->guesses, parts[i], tally, &summing->join, summing->count++, error);
         term->weight = calloc((size_t)summing->join.columns + 1, sizeof *term->weight);
         if (status == TN_OK && !term->weight)
@@ -149,7 +153,8 @@ static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_mark
     return TN_OK;
 }
 
-static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts, const int64_t *local, tn_error *error)
+static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
+                      const int64_t *local, tn_error *error)
 {
     uint32_t count = 0;
     uint32_t *extra = calloc(marked->letters, sizeof *extra);
@@ -158,7 +163,8 @@ static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *m
     for (uint32_t i = 0; ok && i < sum->count; i++)
         if (parts[i])
             dfas[count++] = parts[i];
-    tn_status status = ok ? tn_join_make(&summing->join, dfas, count, marked->letters, extra, true, error) : tn_fail_memory(error);
+    tn_status status =
+        ok ? tn_join_make(&summing->join, dfas, count, marked->letters, extra, true, error) : tn_fail_memory(error);
     if (status == TN_OK) {
         summing->marker = summing->join.column[marked->letters - 1];
         summing->local = calloc((size_t)summing->join.columns + 1, sizeof *summing->local);
@@ -173,8 +179,8 @@ static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *m
     return status;
 }
 
-tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts, bool reversed,
-                          tn_error *error)
+tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
+                          bool reversed, tn_error *error)
 {
     *summing = (tn_summing){0};
     int64_t *local = calloc((size_t)marked->classes->count + 1, sizeof *local);
@@ -244,8 +250,8 @@ static bool write_pending(tn_summing *summing, tn_key *next)
             steps += pending[j].steps;
         if (steps == 0)
             continue;
-        if (!tn_key_push(next, pending[i].term) || !tn_key_push(next, pending[i].set) || !tn_key_push(next, (uint32_t)(uint64_t)steps) ||
-            !tn_key_push(next, (uint32_t)((uint64_t)steps >> 32)))
+        if (!tn_key_push(next, pending[i].term) || !tn_key_push(next, pending[i].set) ||
+            !tn_key_push(next, (uint32_t)(uint64_t)steps) || !tn_key_push(next, (uint32_t)((uint64_t)steps >> 32)))
             return false;
     }
     return true;
@@ -287,13 +293,15 @@ static bool step_marker(tn_summing *summing, const uint32_t *key, size_t size, t
     }
     for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
         uint32_t term = key[i + PLACE_TERM];
-        add_pending(summing, term, tn_guesses_ended(&summing->terms[term].guesses, key[i + PLACE_SET]), steps_of(key + i), gain);
+        add_pending(summing, term, tn_guesses_ended(&summing->terms[term].guesses, key[i + PLACE_SET]),
+                    steps_of(key + i), gain);
     }
     return ok;
 }
 
 /* One term after a tray of the given column: its thread, and the place that the tray makes. */
-static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uint32_t *words, uint32_t column, tn_key *next, int64_t *gain)
+static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uint32_t *words, uint32_t column,
+                      tn_key *next, int64_t *gain)
 {
     tn_guesses *guesses = &summing->terms[t].guesses;
     uint32_t thread = words[THREAD], running = words[RUNNING];
@@ -311,7 +319,8 @@ static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uin
     return tn_key_push(next, thread) && tn_key_push(next, running);
 }
 
-bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint32_t column, tn_key *next, int64_t *gain)
+bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint32_t column, tn_key *next,
+                     int64_t *gain)
 {
     uint32_t phase = key[PHASE];
     summing->pending_size = 0;
@@ -324,7 +333,9 @@ bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint
         ok = tn_key_push(next, phase);
         for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
             uint32_t term = key[i + PLACE_TERM];
-            add_pending(summing, term, tn_guesses_read(&summing->terms[term].guesses, key[i + PLACE_SET], phase, column), steps_of(key + i), gain);
+            add_pending(summing, term,
+                        tn_guesses_read(&summing->terms[term].guesses, key[i + PLACE_SET], phase, column),
+                        steps_of(key + i), gain);
         }
         for (uint32_t t = 0; ok && t < summing->count; t++)
             ok = step_term(summing, t, phase, key + TERMS + TERM_WORDS * (size_t)t, column, next, gain);

@@ -57,8 +57,6 @@ struct tn_plan_vm {
     uint8_t *truths; /* [N + 1] */
 };
 
-/* Runs an operation on the relations from `top` on, the last of the stack: any instruction but CALL, MIRROR and RETURN
- * (vm_operations.c). */
 /* Whether any of the relations that a sum's terms count is still to be found: then *function is one (vm_sum.c). */
 bool tn_plan_vm_sum_needs(const tn_plan_vm *vm, const tn_sum *sum, bool reversed, uint32_t *function);
 
@@ -71,6 +69,8 @@ tn_status tn_plan_vm_summed(tn_plan_vm *vm, uint32_t index, const tn_sum **sum, 
 /* The relation of a function that has been found for this plan (or its reverse), or NULL. */
 const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed);
 
+/* Runs an operation on the relations from `top` on, the last of the stack: any instruction but CALL, MIRROR and RETURN
+ * (vm_operations.c). */
 void tn_plan_vm_operate(tn_plan_vm *vm, const tn_instruction *op, uint64_t *top, bool reversed);
 
 #endif

@@ -32,9 +32,9 @@ static void add_place(const tn_plan_vm *vm, const tn_sum *sum, size_t k, bool re
     for (uint32_t i = 0; i < sum->count; i++) {
         const tn_sum_term *term = &sum->terms[i];
         const uint64_t *row = tn_plan_vm_found(vm, term->part, reversed) + k * vm->words;
-        if (term->kind == TN_SUM_SINGLES && tn_row_has(row, k + 1))
+        if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
             gain[k + 1] += term->weight ? term->weight[tray] : term->each;
-        size_t end = term->kind == TN_SUM_STARTS ? tn_row_next(row, k + 1, vm->words) : TN_NO_BIT;
+        size_t end = term->kind == TN_SUM_STARTS ? tn_relation_row_next(row, k + 1, vm->words) : TN_NO_BIT;
         if (end != TN_NO_BIT)
             gain[end] += term->each;
     }
@@ -52,7 +52,7 @@ void tn_plan_vm_compare(tn_plan_vm *vm, tn_opcode opcode, const tn_sum *sum, uin
         for (size_t j = i; j <= vm->length; j++) {
             value += j > i ? gain[j] : 0;
             if (opcode == TN_OP_BELOW ? value < 0 : opcode == TN_OP_ZERO ? value == 0 : value > 0)
-                tn_row_set(relation + i * vm->words, j);
+                tn_relation_row_set(relation + i * vm->words, j);
         }
     }
 }
@@ -71,9 +71,9 @@ tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, tn_error
             steps += in ? term->each : 0;
         for (size_t k = 0; relation && k < vm->length; k++) {
             const uint64_t *row = relation + k * vm->words;
-            if (term->kind == TN_SUM_SINGLES && tn_row_has(row, k + 1))
+            if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
                 steps += term->weight ? term->weight[vm->trays[k]] : term->each;
-            if (term->kind == TN_SUM_STARTS && tn_row_next(row, k + 1, vm->words) != TN_NO_BIT)
+            if (term->kind == TN_SUM_STARTS && tn_relation_row_next(row, k + 1, vm->words) != TN_NO_BIT)
                 steps += term->each;
         }
     }

@@ -18,7 +18,8 @@ tn_amount_unit tn_amount_unit_of(const tn_schema *schema, uint32_t power)
             field = f;
     for (uint32_t v = 0; field != UINT32_MAX && v < schema->fields[field].value_count; v++) {
         const tn_value_record *value = &schema->values[schema->value_start[field] + v];
-        const char *text = tn_text(schema->module, schema->fields[field].kind == TN_FIELD_ZONE ? value->measure : value->name);
+        const char *text =
+            tn_text(schema->module, schema->fields[field].kind == TN_FIELD_ZONE ? value->measure : value->name);
         if (!*text)
             continue;
         feet = !strchr(text, 'm');

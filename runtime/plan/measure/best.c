@@ -192,7 +192,8 @@ static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t 
     return status;
 }
 
-static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there, tn_error *error);
+static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
+                        tn_error *error);
 
 /* All trays of a state as candidates, each with its best completion. */
 static tn_status open_place(tn_best *best, uint32_t left, uint32_t state, uint32_t index, tn_error *error)
@@ -234,7 +235,8 @@ static tn_status succeed(tn_best *best, uint32_t left, uint32_t state, uint32_t 
     int64_t gain[TN_WEIGHED_MAX];
     bool there;
     p->pending = false;
-    tn_status status = tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, last.tray), &target, gain, error);
+    tn_status status =
+        tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, last.tray), &target, gain, error);
     if (status == TN_OK)
         status = place_of(best, left - 1, target, &child, error);
     if (status == TN_OK)
@@ -249,7 +251,8 @@ static tn_status succeed(tn_best *best, uint32_t left, uint32_t state, uint32_t 
 }
 
 /* Finds the completions of a state up to the given rank; *there: is there one? */
-static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there, tn_error *error)
+static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
+                        tn_error *error)
 {
     tn_status status = TN_OK;
     if (left == 0 && best->places[index].found_count == 0) {
@@ -341,7 +344,8 @@ tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t 
     *found = false;
     if (best->library->min > best->library->max)
         return TN_OK;
-    if (!best->given && !(best->given = calloc((size_t)best->library->max - best->library->min + 1, sizeof *best->given)))
+    if (!best->given &&
+        !(best->given = calloc((size_t)best->library->max - best->library->min + 1, sizeof *best->given)))
         return tn_fail_memory(error);
     cursor next = {0};
     tn_status status = next_length(best, best->given, &next, found, error);

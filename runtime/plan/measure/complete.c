@@ -1,7 +1,8 @@
-/* Open plans: forward and backward counts over the library's automaton joined with a machine that places the written trays.
+/* Open plans: forward and backward counts over the library's automaton joined with a machine that places the written
+ * trays.
  *
- * The machine guesses where a run of written trays after a gap starts, and remembers the runs that started earlier: none of
- * them may come to its end, so that the guess is the leftmost. Each plan is then read in one way only.
+ * The machine guesses where a run of written trays after a gap starts, and remembers the runs that started earlier:
+ * none of them may come to its end, so that the guess is the leftmost. Each plan is then read in one way only.
  */
 #include "runtime/plan/measure/complete.h"
 
@@ -18,8 +19,8 @@ typedef struct segment {
     bool floats; /* after a gap, and not bound to the plan's end */
 } segment;
 
-/* Where the machine is: so many trays placed; in the gap before the next run; runs that started earlier, bit k: k + 1 of
- * their trays have been met. */
+/* Where the machine is: so many trays placed; in the gap before the next run; runs that started earlier, bit k: k + 1
+ * of their trays have been met. */
 typedef struct machine {
     uint32_t placed;
     bool gap;
@@ -42,8 +43,8 @@ typedef struct completer {
     uint64_t *fits;      /* [trays]: bit i: the tray fits written tray i */
     uint32_t *letter_of; /* [trays] */
     uint32_t letters;
-    tn_tray *first; /* [letters] */
-    uint64_t *size; /* [letters] */
+    tn_tray *first;     /* [letters] */
+    uint64_t *size;     /* [letters] */
     tn_interner states; /* {library's state, placed, gap, earlier in two words} */
     uint32_t **level;   /* [max + 1]: the states at each place, ascending */
     uint32_t *level_size;
@@ -216,7 +217,8 @@ static int compare_numbers(const void *left, const void *right)
 }
 
 /* Calls `take` for every step from level n; false where that fails. */
-typedef bool take_step(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places, void *context);
+typedef bool take_step(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                       void *context);
 
 static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
 {
@@ -237,7 +239,8 @@ static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
     return true;
 }
 
-static bool collect(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places, void *context)
+static bool collect(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                    void *context)
 {
     (void)c, (void)n, (void)from, (void)letter, (void)m, (void)places;
     return tn_number(context, to) != UINT32_MAX;
@@ -263,14 +266,16 @@ static size_t index_of(const completer *c, uint32_t n, uint32_t joint)
     return (size_t)(found - c->level[n]);
 }
 
-static bool add_forward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places, void *context)
+static bool add_forward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                        void *context)
 {
     (void)m, (void)places, (void)context;
     mpz_addmul_ui(c->forward[n + 1][index_of(c, n + 1, to)], c->forward[n][from], c->size[letter]);
     return true;
 }
 
-static bool add_backward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places, void *context)
+static bool add_backward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                         void *context)
 {
     (void)m, (void)places, (void)context;
     mpz_addmul_ui(c->backward[n][from], c->backward[n + 1][index_of(c, n + 1, to)], c->size[letter]);
@@ -278,11 +283,13 @@ static bool add_backward(completer *c, uint32_t n, uint32_t from, uint32_t to, u
 }
 
 /* Each tray of the letter, as the written tray that is placed: the plans before times those after. */
-static bool add_placed(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places, void *context)
+static bool add_placed(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                       void *context)
 {
     (void)context;
     if (places)
-        mpz_addmul(c->placed[(size_t)m.placed * c->letters + letter], c->forward[n][from], c->backward[n + 1][index_of(c, n + 1, to)]);
+        mpz_addmul(c->placed[(size_t)m.placed * c->letters + letter], c->forward[n][from],
+                   c->backward[n + 1][index_of(c, n + 1, to)]);
     return true;
 }
 
@@ -296,7 +303,8 @@ static tn_status walk(completer *c, tn_error *error)
         mpz_set_ui(c->forward[0][0], 1);
     for (uint32_t n = 0; ok && n < max; n++) {
         tn_numbering next = {0};
-        ok = each_step(c, n, collect, &next) && make_level(c, n + 1, next.keys, next.count) && each_step(c, n, add_forward, NULL);
+        ok = each_step(c, n, collect, &next) && make_level(c, n + 1, next.keys, next.count) &&
+             each_step(c, n, add_forward, NULL);
         tn_numbering_clear(&next);
     }
     for (uint32_t n = max + 1; ok && n-- > 0;) {
@@ -315,7 +323,8 @@ static void add_values(const completer *c, tn_completions *out)
     for (tn_tray t = 0; t < schema->tray_count; t++)
         for (uint32_t i = 0; i < c->items; i++)
             for (uint32_t f = 0; f < schema->field_count; f++) {
-                mpz_t *count = &out->counts[(size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f)];
+                mpz_t *count =
+                    &out->counts[(size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f)];
                 mpz_add(*count, *count, c->placed[(size_t)i * c->letters + c->letter_of[t]]);
             }
 }
@@ -355,7 +364,8 @@ static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_complete(tn_completions *out, const tn_library *library, const uint32_t *functions, size_t count, tn_error *error)
+tn_status tn_complete(tn_completions *out, const tn_library *library, const uint32_t *functions, size_t count,
+                      tn_error *error)
 {
     completer c = {.library = library};
     *out = (tn_completions){0};

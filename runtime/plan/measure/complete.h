@@ -1,7 +1,8 @@
 /* Open plans: how many plans of a library complete a pattern, and which values its written trays then have.
  *
- * A pattern is a row of trays, each a rule function that looks at that tray alone, and gaps of any number of trays. Where
- * a plan fits in several ways the leftmost counts: the first written tray as early as can be, then the second, and so on.
+ * A pattern is a row of trays, each a rule function that looks at that tray alone, and gaps of any number of trays.
+ * Where a plan fits in several ways the leftmost counts: the first written tray as early as can be, then the second,
+ * and so on.
  */
 #ifndef TARTAN_PLAN_MEASURE_COMPLETE_H
 #define TARTAN_PLAN_MEASURE_COMPLETE_H
@@ -18,7 +19,8 @@ typedef struct tn_completions {
 } tn_completions;
 
 /* functions: of M, or TN_NO_RECORD for a gap. Clear in any case. */
-tn_status tn_complete(tn_completions *completions, const tn_library *library, const uint32_t *functions, size_t count, tn_error *error);
+tn_status tn_complete(tn_completions *completions, const tn_library *library, const uint32_t *functions, size_t count,
+                      tn_error *error);
 void tn_completions_clear(tn_completions *completions);
 
 #endif

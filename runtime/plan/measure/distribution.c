@@ -59,9 +59,11 @@ static void level_clear(level *l)
 
 static tn_status too_many(tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES, "the measure has too many different values: more than %llu pairs of state and value",
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES,
+            "the measure has too many different values: more than %llu pairs of state and value",
             (unsigned long long)TN_DISTRIBUTION_CELLS);
-    tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units; or give fewer trays with --trays");
+    tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units; or give "
+                         "fewer trays with --trays");
     return TN_LIMIT;
 }
 
@@ -109,7 +111,8 @@ static tn_status find_arcs(spreader *s, const level *from, uint32_t n, tn_error 
         if (status != TN_OK)
             return status;
         for (size_t e = 0; e < count; e++)
-            if (leads_on(s, n + 1, edges[e].target) && !add_arc(s, (arc){edges[e].target, (uint32_t)i, edges[e].trays, edges[e].gain[0]}))
+            if (leads_on(s, n + 1, edges[e].target) &&
+                !add_arc(s, (arc){edges[e].target, (uint32_t)i, edges[e].trays, edges[e].gain[0]}))
                 return tn_fail_memory(error);
     }
     qsort(s->arcs, s->arc_count, sizeof *s->arcs, compare_arcs);
@@ -118,12 +121,15 @@ static tn_status find_arcs(spreader *s, const level *from, uint32_t n, tn_error 
 
 static void add_plans(mp_limb_t *to, const mp_limb_t *plans, uint64_t times, size_t limbs)
 {
-    mpn_addmul_1(to, plans, (mp_size_t)limbs, times); /* what a prefix leads to is at most the library: no carry is lost */
+    mpn_addmul_1(to, plans, (mp_size_t)limbs,
+                 times); /* what a prefix leads to is at most the library: no carry is lost */
 }
 
 static bool spread_new(spread *made, uint32_t state, size_t count, size_t limbs)
 {
-    *made = (spread){.state = state, .value = malloc((count + 1) * sizeof *made->value), .plans = malloc((count * limbs + 1) * sizeof *made->plans)};
+    *made = (spread){.state = state,
+                     .value = malloc((count + 1) * sizeof *made->value),
+                     .plans = malloc((count * limbs + 1) * sizeof *made->plans)};
     return made->value && made->plans;
 }
 
@@ -133,7 +139,8 @@ static void spread_add(spread *made, int64_t value, const mp_limb_t *plans, size
     memcpy(made->plans + made->count++ * limbs, plans, limbs * sizeof *plans);
 }
 
-static bool gather_dense(spreader *s, const level *from, size_t first, size_t last, int64_t low, size_t range, spread *made)
+static bool gather_dense(spreader *s, const level *from, size_t first, size_t last, int64_t low, size_t range,
+                         spread *made)
 {
     size_t limbs = s->limbs;
     if (s->dense_room < range) {
@@ -148,7 +155,8 @@ static bool gather_dense(spreader *s, const level *from, size_t first, size_t la
     for (size_t a = first; a < last; a++) {
         const spread *source = &from->items[s->arcs[a].source];
         for (size_t i = 0; i < source->count; i++)
-            add_plans(s->dense + (size_t)(source->value[i] + s->arcs[a].gain - low) * limbs, source->plans + i * limbs, s->arcs[a].trays, limbs);
+            add_plans(s->dense + (size_t)(source->value[i] + s->arcs[a].gain - low) * limbs, source->plans + i * limbs,
+                      s->arcs[a].trays, limbs);
     }
     size_t count = 0;
     for (size_t v = 0; v < range; v++)
@@ -194,7 +202,8 @@ static bool gather_sorted(spreader *s, const level *from, size_t first, size_t l
     for (size_t i = 0; ok && i < count; i++) {
         const mp_limb_t *plans = s->numbers + s->pairs[i].index * limbs;
         if (made->count > 0 && made->value[made->count - 1] == s->pairs[i].value)
-            mpn_add_n(made->plans + (made->count - 1) * limbs, made->plans + (made->count - 1) * limbs, plans, (mp_size_t)limbs);
+            mpn_add_n(made->plans + (made->count - 1) * limbs, made->plans + (made->count - 1) * limbs, plans,
+                      (mp_size_t)limbs);
         else
             spread_add(made, s->pairs[i].value, plans, limbs);
     }
@@ -218,7 +227,8 @@ static tn_status gather(spreader *s, const level *from, size_t first, size_t *ne
     if (cells > TN_DISTRIBUTION_CELLS)
         return too_many(error);
     bool dense = high - low < DENSE_MAX && (uint64_t)(high - low) / 64 <= cells;
-    bool ok = dense ? gather_dense(s, from, first, last, low, (size_t)(high - low) + 1, made) : gather_sorted(s, from, first, last, (size_t)cells, made);
+    bool ok = dense ? gather_dense(s, from, first, last, low, (size_t)(high - low) + 1, made)
+                    : gather_sorted(s, from, first, last, (size_t)cells, made);
     s->cells += made->count;
     if (!ok)
         return tn_fail_memory(error);

@@ -7,11 +7,11 @@
 #define TN_DISTRIBUTION_CELLS UINT64_C(64000000) /* pairs of state and value at a time */
 
 typedef struct tn_distribution {
-    size_t count;    /* values, ascending */
-    int64_t *value;  /* steps of the unit */
+    size_t count;   /* values, ascending */
+    int64_t *value; /* steps of the unit */
     mpz_t *plans;
-    mpz_t all;       /* plans in all */
-    mpq_t unit;      /* nanometres to the power */
+    mpz_t all;  /* plans in all */
+    mpq_t unit; /* nanometres to the power */
 } tn_distribution;
 
 void tn_distribution_init(tn_distribution *distribution);

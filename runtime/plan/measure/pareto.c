@@ -38,7 +38,8 @@ static void front_clear(front *f)
     *f = (front){0};
 }
 
-static bool add_point(front *f, const int64_t *value, const mpz_t plans, uint64_t times, tn_tray tray, uint32_t child, uint32_t child_point)
+static bool add_point(front *f, const int64_t *value, const mpz_t plans, uint64_t times, tn_tray tray, uint32_t child,
+                      uint32_t child_point)
 {
     if (f->count == f->room) {
         size_t room = f->room * 2 + 16;

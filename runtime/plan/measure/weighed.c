@@ -128,7 +128,8 @@ static tn_status make_letters(tn_weighed *w, tn_error *error)
 
 static tn_status too_many(tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "the library with its measures passes the limit of %d states", STATES_MAX);
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "the library with its measures passes the limit of %d states",
+            STATES_MAX);
     tn_error_help(error, "give fewer trays with --trays, or measure fewer `matches` and `occurrences`");
     return TN_LIMIT;
 }
@@ -180,7 +181,8 @@ static bool step_measure(weight *m, uint32_t class, const uint32_t **words, tn_k
             return false;
     size_t size = *(*words)++;
     tn_key tail = {0};
-    bool ok = tn_summing_step(&m->summing, *words, size, m->summing.join.column[class], &tail, gain) && tn_key_push(next, (uint32_t)tail.size);
+    bool ok = tn_summing_step(&m->summing, *words, size, m->summing.join.column[class], &tail, gain) &&
+              tn_key_push(next, (uint32_t)tail.size);
     for (size_t i = 0; ok && i < tail.size; i++)
         ok = tn_key_push(next, tail.data[i]);
     free(tail.data);
@@ -226,7 +228,8 @@ static tn_status make_start(tn_weighed *w, tn_error *error)
     return ok ? finish_state(w, &state, error) : tn_fail_memory(error);
 }
 
-tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out, tn_error *error)
+tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out,
+                         tn_error *error)
 {
     tn_weighed *w = calloc(1, sizeof *w);
     if (!w)
@@ -340,7 +343,8 @@ static bool is_live(const tn_library *library, uint32_t state)
     return false;
 }
 
-tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain, tn_error *error)
+tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
+                          tn_error *error)
 {
     size_t size;
     tn_tray tray = w->first[letter];

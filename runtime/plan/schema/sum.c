@@ -183,7 +183,8 @@ static tn_status fill(tn_sum *sum, walk *w, tn_error *error)
         tn_sum_term *term = &sum->terms[i];
         *term = (tn_sum_term){.kind = (tn_sum_kind)record->kind, .part = record->part};
         mpq_set_str(w->factor, tn_text(sum->schema->module, record->factor), 10);
-        if (record->tally != TN_NO_RECORD && !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))
+        if (record->tally != TN_NO_RECORD &&
+            !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))
             return tn_fail_memory(error);
         for (tn_tray t = 0; t < numbers(sum, i); t++) {
             number(sum, w, i, t);

@@ -13,8 +13,8 @@
 
 typedef struct tn_sum_term {
     tn_sum_kind kind;
-    uint32_t part;  /* a rule function */
-    int64_t each;   /* steps of each place; singles: where `weight` is NULL */
+    uint32_t part;   /* a rule function */
+    int64_t each;    /* steps of each place; singles: where `weight` is NULL */
     int64_t *weight; /* [trays]: steps of each tray, or NULL */
 } tn_sum_term;
 

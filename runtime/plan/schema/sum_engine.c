@@ -27,7 +27,8 @@ static tn_status check_term(const tn_checker *checker, uint32_t schema, uint32_t
     tn_function_kind wanted = term->kind == TN_SUM_MATCHES ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE;
     if (!is_of(module, term->part, wanted, schema))
         return tn_refuse(checker, "term %u names a function of another kind or schema", index);
-    if (term->tally != TN_NO_RECORD && (term->kind != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
+    if (term->tally != TN_NO_RECORD &&
+        (term->kind != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
         return tn_refuse(checker, "term %u has a tally of another kind or schema", index);
     return TN_OK;
 }
@@ -57,8 +58,8 @@ static tn_status verify(const tn_checker *checker)
             status = tn_refuse(checker, "measure %zu names a sum of another schema", i);
     if (status != TN_OK)
         return status;
-    return tn_check_different(checker, &module->MEASURE_records->name, sizeof *module->MEASURE_records, module->MEASURE_count,
-                              "two measures have the same name");
+    return tn_check_different(checker, &module->MEASURE_records->name, sizeof *module->MEASURE_records,
+                              module->MEASURE_count, "two measures have the same name");
 }
 
 static const tn_function_record *function_of(const tn_checker *checker)
@@ -88,14 +89,16 @@ static tn_status check_summed(const tn_checker *checker, const tn_instruction *i
         if (term->kind == TN_SUM_MATCHES)
             return tn_refuse(checker, "sum %u is compared, and speaks of the whole plan", (unsigned)instruction->first);
         if (term->part >= checker->record)
-            return tn_refuse(checker, "sum %u has function %u, which is not a lower one", (unsigned)instruction->first, term->part);
+            return tn_refuse(checker, "sum %u has function %u, which is not a lower one", (unsigned)instruction->first,
+                             term->part);
     }
     return TN_OK;
 }
 
 static tn_status check_rational(const tn_checker *checker, const tn_instruction *instruction)
 {
-    return is_rational(checker->module, (tn_string)instruction->first) ? TN_OK : tn_refuse(checker, "a number that is none");
+    return is_rational(checker->module, (tn_string)instruction->first) ? TN_OK
+                                                                       : tn_refuse(checker, "a number that is none");
 }
 
 static tn_status check_extent(const tn_checker *checker, const tn_instruction *instruction)
