@@ -81,8 +81,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
 %type <expr> part tray_sum tray_term tray_signed tray_atom
-%type <list> params old_values number_cases pattern call_args
-%type <word> schema_from
+%type <list> params number_cases pattern call_args
 %type <node> number_item number_case
 
 %%
@@ -101,8 +100,8 @@ items
 
 item
     : use STRING                                { $$ = tn_ast_use_new(parse, @$, $2); }
-    | schema NAME doc schema_from OPEN_BRACE body CLOSE_BRACE
-                                                { $$ = tn_ast_schema_new(parse, @$, $2, $3, $4, $6); }
+    | schema NAME doc OPEN_BRACE body CLOSE_BRACE
+                                                { $$ = tn_ast_schema_new(parse, @$, $2, $3, $5); }
     | let NAME EQUAL expression                 { $$ = tn_ast_let_new(parse, @$, $2, $4); }
     | measure NAME doc using EQUAL additive     { $$ = tn_ast_measure_new(parse, @$, $2, $3, $4, $6); }
     | rule_head EQUAL expression                { $$ = tn_ast_rule_new(parse, @$, $1, $3); }
@@ -114,11 +113,6 @@ item
 
 let: LET                                        { yyerrok; };
 measure: MEASURE                                { yyerrok; };
-
-schema_from
-    : %empty                                    { $$ = NULL; }
-    | FROM NAME                                 { $$ = $2; }
-    ;
 
 use: USE                                        { yyerrok; };
 schema: SCHEMA                                  { yyerrok; };
@@ -180,11 +174,8 @@ role
     | ROLE NAME                                 { $$ = $2; }
     ;
 
-old_values: ELLIPSIS                            { $$ = tn_ast_one(tn_ast_value_new(parse, @$, tn_ast_word_new(parse, TN_WORD_OLD, @$, "...", 0), NULL, NULL, NULL)); };
-
 values
     : value                                     { $$ = tn_ast_one($1); }
-    | old_values BAR value                      { $$ = tn_ast_append($1, $3); }
     | values BAR value                          { $$ = tn_ast_append($1, $3); }
     ;
 

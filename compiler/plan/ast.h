@@ -33,7 +33,6 @@ typedef enum tn_word_kind {
     TN_WORD_DECIMAL, /* or a percentage */
     TN_WORD_RANGE,   /* in a specifier: `4'..8'` */
     TN_WORD_GROUP,   /* in a specifier: `(4' or 8')` */
-    TN_WORD_OLD,     /* `...`: the values that the field has in the schema that this one is made from */
 } tn_word_kind;
 
 /* A name, a number, a length, a string; in specifiers also `not`, comparison signs, ranges and groups. */
@@ -244,7 +243,7 @@ typedef struct tn_ast_body {
 
 typedef struct tn_ast_schema {
     tn_ast_top top;
-    const tn_ast_word *name, *doc, *from;
+    const tn_ast_word *name, *doc;
     tn_ast_body body;
 } tn_ast_schema;
 
@@ -387,7 +386,7 @@ void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, c
                        const tn_ast_word *doc, const tn_ast_word *role);
 void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values);
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        const tn_ast_word *from, tn_ast_body body);
+                        tn_ast_body body);
 void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases);
 void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray);
 tn_ast_body tn_ast_body_number(tn_ast_body body, void *number);

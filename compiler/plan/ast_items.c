@@ -56,13 +56,13 @@ void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast
 }
 
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        const tn_ast_word *from, tn_ast_body body)
+                        tn_ast_body body)
 {
     tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
     if (!schema || !name)
         return NULL;
-    *schema = (tn_ast_schema){
-        .top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .from = from, .body = body};
+    *schema =
+        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
     return schema;
 }
 

@@ -64,7 +64,6 @@ typedef struct tn_checked_schema {
     uint32_t forbid_count;
     tn_checked_number *numbers;
     uint32_t number_count;
-    struct tn_checked_schema *from; /* what it is made from, or NULL */
     int state;
     bool broken;          /* something of it was already reported */
     uint32_t index;       /* of its record */

@@ -115,13 +115,10 @@ static void check_number(tn_check *check, tn_checked_schema *schema, const tn_as
 
 void tn_check_numbers(tn_check *check, tn_checked_schema *schema)
 {
-    const tn_checked_schema *from = schema->from;
-    size_t room = schema->ast->body.numbers.count + (from ? from->number_count : 0);
+    size_t room = schema->ast->body.numbers.count;
     schema->numbers = TN_NEW_ARRAY(check->arena, tn_checked_number, room);
     if (!schema->numbers)
         return;
-    for (uint32_t n = 0; from && n < from->number_count; n++)
-        check_number(check, schema, from->numbers[n].ast);
     for (TN_EACH(const tn_ast_number, number, schema->ast->body.numbers)) {
         if (!tn_check_room(check, schema->number_count, TN_FIELDS_MAX, "`number`", number->node.span,
                            "declare fewer numbers"))

@@ -50,17 +50,6 @@ static bool condition_bound(const tn_expansion *expansion, const tn_ast_cond *co
     return bound;
 }
 
-/* Is the name that of a rule for a schema that this one is made from? It is checked anew for this one. */
-static bool is_older(const tn_check *check, const tn_checked_rule *rule)
-{
-    if (!rule->schema || !check->schema || rule->is_template)
-        return false;
-    for (const tn_checked_schema *s = check->schema->from; s; s = s->from)
-        if (s == rule->schema)
-            return true;
-    return false;
-}
-
 static tn_checked_rule *rule_named(const tn_expansion *expansion, const tn_ast_word *word)
 {
     const tn_checked_name *name = tn_names_get(&expansion->check->names, word->text);
@@ -73,7 +62,7 @@ static bool needs_expansion(const tn_expansion *expansion, const tn_ast_expr *ex
         return true;
     if (expr->kind == TN_EXPR_NAME || expr->kind == TN_EXPR_FIGURE) {
         const tn_checked_rule *rule = expr->kind == TN_EXPR_NAME ? rule_named(expansion, expr->name) : NULL;
-        if (tn_bound(expansion, expr->name).value || (rule && (rule->is_template || is_older(expansion->check, rule))))
+        if (tn_bound(expansion, expr->name).value || (rule && rule->is_template))
             return true;
     }
     for (TN_EACH(const tn_ast_item, item, expr->items))
@@ -429,8 +418,6 @@ static tn_ast_expr *expand_name(tn_expansion *expansion, const tn_ast_expr *expr
     tn_checked_rule *rule = rule_named(expansion, expr->name);
     if (rule && rule->is_template)
         return expand_call(expansion, expr);
-    if (rule && is_older(expansion->check, rule))
-        return name_of(expansion, expr, instance(expansion, expr, rule, tn_ast_empty()));
     return shallow(expansion, expr);
 }
 

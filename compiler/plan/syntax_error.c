@@ -127,6 +127,8 @@ static bool starts_expression(const char *found)
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
 static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
+    if (parse->schema_head && strcmp(found, "`from`") == 0)
+        return "a schema is not made from another one: write all its fields between `{` and `}`";
     if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
         return "inside tray(...) the items are separated by commas: all of them must be met";
     if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
