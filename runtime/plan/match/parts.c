@@ -24,26 +24,6 @@ static tn_status foreign(const reading *r, uint32_t offset)
     return status;
 }
 
-/* What the language has and parts have not: comparisons of sums, and calls of rules with parameters. */
-static tn_status unexplained(const reading *r, uint32_t offset, const char *what)
-{
-    tn_status status =
-        tn_fail(r->error, TN_INVALID, E_NO_PARTS, "a rule with %s is not explained, drawn or exported", what);
-    tn_error_help(r->error, "it can be matched, tested and counted; `tartan test` shows whether a plan meets it");
-    if (r->error)
-        r->error->code_offset = offset;
-    return status;
-}
-
-/* A call that is not of a rule is one of a rule with parameters, or part of a `symmetric` that has not been read. */
-static tn_status check_calls(const reading *r)
-{
-    for (uint32_t i = 0; i < r->parts->count; i++)
-        if (r->parts->parts[i].kind == TN_PART_RULE && r->parts->parts[i].rule == UINT32_MAX)
-            return unexplained(r, r->parts->parts[i].root, "a call of a rule with parameters");
-    return TN_OK;
-}
-
 static tn_status read_function(reading *r, uint32_t function);
 
 uint32_t tn_function_rule(const tn_module *module, uint32_t function)
@@ -132,6 +112,14 @@ static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
+/* Does the instruction go on with a comparison? `a <= b` is "not above", `in A..B` is two of them joined: the author
+ * wrote all of it in one place. */
+static bool goes_on(const reading *r, const tn_part *part, uint32_t offset)
+{
+    return part->kind == TN_PART_COMPARISON && !part->somewhere && tn_module_place(r->module, offset) &&
+           same_place(r->module, part->root, offset);
+}
+
 /* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own.
  */
 static tn_status read_symmetric(reading *r, uint32_t offset, uint32_t length)
@@ -163,6 +151,14 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
                                                                                   : foreign(r, offset);
     if (first->kind == TN_PART_KIND_COUNT || second->kind == TN_PART_KIND_COUNT)
         return foreign(r, offset);
+    if (goes_on(r, second, offset) && same_place(r->module, first->root, offset)) {
+        first->kind = TN_PART_COMPARISON;
+        first->first = TN_NO_PART;
+        first->child_count = 0;
+        extend(first, offset, length);
+        r->depth--;
+        return TN_OK;
+    }
     if (first->kind != kind || first->somewhere || !same_place(r->module, first->root, offset))
         return wrap(r, leaf(kind, offset, length), 2);
     extend(first, offset, length);
@@ -234,6 +230,10 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
     case TN_OP_OR:
         return read_joined(r, TN_PART_OR, offset, code->length);
     case TN_OP_NOT:
+        if (goes_on(r, top(r), offset)) {
+            extend(top(r), offset, code->length);
+            return TN_OK;
+        }
         return wrap(r, leaf(TN_PART_NOT, offset, code->length), 1);
     case TN_OP_SOMEWHERE:
         if (top(r)->somewhere)
@@ -261,7 +261,7 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
     case TN_OP_BELOW:
     case TN_OP_ZERO:
     case TN_OP_ABOVE:
-        return unexplained(r, offset, "a comparison of sums");
+        return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
     default:
         return foreign(r, offset);
     }
@@ -352,8 +352,6 @@ tn_status tn_parts_read(const tn_module *module, uint32_t function, tn_parts *pa
     tn_status status = read_rule(&r, function);
     if (status == TN_OK)
         status = number(&r);
-    if (status == TN_OK)
-        status = check_calls(&r);
     free(r.stack);
     return status;
 }
@@ -369,8 +367,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",      "rule",     "and", "or",          "not",  "neighbour",
-        "symmetric", "quantity", "sum", "occurrences", "many", "distance",
+        "tray",     "rule", "and",         "or",   "not",      "neighbour",  "symmetric",
+        "quantity", "sum",  "occurrences", "many", "distance", "comparison",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }
