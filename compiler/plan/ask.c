@@ -15,10 +15,10 @@ static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources 
 }
 
 tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions,
-                 tn_asked *asked, tn_error *error)
+                 tn_asked_for *asked, tn_error *error)
 {
     tn_ast_file *tree = NULL;
-    *asked = (tn_asked){.library = questions->library};
+    *asked = (tn_asked_for){.library = questions->library};
     asked->wheres = TN_NEW_ARRAY(arena, tn_ast_expr *, questions->where_count);
     tn_status status = asked->wheres ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < questions->where_count; i++) {

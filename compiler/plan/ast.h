@@ -136,11 +136,11 @@ typedef enum tn_expr_kind {
 } tn_expr_kind;
 
 /* Constants of sums: an exact rational with a dimension (amount.h). */
-typedef struct tn_amount {
+typedef struct tn_sum_amount {
     const char *value; /* "p/q" in nanometres to the power; NULL: not known */
     int power;         /* of a length: 0 a plain number, 1 a length, 2 an area, 3 a volume */
     bool any;          /* a literal 0: it fits every dimension */
-} tn_amount;
+} tn_sum_amount;
 
 struct tn_checked_rule;
 struct tn_checked_spec;
@@ -168,7 +168,7 @@ typedef struct tn_ast_expr {
     struct tn_checked_number *number; /* checked: figure: a number of the tray */
     const char *constant;             /* checked: figure: of a number that is written out */
     bool figure_good;                 /* checked: sum */
-    tn_amount figure_amount;          /* checked: sum: the dimension of what it adds up */
+    tn_sum_amount figure_amount;      /* checked: sum: the dimension of what it adds up */
     tn_ast_list tests;                /* checked: tray: comparisons of its numbers */
     bool resolved;                    /* checked: its name has been looked up */
     bool from_sum;                    /* checked: a condition on a sum, written out */

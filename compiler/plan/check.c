@@ -82,7 +82,7 @@ void tn_check_settle(tn_check *check)
 }
 
 tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
-                           const tn_asked *asked, tn_checked *result)
+                           const tn_asked_for *asked, tn_checked *result)
 {
     tn_check check = {.arena = arena, .diagnostics = diagnostics, .imports = imports, .asked = asked, .result = result};
     check.schemas.arena = check.names.arena = check.specs.arena = check.conditions.arena = check.calls.arena = arena;

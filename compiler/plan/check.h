@@ -192,20 +192,20 @@ typedef struct tn_checked {
 } tn_checked;
 
 /* Expressions that the command line gives: parsed. */
-typedef struct tn_asked {
+typedef struct tn_asked_for {
     const char *library; /* or NULL */
     tn_ast_expr **wheres;
     size_t where_count;
     tn_ast_list pattern;
     tn_span pattern_span;
     bool has_pattern;
-} tn_asked;
+} tn_asked_for;
 
 typedef struct tn_check {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
     const tn_imports *imports;
-    const tn_asked *asked;
+    const tn_asked_for *asked;
     tn_checked *result;
     tn_names schemas;     /* name -> tn_checked_schema */
     tn_names names;       /* name -> tn_checked_name */
@@ -231,11 +231,11 @@ typedef struct tn_check {
 
 /* Reads them as sources of their own, "--where" and "PATTERN"; what is wrong is reported there. */
 tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const tn_questions *questions,
-                 tn_asked *asked, tn_error *error);
+                 tn_asked_for *asked, tn_error *error);
 
 /* Checks everything. TN_MEMORY, else TN_OK: errors are in the diagnostics. */
 tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
-                           const tn_asked *asked, tn_checked *result);
+                           const tn_asked_for *asked, tn_checked *result);
 
 /* ---- check_names.c */
 typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want; /* RULE: or a measure */

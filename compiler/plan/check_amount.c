@@ -53,13 +53,13 @@ static int read_unit(const char *unit, mpq_t number)
     return 0;
 }
 
-tn_amount tn_amount_read(tn_check *check, const tn_ast_word *word)
+tn_sum_amount tn_amount_read(tn_check *check, const tn_ast_word *word)
 {
-    tn_amount amount = {0};
+    tn_sum_amount amount = {0};
     if (word->broken)
         return amount;
     if (word->exact)
-        return (tn_amount){.value = word->exact, .power = word->power};
+        return (tn_sum_amount){.value = word->exact, .power = word->power};
     mpq_t number;
     mpq_init(number);
     size_t digits = strspn(word->text, "0123456789.");
@@ -127,8 +127,8 @@ const char *tn_power_name(int power, char *text, size_t size)
     return text;
 }
 
-bool tn_same_power(tn_check *check, tn_amount left, tn_span left_span, tn_amount right, tn_span right_span,
-                   const char *verb, tn_amount *both)
+bool tn_same_power(tn_check *check, tn_sum_amount left, tn_span left_span, tn_sum_amount right, tn_span right_span,
+                   const char *verb, tn_sum_amount *both)
 {
     *both = left.any ? right : left;
     if (left.any || right.any || left.power == right.power)
@@ -171,12 +171,12 @@ static void help_figure(tn_check *check, const tn_checked_schema *schema, tn_dia
         tn_help(check->diagnostics, d, "count trays with `quantity(...)`, or give the schema a `number`");
 }
 
-static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_amount *amount)
+static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_sum_amount *amount)
 {
     const char *name = figure->name->text;
     figure->field = tn_field_find(schema, name);
     const tn_checked_field *field = figure->field == TN_NONE ? NULL : &schema->fields[figure->field];
-    *amount = (tn_amount){.power = 1};
+    *amount = (tn_sum_amount){.power = 1};
     if (field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE))
         return tn_check_detail(check, field, figure->detail);
     for (uint32_t n = 0; !field && n < schema->number_count; n++) {
@@ -214,16 +214,16 @@ static bool power_fits(tn_check *check, const tn_ast_expr *expr, int power)
     return false;
 }
 
-static bool check_two(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_amount *amount)
+static bool check_two(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_sum_amount *amount)
 {
     tn_ast_expr *left = (tn_ast_expr *)figure->parts.first, *right = (tn_ast_expr *)figure->parts.last;
-    tn_amount a, b;
+    tn_sum_amount a, b;
     bool good = tn_check_figure(check, schema, left, &a);
     good &= tn_check_figure(check, schema, right, &b);
     if (!good)
         return false;
     if (figure->kind == TN_EXPR_TIMES || figure->kind == TN_EXPR_OVER)
-        *amount = (tn_amount){.power = figure->kind == TN_EXPR_TIMES ? a.power + b.power : a.power - b.power};
+        *amount = (tn_sum_amount){.power = figure->kind == TN_EXPR_TIMES ? a.power + b.power : a.power - b.power};
     else if (!tn_same_power(check, a, left->node.span, b, right->node.span,
                             figure->kind == TN_EXPR_MINUS  ? "taken from"
                             : figure->kind == TN_EXPR_PLUS ? "added to"
@@ -240,9 +240,9 @@ static bool check_two(tn_check *check, const tn_checked_schema *schema, tn_ast_e
     return power_fits(check, figure, amount->power);
 }
 
-bool tn_check_figure(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_amount *amount)
+bool tn_check_figure(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_sum_amount *amount)
 {
-    *amount = (tn_amount){0};
+    *amount = (tn_sum_amount){0};
     switch (figure->kind) {
     case TN_EXPR_NUMBER:
         *amount = tn_amount_read(check, figure->name);

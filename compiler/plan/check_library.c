@@ -319,7 +319,7 @@ static void check_pattern(tn_check *check)
 
 void tn_check_asked(tn_check *check)
 {
-    const tn_asked *asked = check->asked;
+    const tn_asked_for *asked = check->asked;
     tn_checked_library *library = asked->where_count || asked->has_pattern ? asked_library(check) : NULL;
     check->result->asked = library;
     if (!library || !library->schema)

@@ -15,9 +15,9 @@ static bool uses_number(const tn_ast_expr *figure)
 }
 
 static bool check_case(tn_check *check, tn_checked_schema *schema, tn_checked_number *number,
-                       const tn_ast_number_case *c, size_t i, tn_amount *all)
+                       const tn_ast_number_case *c, size_t i, tn_sum_amount *all)
 {
-    tn_amount amount;
+    tn_sum_amount amount;
     number->specs[i] = c->tray ? tn_check_spec(check, schema, c->tray) : tn_check_any(check, schema, c->node.span);
     if (!tn_check_figure(check, schema, c->sum, &amount))
         return false;
@@ -98,7 +98,7 @@ static bool name_is_new(tn_check *check, tn_checked_schema *schema, const tn_ast
 static void check_number(tn_check *check, tn_checked_schema *schema, const tn_ast_number *ast)
 {
     tn_checked_number number = {.ast = ast, .name = ast->name->text, .doc = ast->doc ? ast->doc->text : NULL};
-    tn_amount all = {0};
+    tn_sum_amount all = {0};
     number.specs = TN_NEW_ARRAY(check->arena, tn_checked_spec *, ast->cases.count);
     if (!number.specs)
         return;

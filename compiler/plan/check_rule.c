@@ -105,7 +105,7 @@ bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_as
 /* A sum of one field with a condition; other sums are comparisons (check_comparison.c). */
 static void check_sum(tn_check *check, tn_ast_expr *sum)
 {
-    tn_amount amount;
+    tn_sum_amount amount;
     sum->field = tn_field_find(check->schema, sum->name->text);
     bool lengths = tn_check_figure(check, check->schema, sum->figure, &amount);
     if (!sum->parts.first)

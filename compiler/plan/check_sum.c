@@ -86,7 +86,7 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
 typedef struct sum {
     tn_checked_term *terms;
     size_t count;
-    tn_amount constant;
+    tn_sum_amount constant;
 } sum;
 
 static bool add_term(tn_check *check, sum *to, tn_checked_term term)
@@ -125,7 +125,7 @@ static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int 
     return add_term(check, out, term);
 }
 
-static bool scale(tn_check *check, sum *s, tn_expr_kind kind, tn_amount by)
+static bool scale(tn_check *check, sum *s, tn_expr_kind kind, tn_sum_amount by)
 {
     s->constant.value = tn_amount_apply(check, kind, s->constant.value, by.value);
     s->constant.power += kind == TN_EXPR_TIMES ? by.power : -by.power;
@@ -180,7 +180,7 @@ static bool add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, 
 {
     tn_span left = ((const tn_ast_expr *)expr->parts.first)->node.span,
             right = ((const tn_ast_expr *)expr->parts.last)->node.span;
-    tn_amount both;
+    tn_sum_amount both;
     if (!tn_same_power(check, a->constant, left, b->constant, right, verb, &both))
         return false;
     *out = (sum){.constant = both};
@@ -250,7 +250,7 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
     case TN_EXPR_NEGATIVE:
         if (!eval(check, (tn_ast_expr *)expr->parts.first, out))
             return false;
-        return scale(check, out, TN_EXPR_TIMES, (tn_amount){.value = "-1"});
+        return scale(check, out, TN_EXPR_TIMES, (tn_sum_amount){.value = "-1"});
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:

@@ -110,8 +110,8 @@ static bool check_value(tn_check *check, const tn_ast_case *ast, const tn_checke
     tn_checked_sum *sum = check->diagnostics->error_count == errors ? tn_check_sum(check, value) : NULL;
     if (!sum || !measure->sum)
         return false;
-    tn_amount wanted = {.value = sum->constant, .power = sum->power, .any = sum->any},
-              of = {.power = measure->sum->power}, both;
+    tn_sum_amount wanted = {.value = sum->constant, .power = sum->power, .any = sum->any},
+                  of = {.power = measure->sum->power}, both;
     if (sum->count > 0) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_RULE_OR_NUMBER, value->node.span, "a constant has to stand here");

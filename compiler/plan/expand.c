@@ -11,21 +11,21 @@
 
 enum { CALLS_DEEP = 64 };
 
-tn_binding tn_bound(const tn_expansion *expansion, const tn_ast_word *word)
+tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
 {
-    for (const tn_binding *b = expansion->bindings; b; b = b->outer)
+    for (const tn_bound_name *b = expansion->bindings; b; b = b->outer)
         if (strcmp(b->word->text, word->text) == 0)
             return *b;
     const tn_check *check = expansion->check;
     const tn_checked_name *name = check->has_lets ? tn_names_get(&check->names, word->text) : NULL;
     if (!name || !name->rule || !name->rule->is_let || !tn_import_reaches(check->imports, expansion->unit, name->unit))
-        return (tn_binding){0};
-    return (tn_binding){.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+        return (tn_bound_name){0};
+    return (tn_bound_name){.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
 }
 
 /* ---- does anything have to be written out? */
 
-static bool words_bound(const tn_expansion *expansion, const tn_ast_item *item)
+static bool words_bound(const tn_rule_expansion *expansion, const tn_ast_item *item)
 {
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
         for (TN_EACH(const tn_ast_word, word, alternative->words))
@@ -35,12 +35,12 @@ static bool words_bound(const tn_expansion *expansion, const tn_ast_item *item)
     return false;
 }
 
-static bool operand_bound(const tn_expansion *expansion, const tn_ast_word *word)
+static bool operand_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
 {
     return word && word->kind == TN_WORD_NAME && tn_bound(expansion, word).value;
 }
 
-static bool condition_bound(const tn_expansion *expansion, const tn_ast_cond *cond)
+static bool condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *cond)
 {
     bool bound = operand_bound(expansion, cond->left) || operand_bound(expansion, cond->right) ||
                  operand_bound(expansion, cond->modulus) || operand_bound(expansion, cond->range.low) ||
@@ -50,13 +50,13 @@ static bool condition_bound(const tn_expansion *expansion, const tn_ast_cond *co
     return bound;
 }
 
-static tn_checked_rule *rule_named(const tn_expansion *expansion, const tn_ast_word *word)
+static tn_checked_rule *rule_named(const tn_rule_expansion *expansion, const tn_ast_word *word)
 {
     const tn_checked_name *name = tn_names_get(&expansion->check->names, word->text);
     return name ? name->rule : NULL;
 }
 
-static bool needs_expansion(const tn_expansion *expansion, const tn_ast_expr *expr)
+static bool needs_expansion(const tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_CALL || expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH)
         return true;
@@ -80,9 +80,9 @@ static bool needs_expansion(const tn_expansion *expansion, const tn_ast_expr *ex
 
 /* ---- copies */
 
-static tn_ast_expr *expand(tn_expansion *expansion, const tn_ast_expr *expr);
+static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr);
 
-static tn_ast_expr *shallow(tn_expansion *expansion, const tn_ast_expr *expr)
+static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_ast_expr *copy = TN_NEW(expansion->check->arena, tn_ast_expr);
     if (!copy)
@@ -101,7 +101,7 @@ static tn_ast_expr *shallow(tn_expansion *expansion, const tn_ast_expr *expr)
     return copy;
 }
 
-static tn_ast_expr *broken(tn_expansion *expansion, const tn_ast_expr *expr)
+static tn_ast_expr *broken(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_ast_expr *copy = shallow(expansion, expr);
     if (copy) {
@@ -111,7 +111,7 @@ static tn_ast_expr *broken(tn_expansion *expansion, const tn_ast_expr *expr)
     return copy;
 }
 
-static tn_ast_list expand_parts(tn_expansion *expansion, tn_ast_list parts)
+static tn_ast_list expand_parts(tn_rule_expansion *expansion, tn_ast_list parts)
 {
     tn_ast_list made = tn_ast_empty();
     for (TN_EACH(const tn_ast_expr, part, parts))
@@ -129,8 +129,8 @@ static bool count_expansion(tn_check *check, tn_span span)
 /* ---- quantifiers */
 
 /* What `v` stands for as one value of a field. */
-static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_checked_field *field,
-                               uint32_t v)
+static tn_ast_expr *value_expr(tn_rule_expansion *expansion, const tn_ast_expr *quantifier,
+                               const tn_checked_field *field, uint32_t v)
 {
     tn_arena *arena = expansion->check->arena;
     const tn_checked_value *value = &field->values[v];
@@ -153,7 +153,7 @@ static tn_ast_expr *value_expr(tn_expansion *expansion, const tn_ast_expr *quant
 }
 
 /* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
-static tn_ast_expr *joined(tn_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
+static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
 {
     tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE,
                  idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
@@ -182,7 +182,7 @@ static tn_ast_expr *joined(tn_expansion *expansion, tn_expr_kind kind, const tn_
     return result;
 }
 
-static bool bound_names_good(tn_expansion *expansion, const tn_ast_expr *quantifier)
+static bool bound_names_good(tn_rule_expansion *expansion, const tn_ast_expr *quantifier)
 {
     bool good = true;
     for (TN_EACH(const tn_ast_word, word, quantifier->names))
@@ -191,7 +191,7 @@ static bool bound_names_good(tn_expansion *expansion, const tn_ast_expr *quantif
     return good;
 }
 
-static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, const tn_ast_word *name,
+static bool quantify(tn_rule_expansion *expansion, const tn_ast_expr *quantifier, const tn_ast_word *name,
                      const tn_checked_field *field, tn_ast_list *parts)
 {
     if (!name) {
@@ -200,10 +200,10 @@ static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, con
         *parts = tn_ast_append(*parts, expand(expansion, (const tn_ast_expr *)quantifier->parts.first));
         return true;
     }
-    const tn_binding *outer = expansion->bindings;
+    const tn_bound_name *outer = expansion->bindings;
     bool good = true;
     for (uint32_t v = 0; good && v < field->value_count; v++) {
-        tn_binding binding = {
+        tn_bound_name binding = {
             .outer = outer, .word = name, .value = value_expr(expansion, quantifier, field, v), .is_value = true};
         expansion->bindings = &binding;
         good = binding.value && quantify(expansion, quantifier, (const tn_ast_word *)name->node.next, field, parts);
@@ -212,7 +212,7 @@ static bool quantify(tn_expansion *expansion, const tn_ast_expr *quantifier, con
     return good;
 }
 
-static tn_ast_expr *expand_quantifier(tn_expansion *expansion, const tn_ast_expr *expr)
+static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_check *check = expansion->check;
     const tn_checked_schema *schema = check->schema;
@@ -232,7 +232,7 @@ static tn_ast_expr *expand_quantifier(tn_expansion *expansion, const tn_ast_expr
 }
 
 /* Both sides are bound values: decided at once. */
-static tn_ast_expr *decide(tn_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left,
+static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left,
                            const tn_ast_expr *right)
 {
     bool lengths = left->kind == TN_EXPR_NUMBER && right->kind == TN_EXPR_NUMBER;
@@ -259,7 +259,7 @@ static tn_ast_expr *decide(tn_expansion *expansion, const tn_ast_expr *expr, con
 
 /* ---- calls */
 
-static tn_checked_rule *new_rule(tn_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of)
+static tn_checked_rule *new_rule(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of)
 {
     tn_check *check = expansion->check;
     tn_checked *result = check->result;
@@ -288,7 +288,7 @@ static tn_checked_rule *new_rule(tn_expansion *expansion, const tn_ast_expr *cal
     return rule;
 }
 
-static void report_circle(tn_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *of)
+static void report_circle(tn_rule_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *of)
 {
     tn_check *check = expansion->check;
     tn_diagnostic *d =
@@ -298,7 +298,7 @@ static void report_circle(tn_expansion *expansion, const tn_ast_expr *call, cons
 }
 
 /* The rule made for the template (or older rule) with these arguments; NULL: reported. */
-static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of,
+static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of,
                                  tn_ast_list arguments)
 {
     tn_check *check = expansion->check;
@@ -329,12 +329,12 @@ static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *cal
     tn_names_put(&check->calls, key, rule);
     rule->outer = check->open;
     check->open = rule;
-    tn_binding bindings[TN_PARAMETERS_MAX];
+    tn_bound_name bindings[TN_PARAMETERS_MAX];
     size_t count = 0;
-    tn_expansion inner = {.check = check, .unit = of->unit};
+    tn_rule_expansion inner = {.check = check, .unit = of->unit};
     tn_ast_expr *argument = (tn_ast_expr *)arguments.first;
     for (TN_EACH(const tn_ast_word, word, of->ast->params)) {
-        bindings[count] = (tn_binding){.outer = inner.bindings, .word = word, .value = argument};
+        bindings[count] = (tn_bound_name){.outer = inner.bindings, .word = word, .value = argument};
         inner.bindings = &bindings[count++];
         argument = (tn_ast_expr *)argument->node.next;
     }
@@ -345,7 +345,7 @@ static tn_checked_rule *instance(tn_expansion *expansion, const tn_ast_expr *cal
     return rule;
 }
 
-static tn_ast_expr *name_of(tn_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *rule)
+static tn_ast_expr *name_of(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *rule)
 {
     tn_ast_expr *name = shallow(expansion, call);
     if (!name || !rule)
@@ -356,7 +356,8 @@ static tn_ast_expr *name_of(tn_expansion *expansion, const tn_ast_expr *call, tn
     return name;
 }
 
-static bool arguments_fit(tn_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *rule, size_t given)
+static bool arguments_fit(tn_rule_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *rule,
+                          size_t given)
 {
     tn_check *check = expansion->check;
     size_t wanted = rule->ast->params.count;
@@ -376,7 +377,7 @@ static bool arguments_fit(tn_expansion *expansion, const tn_ast_expr *call, cons
 }
 
 /* `name(...)` or `name` of a rule with parameters. */
-static tn_ast_expr *expand_call(tn_expansion *expansion, const tn_ast_expr *call)
+static tn_ast_expr *expand_call(tn_rule_expansion *expansion, const tn_ast_expr *call)
 {
     tn_check *check = expansion->check;
     size_t unit = check->unit;
@@ -390,7 +391,7 @@ static tn_ast_expr *expand_call(tn_expansion *expansion, const tn_ast_expr *call
 }
 
 /* Is it a value of a field, or alternatives: words of a specifier? */
-static bool is_word_value(const tn_expansion *expansion, const tn_ast_expr *value)
+static bool is_word_value(const tn_rule_expansion *expansion, const tn_ast_expr *value)
 {
     if (value->kind == TN_EXPR_NAME)
         return !rule_named(expansion, value->name);
@@ -400,9 +401,9 @@ static bool is_word_value(const tn_expansion *expansion, const tn_ast_expr *valu
     return words;
 }
 
-static tn_ast_expr *expand_name(tn_expansion *expansion, const tn_ast_expr *expr)
+static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
-    tn_binding bound = tn_bound(expansion, expr->name);
+    tn_bound_name bound = tn_bound(expansion, expr->name);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
         tn_check *check = expansion->check;
         tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
@@ -411,8 +412,8 @@ static tn_ast_expr *expand_name(tn_expansion *expansion, const tn_ast_expr *expr
         return broken(expansion, expr);
     }
     if (bound.value) {
-        tn_expansion none = {.check = expansion->check,
-                             .unit = expansion->unit}; /* what is bound is written out already */
+        tn_rule_expansion none = {.check = expansion->check,
+                                  .unit = expansion->unit}; /* what is bound is written out already */
         return expand(&none, bound.value);
     }
     tn_checked_rule *rule = rule_named(expansion, expr->name);
@@ -421,16 +422,16 @@ static tn_ast_expr *expand_name(tn_expansion *expansion, const tn_ast_expr *expr
     return shallow(expansion, expr);
 }
 
-static const tn_ast_expr *bound_value(const tn_expansion *expansion, const tn_ast_node *node)
+static const tn_ast_expr *bound_value(const tn_rule_expansion *expansion, const tn_ast_node *node)
 {
     const tn_ast_expr *expr = (const tn_ast_expr *)node;
     if (expr->kind != TN_EXPR_NAME)
         return NULL;
-    tn_binding bound = tn_bound(expansion, expr->name);
+    tn_bound_name bound = tn_bound(expansion, expr->name);
     return bound.value && bound.is_value ? bound.value : NULL;
 }
 
-static tn_ast_expr *expand(tn_expansion *expansion, const tn_ast_expr *expr)
+static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     if (expr->rule && expr->rule->hidden) /* written out already */
         return shallow(expansion, expr);
@@ -450,10 +451,10 @@ static tn_ast_expr *expand(tn_expansion *expansion, const tn_ast_expr *expr)
         break;
     }
     case TN_EXPR_FIGURE: {
-        tn_binding bound = expr->detail ? (tn_binding){0} : tn_bound(expansion, expr->name);
+        tn_bound_name bound = expr->detail ? (tn_bound_name){0} : tn_bound(expansion, expr->name);
         if (!bound.value)
             break;
-        tn_expansion none = {.check = expansion->check, .unit = expansion->unit};
+        tn_rule_expansion none = {.check = expansion->check, .unit = expansion->unit};
         return expand(&none, bound.value);
     }
     default:
@@ -477,14 +478,14 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let)
     if (let->meaning || let->state)
         return let->meaning;
     let->state = 1; /* a circle through itself ends here, without a value */
-    tn_expansion expansion = {.check = check, .unit = let->unit};
+    tn_rule_expansion expansion = {.check = check, .unit = let->unit};
     let->meaning = expand(&expansion, let->ast->body);
     return let->meaning;
 }
 
 void tn_expand(tn_check *check, tn_ast_expr **expr)
 {
-    tn_expansion expansion = {.check = check, .unit = check->unit};
+    tn_rule_expansion expansion = {.check = check, .unit = check->unit};
     if (!needs_expansion(&expansion, *expr))
         return;
     tn_ast_expr *made = expand(&expansion, *expr);

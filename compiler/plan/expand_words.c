@@ -5,7 +5,7 @@
 #include "compiler/plan/amount.h"
 #include "compiler/plan/expand.h"
 
-static void report_not_values(tn_expansion *expansion, const tn_ast_expr *value, const tn_ast_word *use)
+static void report_not_values(tn_rule_expansion *expansion, const tn_ast_expr *value, const tn_ast_word *use)
 {
     tn_diagnostics *diagnostics = expansion->check->diagnostics;
     tn_diagnostic *d = tn_report(diagnostics, E_BAD_ARGUMENT, value->node.span, "values of a field are needed here");
@@ -13,7 +13,7 @@ static void report_not_values(tn_expansion *expansion, const tn_ast_expr *value,
     tn_help(diagnostics, d, "give a value such as `dense`, `4'`, `4' or 8'` or `not great`");
 }
 
-static tn_ast_word *copy_word(tn_expansion *expansion, const tn_ast_word *word)
+static tn_ast_word *copy_word(tn_rule_expansion *expansion, const tn_ast_word *word)
 {
     tn_ast_word *copy = TN_NEW(expansion->check->arena, tn_ast_word);
     if (!copy)
@@ -24,7 +24,7 @@ static tn_ast_word *copy_word(tn_expansion *expansion, const tn_ast_word *word)
 }
 
 /* The words of one alternative that an expression stands for: a value, or `not` a value. */
-static bool words_of(tn_expansion *expansion, const tn_ast_expr *value, tn_ast_list *words)
+static bool words_of(tn_rule_expansion *expansion, const tn_ast_expr *value, tn_ast_list *words)
 {
     tn_check *check = expansion->check;
     switch (value->kind) {
@@ -51,7 +51,7 @@ static bool words_of(tn_expansion *expansion, const tn_ast_expr *value, tn_ast_l
 }
 
 /* A word in parentheses: the alternatives that an `or` stands for. */
-static tn_ast_word *group_of(tn_expansion *expansion, const tn_ast_expr *value)
+static tn_ast_word *group_of(tn_rule_expansion *expansion, const tn_ast_expr *value)
 {
     tn_arena *arena = expansion->check->arena;
     tn_ast_word *word = TN_NEW(arena, tn_ast_word);
@@ -78,7 +78,7 @@ static bool constant_kind(const tn_ast_expr *value)
            value->kind == TN_EXPR_OVER || value->kind == TN_EXPR_NEGATIVE;
 }
 
-static void put_value(tn_expansion *expansion, const tn_ast_word *use, tn_ast_expr *value, tn_ast_list *words)
+static void put_value(tn_rule_expansion *expansion, const tn_ast_word *use, tn_ast_expr *value, tn_ast_list *words)
 {
     if (constant_kind(value)) {
         const tn_ast_word *word = tn_expand_constant(expansion, value, use->node.span);
@@ -92,13 +92,13 @@ static void put_value(tn_expansion *expansion, const tn_ast_word *use, tn_ast_ex
         report_not_values(expansion, value, use);
 }
 
-static tn_ast_item *expand_item(tn_expansion *expansion, const tn_ast_item *item);
+static tn_ast_item *expand_item(tn_rule_expansion *expansion, const tn_ast_item *item);
 
-static tn_ast_list expand_words(tn_expansion *expansion, tn_ast_list words)
+static tn_ast_list expand_words(tn_rule_expansion *expansion, tn_ast_list words)
 {
     tn_ast_list made = tn_ast_empty();
     for (TN_EACH(const tn_ast_word, word, words)) {
-        tn_binding bound = word->kind == TN_WORD_NAME ? tn_bound(expansion, word) : (tn_binding){0};
+        tn_bound_name bound = word->kind == TN_WORD_NAME ? tn_bound(expansion, word) : (tn_bound_name){0};
         if (bound.value) {
             put_value(expansion, word, bound.value, &made);
             continue;
@@ -111,7 +111,7 @@ static tn_ast_list expand_words(tn_expansion *expansion, tn_ast_list words)
     return made;
 }
 
-static tn_ast_item *expand_item(tn_expansion *expansion, const tn_ast_item *item)
+static tn_ast_item *expand_item(tn_rule_expansion *expansion, const tn_ast_item *item)
 {
     tn_ast_item *copy = TN_NEW(expansion->check->arena, tn_ast_item);
     if (!copy)
@@ -130,7 +130,7 @@ static tn_ast_item *expand_item(tn_expansion *expansion, const tn_ast_item *item
     return copy;
 }
 
-tn_ast_list tn_expand_items(tn_expansion *expansion, tn_ast_list items)
+tn_ast_list tn_expand_items(tn_rule_expansion *expansion, tn_ast_list items)
 {
     tn_ast_list made = tn_ast_empty();
     for (TN_EACH(const tn_ast_item, item, items)) {
@@ -143,12 +143,12 @@ tn_ast_list tn_expand_items(tn_expansion *expansion, tn_ast_list items)
 
 /* ---- conditions */
 
-const tn_ast_word *tn_expand_constant(tn_expansion *expansion, tn_ast_expr *value, tn_span place)
+const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr *value, tn_span place)
 {
     tn_check *check = expansion->check;
     if (value->kind == TN_EXPR_NUMBER)
         return value->name;
-    tn_amount amount = {0};
+    tn_sum_amount amount = {0};
     tn_ast_word *word = TN_NEW(check->arena, tn_ast_word);
     if (!word)
         return NULL;
@@ -175,11 +175,11 @@ const tn_ast_word *tn_expand_constant(tn_expansion *expansion, tn_ast_expr *valu
     return word;
 }
 
-static const tn_ast_word *expand_operand(tn_expansion *expansion, const tn_ast_word *word)
+static const tn_ast_word *expand_operand(tn_rule_expansion *expansion, const tn_ast_word *word)
 {
     if (!word || word->kind != TN_WORD_NAME)
         return word;
-    tn_binding bound = tn_bound(expansion, word);
+    tn_bound_name bound = tn_bound(expansion, word);
     if (!bound.value)
         return word;
     const tn_ast_word *constant = tn_expand_constant(expansion, bound.value, word->node.span);
@@ -193,7 +193,7 @@ static const tn_ast_word *expand_operand(tn_expansion *expansion, const tn_ast_w
     return broken;
 }
 
-tn_ast_cond *tn_expand_condition(tn_expansion *expansion, const tn_ast_cond *cond)
+tn_ast_cond *tn_expand_condition(tn_rule_expansion *expansion, const tn_ast_cond *cond)
 {
     tn_ast_cond *copy = TN_NEW(expansion->check->arena, tn_ast_cond);
     if (!copy)

@@ -220,7 +220,7 @@ static void add_pending(tn_summing *summing, uint32_t term, uint32_t set, int64_
     }
     if (summing->pending_size == summing->pending_capacity) {
         size_t capacity = summing->pending_capacity ? summing->pending_capacity * 2 : 32;
-        tn_pending *pending = realloc(summing->pending, capacity * sizeof *pending);
+        tn_summing_pending *pending = realloc(summing->pending, capacity * sizeof *pending);
         if (!pending) {
             summing->failed = true;
             return;
@@ -228,12 +228,12 @@ static void add_pending(tn_summing *summing, uint32_t term, uint32_t set, int64_
         summing->pending = pending;
         summing->pending_capacity = capacity;
     }
-    summing->pending[summing->pending_size++] = (tn_pending){term, set, steps};
+    summing->pending[summing->pending_size++] = (tn_summing_pending){term, set, steps};
 }
 
 static int compare_pending(const void *left, const void *right)
 {
-    const tn_pending *a = left, *b = right;
+    const tn_summing_pending *a = left, *b = right;
     if (a->term != b->term)
         return a->term < b->term ? -1 : 1;
     return (a->set > b->set) - (a->set < b->set);
@@ -241,7 +241,7 @@ static int compare_pending(const void *left, const void *right)
 
 static bool write_pending(tn_summing *summing, tn_key *next)
 {
-    tn_pending *pending = summing->pending;
+    tn_summing_pending *pending = summing->pending;
     if (summing->pending_size > 1)
         qsort(pending, summing->pending_size, sizeof *pending, compare_pending);
     for (size_t i = 0, j; i < summing->pending_size; i = j) {

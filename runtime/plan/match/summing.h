@@ -17,10 +17,10 @@ typedef struct tn_summing_term {
     int64_t *weight; /* [columns]: steps of a place that the column's tray makes */
 } tn_summing_term;
 
-typedef struct tn_pending {
+typedef struct tn_summing_pending {
     uint32_t term, set;
     int64_t steps;
-} tn_pending;
+} tn_summing_pending;
 
 typedef struct tn_summing {
     tn_join join;
@@ -29,7 +29,7 @@ typedef struct tn_summing {
     tn_summing_term *terms; /* the others */
     uint32_t count;
     int64_t most_up, most_down; /* by how much a tray can raise or lower the sum, both at least 0 */
-    tn_pending *pending;
+    tn_summing_pending *pending;
     size_t pending_size, pending_capacity;
     uint64_t effort;
     bool failed;
