@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "driver/open/digits.h"
-#include "runtime/base/rational.h"
+#include "runtime/number/rational.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/distribution.h"
 

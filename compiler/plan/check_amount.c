@@ -4,7 +4,7 @@
 #include "compiler/plan/amount.h"
 #include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
-#include "runtime/base/rational.h"
+#include "runtime/number/rational.h"
 
 enum { POWER_MAX = 6 }; /* of a part of a sum, either sign */
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/length.h"
-#include "runtime/base/rational.h"
+#include "runtime/number/rational.h"
 
 enum { DIGITS = 12 }; /* significant, of a decimal */
 

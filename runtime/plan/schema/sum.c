@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/rational.h"
 #include "runtime/module/code.h"
+#include "runtime/number/rational.h"
 
 /* ---- what a tray counts */
 

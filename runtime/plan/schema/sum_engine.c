@@ -1,8 +1,8 @@
 /* Verifies and lists sums, their terms and measures, and the code that says what a tray counts. */
 #include <string.h>
 
-#include "runtime/base/rational.h"
 #include "runtime/module/engine.h"
+#include "runtime/number/rational.h"
 
 static bool is_rational(const tn_module *module, tn_string text)
 {

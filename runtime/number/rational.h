@@ -1,6 +1,6 @@
 /* Exact rational numbers as texts: what sums of the plan language are made of. GMP's mpq_t holds them. */
-#ifndef TARTAN_BASE_RATIONAL_H
-#define TARTAN_BASE_RATIONAL_H
+#ifndef TARTAN_NUMBER_RATIONAL_H
+#define TARTAN_NUMBER_RATIONAL_H
 
 #include <gmp.h>
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* Exact rational numbers as texts. */
-#include "runtime/base/rational.h"
+#include "runtime/number/rational.h"
 
 #include <stdlib.h>
 #include <string.h>
