@@ -105,7 +105,7 @@ static tn_genome *find_seeds(const bench *b, const tn_grammar *grammar)
 {
     tn_genome *seeds = calloc(POPULATION, sizeof *seeds);
     tn_mapper *mapper = tn_mapper_new(grammar);
-    tn_map_options options = tn_map_options_of(grammar);
+    tn_mapping_options options = tn_mapping_options_of(grammar);
     tn_tree_options tree = {TN_TREE_GROW, 6, options.max_depth, 100000, 2, 2000};
     tn_analysis analysis;
     tn_error error;
@@ -118,7 +118,7 @@ static tn_genome *find_seeds(const bench *b, const tn_grammar *grammar)
         sample one = {0};
         tree.depth = 3 + i % 6;
         if (tn_random_tree(grammar, &analysis, 0, 1, &tree, &chance, &seeds[found], &error) != TN_OK ||
-            tn_map_genome(mapper, seeds[found].codons, seeds[found].count, &options, &mapping, &error) != TN_OK)
+            tn_mapper_derive(mapper, seeds[found].codons, seeds[found].count, &options, &mapping, &error) != TN_OK)
             stop(error.message);
         if (!mapping.valid)
             continue;
@@ -144,7 +144,7 @@ static void breed(const tn_grammar *grammar, const tn_genome *seeds, const tn_ev
     tn_error error;
     settings.population = POPULATION;
     settings.threads = threads;
-    settings.mapping = tn_map_options_of(grammar);
+    settings.mapping = tn_mapping_options_of(grammar);
     settings.seeds = seeds;
     settings.seed_count = POPULATION;
     spent began = begin();
@@ -173,7 +173,7 @@ static tn_status keep_and_score(void *context, unsigned thread, const char *sent
 
 static void time_crew(bench *b, unsigned threads, tn_crew_work *work, spent *took)
 {
-    tn_crew *crew = tn_crew_new(threads);
+    tn_crew *crew = tn_crew_new(threads, NULL);
     if (!crew)
         stop("out of memory");
     spent began = begin();

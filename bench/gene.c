@@ -39,7 +39,7 @@ static void bench_mapping(const char *name, const char *path)
     tn_grammar *grammar = load(path);
     tn_mapper *mapper = tn_mapper_new(grammar);
     uint64_t *codons = malloc(sizeof *codons * GENOMES * CODONS), used = 0, valid = 0;
-    tn_map_options options = tn_map_options_of(grammar);
+    tn_mapping_options options = tn_mapping_options_of(grammar);
     tn_mapping mapping;
     double times[ROUNDS];
     if (!mapper || !codons)
@@ -51,7 +51,7 @@ static void bench_mapping(const char *name, const char *path)
         used = valid = 0;
         for (int repeat = 0; repeat < REPEATS; repeat++)
             for (size_t i = 0; i < GENOMES; i++) {
-                tn_map_genome(mapper, codons + i * CODONS, CODONS, &options, &mapping, NULL);
+                tn_mapper_derive(mapper, codons + i * CODONS, CODONS, &options, &mapping, NULL);
                 used += mapping.valid ? mapping.used : CODONS;
                 valid += mapping.valid;
             }
@@ -93,7 +93,7 @@ static double run(const tn_grammar *grammar, tn_problem *problem, unsigned threa
     tn_evolution_settings settings = tn_evolution_settings_default();
     tn_evolution *evolution;
     settings.threads = threads;
-    settings.mapping = tn_map_options_of(grammar);
+    settings.mapping = tn_mapping_options_of(grammar);
     settings.mapping.max_depth = fit ? 17 : 0;
     settings.depth_low = fit ? 2 : 5;
     settings.depth_high = fit ? 8 : 20;

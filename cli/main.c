@@ -7,9 +7,11 @@
 
 #include "cli/common/completion.h"
 #include "cli/common/help.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/manual.h"
 #include "cli/common/options.h"
+#include "cli/common/terminal.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
 static int written(void)
@@ -87,20 +89,35 @@ static int completion(const char *name)
     return refuse(&settings, &error);
 }
 
+/* An editor's server has nothing to lose, and ends at once. */
+static void watch(const tn_command *command, const tn_settings *settings)
+{
+    if (strcmp(command->name, "lsp") == 0)
+        return;
+    tn_interrupt_watch(settings->diagnostics == 1);
+    const char *output = tn_settings_output(settings);
+    if (output && strcmp(output, "-") != 0)
+        tn_interrupt_last_words("interrupted; %.400s is not written", output);
+    else
+        tn_interrupt_last_words("interrupted before the end");
+}
+
 static int run(const tn_command *command, int count, char **words)
 {
-    tn_settings settings = {0};
+    tn_settings *settings = tn_settings_new(command);
     tn_error error;
     int exit_code;
-    if (tn_options_parse(command, count, words, &settings, &error) != TN_OK) {
-        settings.diagnostics = tn_options_diagnostics(count, words);
-        exit_code = refuse(&settings, &error);
-    } else if (settings.help) {
+    tn_status status = settings ? tn_options_parse(command, count, words, settings, &error) : tn_fail_memory(&error);
+    if (status != TN_OK) {
+        const tn_settings common = {.diagnostics = tn_options_diagnostics(count, words)};
+        exit_code = refuse(&common, &error);
+    } else if (settings->help) {
         exit_code = help(command->name, false);
     } else {
-        exit_code = command->run(command, &settings);
+        watch(command, settings);
+        exit_code = command->run(command, settings);
     }
-    tn_settings_clear(&settings);
+    tn_settings_free(command, settings);
     return exit_code;
 }
 
@@ -116,6 +133,7 @@ static void keep_standard_descriptors(void)
 int main(int argc, char **argv)
 {
     keep_standard_descriptors();
+    tn_terminal_guard();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as EPIPE, which commands end on quietly */
     if (argc < 2) {
         tn_help_overview(stderr);

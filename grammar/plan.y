@@ -1,6 +1,6 @@
 /* The plan language's grammar: schemas, rules, libraries and tests (docs/plan-language.md).
  *
- * An action calls one constructor of compiler/plan/ast.h. After an error the parser goes on at the next item of the file, field
+ * An action calls one constructor of compiler/plan/syntax/ast.h. After an error the parser goes on at the next item of the file, field
  * of a schema, clause of a library or case of a test (the rules with `error`); the words that start those say yyerrok, so
  * that the next mistake is reported too. All lists are left-recursive: the parser's stack grows with nesting only.
  */
@@ -15,14 +15,14 @@
 %expect 0
 
 %code requires {
-#include "compiler/plan/ast.h"
+#include "compiler/plan/syntax/form_ast.h"
 }
 
 %parse-param {tn_parse *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
-#include "compiler/plan/syntax_error.h"
+#include "compiler/plan/syntax/syntax_error.h"
 #include "plan_lexer.h"
 
 #define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \
@@ -44,12 +44,17 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_field field;
     tn_ast_rule rule;
     tn_ast_library library;
+    tn_ast_form form;
+    tn_ast_form_clause form_clause;
+    tn_ast_tile_part tile_part;
+    tn_box_side box_side;
     void *node;
 }
 
 %token END_OF_FILE 0 "the end of the file"
 %token <word> NAME "a name" FIELD_NAME "a field" NUMBER "a number" LENGTH "a length" STRING "a text in quotes"
 %token <word> CLAUSE_NAME "a clause's name"
+%token <word> AREA "an area"
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
@@ -59,11 +64,17 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
 %token IN "`in`" MOD "`mod`"
-%token <word> AREA "an area" DECIMAL "a decimal number"
+%token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
+%token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
+%token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
+%token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
+%token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
+%token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
+%token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
 %token DOTS "`..`" LESS "`<`" AT_MOST "`<=`" UNEQUAL "`!=`" AT_LEAST "`>=`" GREATER "`>`"
 %token EQUAL "`=`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`"
 %token BAR "`|`" COMMA "`,`" DASH "`-`"
@@ -79,6 +90,14 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <range> range
 %type <op> comparison
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
+%type <form> form_head
+%type <form_clause> thickness relation
+%type <tile_part> stretch_word
+%type <box_side> side_word
+%type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
+%type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
+%type <word> size outside_side
+%type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
 %type <expr> part tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
@@ -108,6 +127,8 @@ item
     | rule_head EQUAL error                     { $$ = tn_ast_rule_new(parse, @1, $1, NULL); }
     | library_head OPEN_BRACE clauses CLOSE_BRACE
                                                 { $$ = tn_ast_library_new(parse, @$, $1, $3); }
+    | form_head OPEN_BRACE form_clauses CLOSE_BRACE
+                                                { $$ = tn_ast_form_new(parse, @$, $1, $3); }
     | test names OPEN_BRACE cases CLOSE_BRACE   { $$ = tn_ast_test_new(parse, @$, $2, $4); }
     ;
 
@@ -119,6 +140,7 @@ schema: SCHEMA                                  { yyerrok; };
 rule: RULE                                      { yyerrok; };
 library: LIBRARY                                { yyerrok; };
 test: TEST                                      { yyerrok; };
+form: FORM                                      { yyerrok; };
 
 doc
     : %empty                                    { $$ = NULL; }
@@ -542,6 +564,231 @@ prunes
 prune
     : expression                                { $$ = tn_ast_prune(parse, @$, $1, NULL, NULL); }
     | expression AS NAME doc                    { $$ = tn_ast_prune(parse, @$, $1, $3, $4); }
+    ;
+
+/* ---- forms */
+
+form_head
+    : form NAME doc OF NAME                     { $$ = (tn_ast_form){.name = $2, .doc = $3, .schema = $5}; }
+    ;
+
+form_clauses
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | form_clauses form_clause                  { $$ = tn_ast_append($1, $2); }
+    | form_clauses error                        { $$ = tn_ast_skipped($1, parse); }
+    ;
+
+form_clause
+    : storey NAME doc size                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_STOREY, .name = $2, .doc = $3, .length = $4}); }
+    | spine NAME                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SPINE, .name = $2}); }
+    | thickness size                            { $1.length = $2; $$ = tn_ast_form_clause_new(parse, @$, $1); }
+    | section NAME EQUAL shapes                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $2, .list = $4}); }
+    | section NAME NAME EQUAL shapes            { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $2, .detail = $3, .list = $5}); }
+    | forbid_word sections                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FORBID, .first = $2}); }
+    | void cells                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_VOID, .first = $2}); }
+    | no cells                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_NO, .first = $2}); }
+    | function NAME doc AT cells                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .first = $5}); }
+    | opening NAME doc WIDE size HIGH size opening_parts
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_OPENING, .name = $2, .doc = $3, .length = $5, .high = $7, .parts = $8}); }
+    | face cells relation cells EQUAL kinds     { $3.first = $2; $3.second = $4; $3.list = $6; $$ = tn_ast_form_clause_new(parse, @$, $3); }
+    | face cells OUTSIDE outside_side EQUAL kinds
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
+    | tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = $7}); }
+    ;
+
+storey: STOREY                                  { yyerrok; };
+spine: SPINE                                    { yyerrok; };
+section: SECTION                                { yyerrok; };
+void: VOID                                      { yyerrok; };
+no: NO                                          { yyerrok; };
+function: FUNCTION                              { yyerrok; };
+opening: OPENING                                { yyerrok; };
+face: FACE                                      { yyerrok; };
+tile: TILE                                      { yyerrok; };
+
+thickness
+    : WALL                                      { $$ = (tn_ast_form_clause){.part = TN_PART_WALL}; yyerrok; }
+    | PARTITION                                 { $$ = (tn_ast_form_clause){.part = TN_PART_PARTITION}; yyerrok; }
+    | DECK                                      { $$ = (tn_ast_form_clause){.part = TN_PART_DECK}; yyerrok; }
+    | ROOF                                      { $$ = (tn_ast_form_clause){.part = TN_PART_ROOF}; yyerrok; }
+    ;
+
+relation
+    : BESIDE                                    { $$ = (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_BESIDE}; }
+    | ALONG                                     { $$ = (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_ALONG}; }
+    | ACROSS                                    { $$ = (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_ACROSS}; }
+    | UNDER                                     { $$ = (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_UNDER}; }
+    ;
+
+outside_side
+    : %empty                                    { $$ = NULL; }
+    | LEFT                                      { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "left", TN_HOUSE_LEFT); }
+    | RIGHT                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "right", TN_HOUSE_RIGHT); }
+    | BACK                                      { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "back", TN_HOUSE_BACK); }
+    | FRONT                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "front", TN_HOUSE_FRONT); }
+    ;
+
+size
+    : LENGTH
+    | NUMBER
+    ;
+
+shapes
+    : shape                                     { $$ = tn_ast_one($1); }
+    | shapes BAR shape                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+shape
+    : NUMBER                                    { $$ = tn_ast_shape_new(parse, @$, $1, tn_ast_empty()); }
+    | NAME                                      { $$ = tn_ast_shape_new(parse, @$, $1, tn_ast_empty()); }
+    | NAME OPEN arguments CLOSE                 { $$ = tn_ast_shape_new(parse, @$, $1, $3); }
+    ;
+
+arguments
+    : argument                                  { $$ = tn_ast_one($1); }
+    | arguments COMMA argument                  { $$ = tn_ast_append($1, $3); }
+    ;
+
+argument
+    : NAME                                      { $$ = tn_ast_argument_new(parse, @$, $1, NULL); }
+    | LENGTH                                    { $$ = tn_ast_argument_new(parse, @$, $1, NULL); }
+    | NUMBER COLON NUMBER                       { $$ = tn_ast_argument_new(parse, @$, $1, $3); }
+    ;
+
+kinds
+    : NAME                                      { $$ = tn_ast_one($1); }
+    | kinds BAR NAME                            { $$ = tn_ast_append($1, $3); }
+    ;
+
+opening_parts
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | opening_parts opening_part                { $$ = tn_ast_append($1, $2); }
+    ;
+
+opening_part
+    : SILL size                                 { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_SILL, $2); }
+    | CLEAR size                                { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_CLEAR, $2); }
+    | PASSAGE                                   { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_PASSAGE, NULL); }
+    ;
+
+tile_parts
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | tile_parts tile_part                      { $$ = tn_ast_append($1, $2); }
+    ;
+
+tile_part
+    : AGAINST or_names                          { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_AGAINST, .list = $2}); }
+    | WIDE size DOTS size                       { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_WIDE, .low = $2, .high = $4}); }
+    | DEEP size DOTS size                       { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_DEEP, .low = $2, .high = $4}); }
+    | stretch_word NAME doc                     { $1.name = $2; $1.doc = $3; $$ = tn_ast_tile_part_new(parse, @$, $1); }
+    | stretch_word NAME doc reaches             { $1.name = $2; $1.doc = $3; $1.list = $4; $$ = tn_ast_tile_part_new(parse, @$, $1); }
+    ;
+
+stretch_word
+    : ITEM                                      { $$ = (tn_ast_tile_part){.part = TN_TILE_ITEM}; }
+    | KEEP                                      { $$ = (tn_ast_tile_part){.part = TN_TILE_KEEPS}; }
+    ;
+
+or_names
+    : NAME                                      { $$ = tn_ast_one($1); }
+    | or_names OR NAME                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+reaches
+    : reach                                     { $$ = tn_ast_one($1); }
+    | reaches COMMA reach                       { $$ = tn_ast_append($1, $3); }
+    ;
+
+reach
+    : side_word size DOTS size                  { $$ = tn_ast_reach_new(parse, @$, (tn_ast_reach){.from = $1, .to = $1, .low = $2, .high = $4}); }
+    | side_word size DOTS side_word size        { $$ = tn_ast_reach_new(parse, @$, (tn_ast_reach){.from = $1, .to = $4, .low = $2, .high = $5}); }
+    ;
+
+side_word
+    : LEFT                                      { $$ = TN_BOX_LEFT; }
+    | RIGHT                                     { $$ = TN_BOX_RIGHT; }
+    | BACK                                      { $$ = TN_BOX_BACK; }
+    | FRONT                                     { $$ = TN_BOX_FRONT; }
+    | UP                                        { $$ = TN_BOX_UP; }
+    ;
+
+/* what cells are, with and, or, not */
+
+cells
+    : cell_and
+    | cell_ors
+    ;
+
+cell_ors
+    : cell_and OR cell_and                      { $$ = tn_ast_expr_join(parse, TN_EXPR_OR, $1, $3); }
+    | cell_ors OR cell_and                      { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+cell_and
+    : cell_not
+    | cell_ands
+    ;
+
+cell_ands
+    : cell_not AND cell_not                     { $$ = tn_ast_expr_join(parse, TN_EXPR_AND, $1, $3); }
+    | cell_ands AND cell_not                    { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+cell_not
+    : NOT cell_not                              { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
+    | OPEN cells CLOSE                          { $$ = $2; }
+    | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
+    ;
+
+/* what sections are */
+
+sections
+    : section_and
+    | section_ors
+    ;
+
+section_ors
+    : section_and OR section_and                { $$ = tn_ast_expr_join(parse, TN_EXPR_OR, $1, $3); }
+    | section_ors OR section_and                { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+section_and
+    : section_not
+    | section_ands
+    ;
+
+section_ands
+    : section_not AND section_not               { $$ = tn_ast_expr_join(parse, TN_EXPR_AND, $1, $3); }
+    | section_ands AND section_not              { $$ = tn_ast_expr_add(parse, $1, $3); }
+    ;
+
+section_not
+    : NOT section_not                           { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
+    | OPEN sections CLOSE                       { $$ = $2; }
+    | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
+    ;
+
+section_items
+    : section_item                              { $$ = tn_ast_one($1); }
+    | section_items COMMA section_item          { $$ = tn_ast_append($1, $3); }
+    ;
+
+section_item
+    : section_alternatives                      { $$ = tn_ast_item_new(parse, @$, $1); }
+    ;
+
+section_alternatives
+    : section_alternative                       { $$ = tn_ast_one($1); }
+    | section_alternatives OR section_alternative
+                                                { $$ = tn_ast_append($1, $3); }
+    ;
+
+/* [not] [choice] value */
+section_alternative
+    : shape                                     { $$ = tn_ast_alternative_new(parse, @$, tn_ast_one($1)); }
+    | NAME section_alternative                  { $$ = tn_ast_alternative_word(parse, @$, $1, $2); }
+    | NOT section_alternative                   { $$ = tn_ast_alternative_word(parse, @$, tn_ast_not_word(parse, @1), $2); }
     ;
 
 /* ---- tests */

@@ -29,7 +29,7 @@ static void read_tokens(tn_file_analysis *analysis)
 }
 
 tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
-                             tn_overlay *overlay, void *context)
+                                  tn_overlay *overlay, void *context)
 {
     tn_file_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)
@@ -38,7 +38,7 @@ tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t siz
     tn_files_begin(&files, stdlib);
     files.overlay = overlay;
     files.overlay_context = context;
-    tn_compile_options options = {.resolver = tn_files_resolver(&files)};
+    tn_compile_options options = {.resolver = tn_files_resolver(&files), .partial = true};
     tn_input input = {.text = text, .size = size, .name = path};
     tn_status status =
         tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, &analysis->compilation);

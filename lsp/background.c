@@ -50,7 +50,7 @@ static void look_at_module(tn_background *b, tn_opened *opened)
 {
     tn_error error;
     tn_plan_analyses analyses;
-    if (opened->module->GRAMMAR_count) {
+    if (tn_module_has_grammar(opened->module)) {
         tn_grammar_report(opened, false, &error);
         return;
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/parts.h"
 
@@ -20,14 +21,9 @@ enum {
 static void add_count(tn_facts *facts, const char *library, const char *rule, bool requires, bool is_rule,
                       const mpz_t out, const mpz_t only)
 {
-    if (facts->count == facts->capacity) {
-        size_t capacity = facts->capacity ? 2 * facts->capacity : 32;
-        tn_rule_count *grown = capacity <= ITEMS_MAX ? realloc(facts->counts, capacity * sizeof *grown) : NULL;
-        if (!grown)
-            return;
-        facts->counts = grown;
-        facts->capacity = capacity;
-    }
+    if (facts->count == ITEMS_MAX ||
+        !tn_array_reserve(&facts->counts, &facts->capacity, facts->count, 1, sizeof *facts->counts))
+        return;
     tn_rule_count *item = &facts->counts[facts->count++];
     *item = (tn_rule_count){
         strdup(library), rule ? strdup(rule) : NULL, mpz_get_str(NULL, 10, out), mpz_get_str(NULL, 10, only), requires,

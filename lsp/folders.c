@@ -7,18 +7,13 @@
 #include <sys/stat.h>
 
 #include "compiler/notation.h"
+#include "runtime/base/array.h"
 
 static void add(tn_rule_files *files, const char *path)
 {
-    if (files->count == files->capacity) {
-        size_t capacity = files->capacity ? 2 * files->capacity : 16;
-        char **grown = realloc(files->paths, capacity * sizeof *grown);
-        if (!grown) {
-            files->failed = true;
-            return;
-        }
-        files->paths = grown;
-        files->capacity = capacity;
+    if (!tn_array_reserve(&files->paths, &files->capacity, files->count, 1, sizeof *files->paths)) {
+        files->failed = true;
+        return;
     }
     char *real = realpath(path, NULL);
     if (real)

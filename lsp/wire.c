@@ -8,6 +8,8 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
+
 enum {
     CHUNK = 65536,
     HEADER_MAX = 8192,
@@ -22,15 +24,9 @@ static bool fill(tn_wire *wire)
         wire->end -= wire->begin;
         wire->begin = 0;
     }
-    if (wire->capacity - wire->end < CHUNK) {
-        size_t capacity = 2 * wire->capacity + CHUNK;
-        char *grown = realloc(wire->buffer, capacity);
-        if (!grown) {
-            wire->failed = true;
-            return false;
-        }
-        wire->buffer = grown;
-        wire->capacity = capacity;
+    if (!tn_array_reserve(&wire->buffer, &wire->capacity, wire->end, CHUNK, 1)) {
+        wire->failed = true;
+        return false;
     }
     ssize_t got;
     do

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lsp/facts.h"
+#include "runtime/base/array.h"
 
 tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error)
 {
@@ -57,10 +58,7 @@ tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri)
 bool tn_workspace_add_root(tn_workspace *workspace, const char *uri)
 {
     char *path = tn_uri_path(uri);
-    char **grown = realloc(workspace->roots, (workspace->root_count + 1) * sizeof *grown);
-    if (grown)
-        workspace->roots = grown;
-    if (!path || !grown) {
+    if (!path || !tn_array_resize(&workspace->roots, workspace->root_count + 1, sizeof *workspace->roots)) {
         free(path);
         return false;
     }

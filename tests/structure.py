@@ -8,7 +8,7 @@ that the includes ask for."""
 import collections, os, re, subprocess, sys, tempfile
 
 TOP = ("grammar", "compiler", "runtime", "driver", "api", "lsp", "cli")
-FILES_MAX = 35
+FILES_MAX = 40
 
 # What is still wrong. Each line goes when its reason does; an exception that is not needed any more fails too.
 ARROWS_UP = set()

@@ -108,7 +108,8 @@ static tn_status compile_with_files(const tn_notation *notation, tn_input *input
     tn_stdlib_dirs dirs = {folders, options->folder_count};
     tn_files_begin(&files, &dirs);
     input->identity = identity;
-    const tn_compile_options own = {tn_files_resolver(&files), options->warnings_are_errors, NULL};
+    const tn_compile_options own = {.resolver = tn_files_resolver(&files),
+                                    .warnings_are_errors = options->warnings_are_errors};
     tn_status status = copied ? tn_compile_text(notation, input, &own, compilation) : TN_MEMORY;
     tn_files_clear(&files);
     for (size_t i = 0; folders && i < options->folder_count; i++)
@@ -124,12 +125,15 @@ static tartan_status compile(const char *path, const char *text, size_t size, ta
     tn_compilation compilation = {0};
     tn_input input = {.text = text, .size = size, .name = path};
     const tn_notation *notation = tn_notation_or_first(path, text, size);
-    const tn_compile_options own = {{resolve, options}, options->warnings_are_errors, NULL};
+    const tn_compile_options own = {.resolver = {resolve, options},
+                                    .warnings_are_errors = options->warnings_are_errors};
     tn_diagnostics_init(&compilation.diagnostics, &compilation.sources);
     tn_status compiled = options->resolve ? tn_compile_text(notation, &input, &own, &compilation)
                                           : compile_with_files(notation, &input, options, &compilation);
-    if (compiled == TN_MEMORY && !compilation.arena)
+    if (compiled == TN_MEMORY && !compilation.arena) {
+        tn_compilation_clear(&compilation);
         return tn_api_memory(error);
+    }
     show_all(&compilation, options->report, options->report_context);
     tartan_status status =
         compiled == TN_OK ? load(&compilation, module, error) : failed(&compilation.diagnostics, compiled, error);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 enum { BATCH = 64 };
 
 _Static_assert((int)TARTAN_SCORE_LIMITED == (int)TN_SCORE_LIMIT, "states of scores are the same numbers");
@@ -141,28 +143,16 @@ void tartan_evolution_free(tartan_evolution *evolution)
 
 bool tn_api_evolution_reserve(tartan_evolution *e, size_t generations)
 {
-    if (generations <= e->room)
-        return true;
-    size_t room = e->room ? e->room : 8;
-    while (room < generations)
-        room *= 2;
-    tn_score *scores = realloc(e->scores, room * e->settings.population * sizeof *scores);
-    if (!scores)
-        return false;
-    e->scores = scores;
-    e->room = room;
-    return true;
+    return tn_array_reserve_from(&e->scores, &e->room, 8, 0, generations, e->settings.population * sizeof *e->scores);
 }
 
 bool tn_api_evolution_add_choice(tartan_evolution *e, uint32_t generation, uint32_t *places, size_t count)
 {
-    tn_api_choice *choices = realloc(e->choices, (e->choice_count + 1) * sizeof *choices);
-    if (!choices) {
+    if (!tn_array_resize(&e->choices, e->choice_count + 1, sizeof *e->choices)) {
         free(places);
         return false;
     }
-    e->choices = choices;
-    choices[e->choice_count++] = (tn_api_choice){generation, places, count};
+    e->choices[e->choice_count++] = (tn_api_choice){generation, places, count};
     return true;
 }
 

@@ -21,8 +21,8 @@ static inline const tn_grammar *tn_api_grammar(const tartan_grammar *grammar)
 }
 
 /* The caller's options (NULL: the grammar's own) as the mapper's. */
-tartan_status tn_api_map_options(const tn_grammar *grammar, const tartan_map_options *given, tn_map_options *options,
-                                 tartan_error *error);
+tartan_status tn_api_map_options(const tn_grammar *grammar, const tartan_map_options *given,
+                                 tn_mapping_options *options, tartan_error *error);
 
 /* TARTAN_INVALID where the mapper's last mapping has no derivation. */
 tartan_status tn_api_derivation(const tartan_mapper *mapper, tartan_error *error);

@@ -7,7 +7,7 @@
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/grammar/analysis.h"
 
-_Static_assert((int)TARTAN_MAP_REPAIR_TOO_LONG == (int)TN_MAP_REPAIR_TOO_LONG, "reasons are the same numbers");
+_Static_assert((int)TARTAN_MAP_REPAIR_TOO_LONG == (int)TN_MAPPING_REPAIR_TOO_LONG, "reasons are the same numbers");
 _Static_assert(TARTAN_NONE == TN_TREE_NONE, "one number for no node");
 
 tartan_status tartan_grammar_new(const tartan_module *module, tartan_grammar **grammar, tartan_error *error)
@@ -62,7 +62,7 @@ tartan_status tartan_map_options_of(const tartan_grammar *grammar, tartan_map_op
 {
     if (!grammar)
         return tn_api_missing(error, "grammar");
-    tn_map_options said = tn_map_options_of(tn_api_grammar(grammar));
+    tn_mapping_options said = tn_mapping_options_of(tn_api_grammar(grammar));
     tartan_map_options own = {.wraps = said.wraps,
                               .max_depth = said.max_depth,
                               .max_steps = said.max_steps,
@@ -70,12 +70,12 @@ tartan_status tartan_map_options_of(const tartan_grammar *grammar, tartan_map_op
     return TN_API_GIVE(tartan_map_options, options, &own, error);
 }
 
-tartan_status tn_api_map_options(const tn_grammar *grammar, const tartan_map_options *given, tn_map_options *options,
-                                 tartan_error *error)
+tartan_status tn_api_map_options(const tn_grammar *grammar, const tartan_map_options *given,
+                                 tn_mapping_options *options, tartan_error *error)
 {
     tartan_map_options own;
     tartan_status status = TN_API_TAKE(tartan_map_options, &own, given, error);
-    *options = tn_map_options_of(grammar);
+    *options = tn_mapping_options_of(grammar);
     if (status != TARTAN_OK || !given)
         return status;
     if ((unsigned)own.repair > TARTAN_REPAIR_IDENTITY)
@@ -119,7 +119,7 @@ static void describe(const tn_mapping *m, tartan_mapping *own)
 {
     *own = (tartan_mapping){.valid = m->valid,
                             .reason = (tartan_map_reason)m->reason,
-                            .reason_text = tn_map_reason_text(m->reason),
+                            .reason_text = tn_mapping_reason_text(m->reason),
                             .sentence = "",
                             .used = m->used,
                             .nodes = m->nodes,
@@ -132,7 +132,7 @@ static void describe(const tn_mapping *m, tartan_mapping *own)
 tartan_status tartan_map(tartan_mapper *mapper, const uint64_t *codons, size_t count, const tartan_map_options *given,
                          tartan_mapping *mapping, tartan_error *error)
 {
-    tn_map_options options;
+    tn_mapping_options options;
     tn_error found;
     tartan_mapping own;
     if (!mapper || (count && !codons))
@@ -143,7 +143,7 @@ tartan_status tartan_map(tartan_mapper *mapper, const uint64_t *codons, size_t c
     mapper->recorded = false;
     free(mapper->nodes);
     mapper->nodes = NULL;
-    if (tn_map_genome(mapper->mapper, codons, count, &options, &mapper->last, &found) != TN_OK)
+    if (tn_mapper_derive(mapper->mapper, codons, count, &options, &mapper->last, &found) != TN_OK)
         return tn_api_fail(&found, error);
     mapper->recorded = options.record;
     describe(&mapper->last, &own);

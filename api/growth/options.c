@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "api/growth/options.h"
+#include "runtime/base/array.h"
 #include "runtime/mesh/openmesh.h"
 
 _Static_assert((int)TARTAN_GRAVITY == (int)TN_GRAVITY && (int)TARTAN_SOLID == (int)TN_BOUNDARY_MESH &&
@@ -155,20 +156,14 @@ static tartan_status add_boundary(const tartan_boundary *given, tn_study *study,
 static bool make_room(tn_study *study, size_t forces, size_t boundaries)
 {
     tn_environment *e = &study->environment;
-    tn_force *f = realloc(study->forces, (e->force_count + forces + 1) * sizeof *f);
-    if (!f)
-        return false;
-    e->forces = study->forces = f;
-    tn_boundary *b = realloc(study->boundaries, (e->boundary_count + boundaries + 1) * sizeof *b);
-    if (!b)
-        return false;
-    e->boundaries = study->boundaries = b;
-    tn_boundary_mesh **m = realloc(study->meshes, (e->boundary_count + boundaries + 1) * sizeof *m);
-    if (!m)
-        return false;
-    memset(m + e->boundary_count, 0, (boundaries + 1) * sizeof *m);
-    study->meshes = m;
-    return true;
+    bool fine = tn_array_resize(&study->forces, e->force_count + forces, sizeof *study->forces) &&
+                tn_array_resize(&study->boundaries, e->boundary_count + boundaries, sizeof *study->boundaries) &&
+                tn_array_resize(&study->meshes, e->boundary_count + boundaries, sizeof *study->meshes);
+    if (fine)
+        memset(study->meshes + e->boundary_count, 0, boundaries * sizeof *study->meshes);
+    e->forces = study->forces;
+    e->boundaries = study->boundaries;
+    return fine;
 }
 
 static void leave_out(tn_study *study)

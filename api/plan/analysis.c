@@ -85,7 +85,7 @@ typedef struct place {
 /* Where it is written: the part that it is about, or else the clause, the library or the rule. */
 static place place_of(const tn_module *m, const tn_plan_analysis_finding *f)
 {
-    const tn_map_record *part =
+    const tn_source_map_record *part =
         f->found == TN_FOUND_VACUOUS || f->found == TN_FOUND_NO_TRAY ? tn_module_place(m, f->offset) : NULL;
     if (part)
         return (place){part->file, part->begin, part->end};

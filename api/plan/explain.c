@@ -236,7 +236,7 @@ tartan_status tartan_explanation_part(const tartan_explanation *e, size_t i, siz
     const tn_why *node = &v->why.nodes[part];
     const tn_part *of = tn_why_part(&v->why, node);
     const tn_module *module = &e->plans.module;
-    const tn_map_record *place = tn_module_place(module, of->root);
+    const tn_source_map_record *place = tn_module_place(module, of->root);
     tartan_part own = {.kind = tn_part_word(of->kind),
                        .text = v->texts[part],
                        .matched = node->matched,

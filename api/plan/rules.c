@@ -258,7 +258,7 @@ static tn_status match_shares(request *asked, unsigned threads, tn_error *error)
     if (workers > shares)
         workers = shares ? (unsigned)shares : 1;
     asked->matchers = calloc(workers, sizeof *asked->matchers);
-    tn_crew *crew = asked->matchers ? tn_crew_new(workers) : NULL;
+    tn_crew *crew = asked->matchers ? tn_crew_new(workers, NULL) : NULL;
     tn_status status = crew ? tn_crew_run(crew, shares, 1, match_share, asked, error) : tn_fail_memory(error);
     tn_crew_free(crew);
     for (unsigned i = 0; asked->matchers && i < workers; i++)

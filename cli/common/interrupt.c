@@ -1,27 +1,109 @@
+/* Notes signals that are to end the command, and ends it where it does not end by itself. */
 #include "cli/common/interrupt.h"
 
 #include <signal.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
-/* The one mutable global of the program: a signal handler can reach nothing else. */
-static volatile sig_atomic_t interrupted;
+#include "cli/common/job.h"
+#include "runtime/base/utf8.h"
+
+#define PATIENCE 1u /* seconds from the signal to the end; two are promised */
+
+/* A text in either of two places, so that one is whole while the other is written. */
+typedef struct last_words {
+    char text[1200];
+    size_t size;
+} last_words;
+
+/* The only mutable globals of the program: a signal handler can reach nothing else. */
+static tn_watch waiting;
+static last_words words[2];
+static atomic_int current;
+static bool as_json;
 
 static void note(int signal_number)
 {
     (void)signal_number;
-    interrupted = 1;
+    waiting.stop = true;
+    alarm(PATIENCE);
+}
+
+/* Only calls that are safe in a signal handler. */
+static void give_up(int signal_number)
+{
+    (void)signal_number;
+    const last_words *last = &words[atomic_load(&current)];
+    (void)!write(STDERR_FILENO, last->text, last->size);
+    _exit(TN_EXIT_INTERRUPTED);
 }
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 
-void tn_interrupt_watch(void)
+void tn_interrupt_watch(bool json)
 {
-    struct sigaction action = {.sa_handler = note,
-                               .sa_flags = (int)(SA_RESETHAND | SA_RESTART)}; /* no write cut short */
-    struct sigaction before;
+    struct sigaction before,
+        late = {.sa_handler = give_up},
+        action = {.sa_handler = note, .sa_flags = (int)(SA_RESETHAND | SA_RESTART)}; /* no write cut short */
     sigemptyset(&action.sa_mask);
+    sigemptyset(&late.sa_mask);
+    as_json = json;
+    sigaction(SIGALRM, &late, NULL);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(numbers[i], &action, NULL);
+}
+
+bool tn_interrupted(void)
+{
+    return waiting.stop;
+}
+
+tn_status tn_interrupt_check(tn_error *error)
+{
+    return tn_watch_check(&waiting, error);
+}
+
+tn_watch *tn_interrupt_waiting(void)
+{
+    return &waiting;
+}
+
+void tn_interrupt_last_words(const char *format, ...)
+{
+    char message[480];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    int spare = !atomic_load(&current);
+    last_words *next = &words[spare];
+    FILE *out = fmemopen(next->text, sizeof next->text, "w");
+    if (!out)
+        return; /* then without words */
+    if (as_json) {
+        fputs("[\n {\"severity\":\"note\",\"code\":null,\"message\":", out);
+        tn_write_json(out, message);
+        fputs(",\"file\":null,\"line\":null,\"column\":null,\"end_line\":null,\"end_column\":null,\"notes\":[],"
+              "\"help\":null,\"replacement\":null}\n]\n",
+              out);
+    } else {
+        fputs(isatty(STDERR_FILENO) ? "\r\033[Knote: " : "note: ", out); /* in place of the progress */
+        tn_write_clean(out, message, strlen(message));
+        fputc('\n', out);
+    }
+    long size = ftell(out);
+    bool whole = fclose(out) == 0 && size > 0;
+    next->size = whole ? (size_t)size : 0;
+    atomic_store(&current, spare);
+}
+
+void tn_interrupt_answered(void)
+{
+    alarm(0);
 }
 
 void tn_interrupt_asking(bool asking)
@@ -33,9 +115,4 @@ void tn_interrupt_asking(bool asking)
         action.sa_flags = (int)(asking ? SA_RESETHAND : SA_RESETHAND | SA_RESTART);
         sigaction(numbers[i], &action, NULL);
     }
-}
-
-bool tn_interrupted(void)
-{
-    return interrupted != 0;
 }

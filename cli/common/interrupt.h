@@ -1,15 +1,31 @@
-/* Interrupting long work: after Ctrl-C (or a polite kill, or when the terminal is closed) the loop that asks ends, so
- * that what was finished stays. */
+/* Interrupts: SIGINT, SIGTERM and SIGHUP end every command within two seconds, and what is missing is said.
+ *
+ * The first signal sets a flag that loops look at (runtime/base/watch.h), and starts a clock. A command that has not
+ * ended when the clock runs out is ended then and there, with its last words: output files are put in place whole or
+ * not at all, and databases keep what was committed, so that this can be done at any moment. A second signal ends it at
+ * once.
+ */
 #ifndef TARTAN_CLI_COMMON_INTERRUPT_H
 #define TARTAN_CLI_COMMON_INTERRUPT_H
 
-#include <stdbool.h>
+#include "runtime/base/watch.h"
 
-/* From here on SIGINT, SIGTERM and SIGHUP are taken note of instead of ending the program; a second one ends it. One
- * that was ignored stays so (nohup). */
-void tn_interrupt_watch(void);
+/* From now on, signals are answered so. `json`: the last words are a diagnostic in JSON. */
+void tn_interrupt_watch(bool json);
 
 bool tn_interrupted(void);
+
+/* The same as a status: TN_OK or TN_STOPPED. */
+tn_status tn_interrupt_check(tn_error *error);
+
+/* The watch that the signal ends, for work that is handed it. */
+tn_watch *tn_interrupt_waiting(void);
+
+/* What is said where the command is ended from without: what was written, and what is missing. */
+void tn_interrupt_last_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Only what is finished is being put in place now, or nothing is lost by ending: the clock is stopped. */
+void tn_interrupt_answered(void);
 
 /* While a person is asked for a line, an interrupt ends the reading too: true before, false after. */
 void tn_interrupt_asking(bool asking);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/common/interrupt.h"
 #include "runtime/base/picture.h"
 
 int tn_exit_code(tn_status status)
@@ -41,16 +42,27 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
 
 bool tn_job_open(tn_job *job, const char *path)
 {
-    const tn_settings *settings = job->settings;
-    tn_questions questions = {settings->library, settings->wheres.items, settings->wheres.count, settings->pattern};
-    bool asks = questions.where_count > 0 || questions.pattern;
-    worsen(job, tn_exit_code(tn_open_asking(path, settings->werror, asks ? &questions : NULL, &job->opened)));
+    return tn_job_open_asking(job, path, NULL);
+}
+
+bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *questions)
+{
+    worsen(job, tn_exit_code(tn_open_asking(path, job->settings->werror, questions, &job->opened)));
+    if (job->opened.module)
+        job->opened.module->watch = tn_interrupt_waiting();
+    return job->opened.module != NULL;
+}
+
+bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count)
+{
+    worsen(job, tn_exit_code(tn_open_joined(paths, count, job->settings->werror, &job->opened)));
     return job->opened.module != NULL;
 }
 
 void tn_job_status(tn_job *job, tn_status status)
 {
     worsen(job, tn_exit_code(status));
+    job->stopped |= status == TN_STOPPED;
 }
 
 tn_diagnostics *tn_job_diagnostics(tn_job *job)
@@ -62,6 +74,10 @@ void tn_job_fail(tn_job *job, const tn_error *error)
 {
     if (error->code == E_CLOSED_PIPE) {
         job->reader_gone = true;
+        return;
+    }
+    if (error->status == TN_STOPPED) {
+        tn_job_status(job, TN_STOPPED);
         return;
     }
     tn_finding_error(&job->opened, error);
@@ -90,6 +106,31 @@ void tn_job_note(tn_job *job, const char *format, ...)
     tn_report_bare(tn_job_diagnostics(job), TN_NOTE, TN_CODE_NONE, "%s", text);
 }
 
+void tn_job_interrupted(tn_job *job, const char *format, ...)
+{
+    char text[480];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_job_status(job, TN_STOPPED);
+    job->said = true;
+    tn_job_note(job, "%s", text);
+}
+
+/* Where no command said it itself. */
+static void say_what_is_missing(tn_job *job)
+{
+    const char *output = tn_settings_output(job->settings);
+    job->stopped |= tn_job_diagnostics(job)->stopped;
+    if (!job->stopped || job->said)
+        return;
+    if (output && strcmp(output, "-") != 0)
+        tn_job_interrupted(job, "interrupted; %.400s is not written", output);
+    else
+        tn_job_interrupted(job, "interrupted before the end");
+}
+
 static bool wants_colour(void)
 {
     const char *no_colour = getenv("NO_COLOR"), *terminal = getenv("TERM");
@@ -103,6 +144,7 @@ static void show(tn_job *job)
     tn_diagnostics_sort(list);
     job->errors += list->error_count;
     job->warnings += list->warning_count;
+    job->stopped |= list->stopped;
     if (list->count || list->failed || options.json)
         tn_diagnostics_show(list, &options, stderr);
     if (list->failed)
@@ -132,6 +174,7 @@ bool tn_job_reopen(tn_job *job, const char *path)
 
 int tn_job_end(tn_job *job)
 {
+    say_what_is_missing(job);
     show(job);
     tn_close(&job->opened);
     if (job->errors || (job->warnings && job->settings->werror))

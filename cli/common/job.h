@@ -27,6 +27,8 @@ typedef struct tn_job {
     bool open;
     int exit_code;           /* the gravest so far */
     bool reader_gone;        /* standard output's reader went away: end quietly */
+    bool stopped;            /* by an interrupt, and not all was done */
+    bool said;               /* what is missing, of that */
     size_t errors, warnings; /* shown so far */
 } tn_job;
 
@@ -34,6 +36,12 @@ void tn_job_begin(tn_job *job, const tn_settings *settings);
 
 /* Opens a rule file or module; false where that failed (then end the job). */
 bool tn_job_open(tn_job *job, const char *path);
+
+/* The same, with what the command line asks of a .plan file; NULL: nothing. */
+bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *questions);
+
+/* Opens several files that are one text together. */
+bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count);
 
 /* Says what there is to say about the file that is open, and closes it: for commands that take several. */
 void tn_job_next(tn_job *job);
@@ -52,6 +60,9 @@ void tn_job_status(tn_job *job, tn_status status);
 
 /* Records wrong usage, found after the options were read. */
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The command was interrupted: records that, with a note of what was written and what is missing. */
+void tn_job_interrupted(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Adds a plain note. */
 void tn_job_note(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -6,6 +6,7 @@
 #include "cli/common/option_rows.h"
 #include "compiler/common/diagnostic.h"
 
+#define SETTINGS tn_settings
 const tn_option tn_common_options[] = {
     CHOICE("diagnostics", 0, "FORM", diagnostics, "text|json",
            "how errors and warnings are written on standard error: text (default) or json"),
@@ -104,9 +105,9 @@ static tn_status unknown_letter(parse *p, const char *letters)
     return see_help(p, status);
 }
 
-static void *place_of(parse *p, const tn_option *option)
+static void *place_of(tn_settings *settings, const tn_option *option)
 {
-    return (char *)p->settings + option->offset;
+    return (char *)settings + option->offset;
 }
 
 bool tn_number_read(const char *text, uint64_t *value)
@@ -141,7 +142,7 @@ static tn_status bad_number(parse *p, const tn_option *option, const char *text,
 
 static tn_status set_number(parse *p, const tn_option *option, const char *text)
 {
-    tn_option_number *number = place_of(p, option);
+    tn_option_number *number = place_of(p->settings, option);
     if (!tn_number_read(text, &number->value) || !within(option, number->value))
         return bad_number(p, option, text, "a number");
     number->given = true;
@@ -150,7 +151,7 @@ static tn_status set_number(parse *p, const tn_option *option, const char *text)
 
 static tn_status set_range(parse *p, const tn_option *option, const char *text)
 {
-    tn_option_range *range = place_of(p, option);
+    tn_option_range *range = place_of(p->settings, option);
     char low[32];
     const char *dots = strstr(text, "..");
     size_t length = dots ? (size_t)(dots - text) : strlen(text);
@@ -173,7 +174,7 @@ static tn_status set_rank(parse *p, const tn_option *option, const char *text)
     if (!*text || strspn(text, "0123456789") != strlen(text))
         return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes a rank, a whole number from 0, not `%.60s`",
                        option->name, text);
-    *(const char **)place_of(p, option) = text;
+    *(const char **)place_of(p->settings, option) = text;
     return TN_OK;
 }
 
@@ -202,20 +203,20 @@ static tn_status set_choice(parse *p, const tn_option *option, const char *text)
             used += (size_t)snprintf(list + used, sizeof list - used, *c == '|' ? ", " : "%c", *c);
         return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s takes one of %s, not `%.60s`", option->name, list, text);
     }
-    *(int *)place_of(p, option) = index;
+    *(int *)place_of(p->settings, option) = index;
     return TN_OK;
 }
 
 static tn_status set_maybe(parse *p, const tn_option *option, const char *text)
 {
     tn_status status = text ? set_choice(p, option, text) : TN_OK;
-    *(int *)place_of(p, option) += 1;
+    *(int *)place_of(p->settings, option) += 1;
     return status;
 }
 
 static tn_status set_real(parse *p, const tn_option *option, const char *text)
 {
-    tn_option_real *real = place_of(p, option);
+    tn_option_real *real = place_of(p->settings, option);
     char *end;
     real->value = strtod(text, &end);
     if (end == text || *end || !(real->value > -1e9 && real->value < 1e9))
@@ -232,11 +233,11 @@ static tn_status set_text(parse *p, const tn_option *option, const char *text)
         if (strcmp(option->argument, names[i]) == 0)
             return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s needs its argument %s, which is empty here",
                            option->name, option->argument);
-    *(const char **)place_of(p, option) = text;
+    *(const char **)place_of(p->settings, option) = text;
     return TN_OK;
 }
 
-/* Lists have room for every word of the command line. */
+/* Lists have room for every word of the command line, and for the name of an option before it. */
 static tn_status list_add(parse *p, tn_option_list *list, const char *text)
 {
     if (!list->items)
@@ -251,15 +252,16 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
 {
     switch (option->kind) {
     case TN_OPTION_FLAG:
-        *(bool *)place_of(p, option) = true;
+        *(bool *)place_of(p->settings, option) = true;
         return TN_OK;
     case TN_OPTION_TEXT:
         return set_text(p, option, text);
     case TN_OPTION_LIST:
-        return list_add(p, place_of(p, option), text);
+        return list_add(p, place_of(p->settings, option), text);
     case TN_OPTION_WISH: {
-        tn_status status = list_add(p, place_of(p, option), option->name);
-        return status == TN_OK ? list_add(p, place_of(p, option), text) : status;
+        tn_option_list *list = place_of(p->settings, option);
+        tn_status status = list_add(p, list, option->name);
+        return status == TN_OK ? list_add(p, list, text) : status;
     }
     case TN_OPTION_NUMBER:
         return set_number(p, option, text);
@@ -410,17 +412,38 @@ int tn_options_diagnostics(int count, char *const *words)
     return found;
 }
 
-void tn_settings_clear(tn_settings *settings)
+tn_settings *tn_settings_new(const tn_command *command)
 {
+    tn_settings *settings = calloc(1, command->settings_size);
+    if (settings)
+        settings->command = command;
+    return settings;
+}
+
+void tn_settings_free(const tn_command *command, tn_settings *settings)
+{
+    if (!settings)
+        return;
     free(settings->operands.items);
-    free(settings->rules.items);
-    free(settings->changes.items);
-    free(settings->wheres.items);
-    free(settings->wanted.items);
-    free(settings->attractors.items);
-    free(settings->repellers.items);
-    free(settings->gravity.items);
-    free(settings->boundaries.items);
-    free(settings->fitness.items);
-    *settings = (tn_settings){0};
+    for (size_t i = 0; i < command->option_count; i++) {
+        const tn_option *option = &command->options[i];
+        if (option->kind == TN_OPTION_LIST || option->kind == TN_OPTION_WISH) {
+            tn_option_list *list = place_of(settings, option);
+            free(list->items);
+            *list = (tn_option_list){0}; /* several options may add to one list */
+        }
+    }
+    free(settings);
+}
+
+const char *tn_settings_output(const tn_settings *settings)
+{
+    const tn_command *command = settings->command;
+    const char *output = NULL;
+    for (size_t i = 0; command && i < command->option_count; i++) {
+        const tn_option *option = &command->options[i];
+        if (option->kind == TN_OPTION_TEXT && strcmp(option->name, "output") == 0)
+            memcpy(&output, (const char *)settings + option->offset, sizeof output);
+    }
+    return output;
 }

@@ -1,7 +1,7 @@
 /* The command line: each command is a row of data (tn_command) with a table of its options, from which parsing,
  * `--help`, the manual pages and the shells' completion all come.
  *
- * Parsing writes into a tn_settings at the offset that the option's row names. Texts are borrowed from argv.
+ * Parsing writes into the command's settings at the offset that the option's row names. Texts are borrowed from argv.
  */
 #ifndef TARTAN_CLI_COMMON_OPTIONS_H
 #define TARTAN_CLI_COMMON_OPTIONS_H
@@ -51,69 +51,20 @@ typedef struct tn_option {
     const char *argument; /* what help calls the argument; NULL for a flag */
     const char *help;
     tn_option_kind kind;
-    size_t offset;       /* in tn_settings */
+    size_t offset;       /* in the command's settings */
     const char *choices; /* "text|json" */
     uint64_t low, high;  /* bounds; high 0: none */
 } tn_option;
 
-/* Every option's value, zero where it was not given. */
+/* What every command is told. A command's own options are a struct that begins with this one, declared in the command's
+ * file, so that a pointer to this one points to that one too. Options that several commands share are structs which
+ * those embed. All is zero where it was not given. */
 typedef struct tn_settings {
+    const struct tn_command *command; /* whose they are; NULL before that is known */
     tn_option_list operands;
     bool help;
     int diagnostics; /* 0 text, 1 json */
     bool werror;
-
-    const char *library;
-    tn_option_list wheres; /* further requirements */
-    const char *pattern;   /* of `complete`: set by the command */
-    const char *by;        /* the measure that is counted by */
-    const char *step;      /* of its bins */
-    tn_option_number bins;
-    tn_option_list wanted; /* --least M, --most M and what follows them, in order: the option's name, then its word */
-    tn_option_list rules;
-    tn_option_range trays;
-    tn_option_number max_length, max_states, threads;
-    int engine; /* a tn_matching_engine; of grow: a tn_grow_engine */
-    int format, input_format;
-    int on_error; /* 0 stop, 1 skip */
-
-    const char *output, *dropped;
-    bool json, mirror, resume, check, diff;
-    bool no_analysis, relations, examples; /* of check */
-    bool with_tests, with_counts;
-    const char *before; /* check --diff: the file before an edit */
-    int notation;       /* 0: what the file's name says; otherwise one more than a tn_notation */
-    const char *from, *to;
-    tn_option_number limit, seed, length, per_length, sample;
-
-    tn_option_number columns, scale, dpi, max_plans;
-    const char *paper, *title;
-
-    /* grow: what a study can say too is kept as the words of its statement */
-    const char *steps, *growth_scale, *start, *start_length, *growth_seed, *branch_angle, *branch_length, *edge_limit,
-        *until;
-    tn_option_list attractors, repellers, gravity, boundaries, fitness;
-    bool fixed_centre, fixed_perimeter, facing, grow_mirror;
-    bool each_step, sheet, groups, normals, triangulate, lines, explain;
-    int stats, up, mesh_format;
-    tn_option_number smooth, subdivide, decimate, memory_limit, width;
-    tn_option_real azimuth, elevation;
-
-    /* genomes */
-    const char *genome, *genomes, *tree, *invert;
-    tn_option_number random, codons, wraps, max_depth, max_steps, max_items;
-    bool trace;
-
-    /* evolution */
-    tn_option_number generations;
-    tn_option_list changes;
-    bool durable, figures;
-
-    /* explaining */
-    bool full, coverage;
-    bool prolog, regex;
-    const char *plan_file;
-    tn_option_number nearest;
 } tn_settings;
 
 typedef struct tn_command {
@@ -124,6 +75,7 @@ typedef struct tn_command {
     const char *example;     /* lines, commands start with "$ " */
     const tn_option *options;
     size_t option_count;
+    size_t settings_size; /* of the command's struct, which begins with tn_settings */
     const char *operands; /* what an operand is called in errors */
     size_t operands_min, operands_max;
     int (*run)(const struct tn_command *command, const tn_settings *settings);
@@ -136,6 +88,9 @@ extern const size_t tn_commands_count;
 /* The command named so, or NULL. */
 const tn_command *tn_command_find(const char *name);
 
+/* What the command's option --output was given; NULL where it was not, or the command has no such option. */
+const char *tn_settings_output(const tn_settings *settings);
+
 /* Options that every command has; parsing and help add them to the command's own. */
 extern const tn_option tn_common_options[];
 extern const size_t tn_common_option_count;
@@ -144,14 +99,16 @@ extern const size_t tn_common_option_count;
 size_t tn_option_total(const tn_command *command);
 const tn_option *tn_option_at(const tn_command *command, size_t i);
 
+/* The command's settings, all zero; NULL where out of memory. Free them. */
+tn_settings *tn_settings_new(const tn_command *command);
+void tn_settings_free(const tn_command *command, tn_settings *settings);
+
 /* Reads the words after the command's name. TN_INVALID (E0904) says what is wrong and what was probably meant; what was
- * read before stays in the settings. Clear the settings in any case. */
+ * read before stays in the settings. */
 tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error);
 
 /* What --diagnostics says among the words, 0 where it does not: for what is wrong with the command line itself. */
 int tn_options_diagnostics(int count, char *const *words);
-
-void tn_settings_clear(tn_settings *settings);
 
 /* Reads a number or a range as the options do; false where the text is not one. */
 bool tn_number_read(const char *text, uint64_t *value);

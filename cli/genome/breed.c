@@ -7,6 +7,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
 #include "driver/breed/evolve_sheet.h"
+#include "runtime/base/array.h"
 
 #define TURNS_MAX 100u /* how often one individual may be chosen at once: N*100 */
 
@@ -18,14 +19,8 @@ typedef struct choice {
 static bool add(choice *c, uint64_t place, uint64_t times)
 {
     for (uint64_t i = 0; i < times; i++) {
-        if (c->count == c->capacity) {
-            size_t capacity = c->capacity ? c->capacity * 2 : 16;
-            uint32_t *grown = realloc(c->places, capacity * sizeof *grown);
-            if (!grown)
-                return false;
-            c->places = grown;
-            c->capacity = capacity;
-        }
+        if (!tn_array_reserve(&c->places, &c->capacity, c->count, 1, sizeof *c->places))
+            return false;
         c->places[c->count++] = (uint32_t)(place - 1);
     }
     return true;
@@ -107,9 +102,10 @@ static void breed(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run(settings, breed);
+    return tn_evolution_session_run((const tn_session_settings *)settings, breed);
 }
 
+#define SETTINGS tn_session_settings
 static const tn_option options[] = {
     OPTIONS_RUN("how many generations to breed at most, instead of the study's number")};
 
@@ -125,6 +121,7 @@ const tn_command tn_command_breed = {
     .example = "$ tartan breed garden.study -o garden.run",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

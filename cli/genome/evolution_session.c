@@ -36,12 +36,15 @@ static void report(tn_evolution_session *e, const tn_evolution_study *study, con
 
 static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
 {
-    const tn_settings *settings = e->command->settings;
-    const char *path = settings->operands.items[0];
+    const tn_session_settings *settings = e->settings;
+    const char *path = settings->common.operands.items[0];
     const tn_module *module = e->command->opened.module;
-    tn_evolution_job_options options = {
-        .threads = (unsigned)settings->threads.value, .says_seed = settings->seed.given, .seed = settings->seed.value};
-    tn_run_options run_options = {.resume = settings->resume, .durable = settings->durable};
+    tn_evolution_job_options options = {.threads = (unsigned)settings->threads.value,
+                                        .watch = tn_interrupt_waiting(),
+                                        .says_seed = settings->seed.given,
+                                        .seed = settings->seed.value};
+    tn_run_options run_options = {
+        .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
     const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
                            *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
     tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text), tn_text(module, grammar->path),
@@ -60,14 +63,18 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     return begun;
 }
 
-static bool open_session(tn_job *command, tn_evolution_session *e)
+static bool open_session(tn_job *command, const tn_session_settings *settings, tn_evolution_session *e)
 {
-    const char *path = command->settings->operands.items[0];
+    const char *path = settings->common.operands.items[0];
     tn_error error = {0};
     tn_evolution_study study;
-    *e = (tn_evolution_session){.command = command};
-    if (command->settings->changes.count && !command->settings->resume) {
+    *e = (tn_evolution_session){.command = command, .settings = settings};
+    if (settings->changes.count && !settings->resume) {
         tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
+        return false;
+    }
+    if (settings->rescore && !settings->resume) {
+        tn_job_usage(command, "--rescore is about a run that has begun: say --resume too");
         return false;
     }
     if (!tn_job_open(command, path))
@@ -81,8 +88,8 @@ static bool open_session(tn_job *command, tn_evolution_session *e)
         tn_job_fail(command, &error);
         return false;
     }
-    char *own = command->settings->output ? NULL : default_dir(path);
-    const char *dir = command->settings->output ? command->settings->output : own;
+    char *own = settings->output ? NULL : default_dir(path);
+    const char *dir = settings->output ? settings->output : own;
     bool begun = dir && begin(e, &study, dir, &error);
     if (!dir) {
         tn_fail_memory(&error);
@@ -92,14 +99,13 @@ static bool open_session(tn_job *command, tn_evolution_session *e)
     return begun;
 }
 
-int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution))
+int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(tn_evolution_session *evolution))
 {
     tn_job command;
     tn_evolution_session evolution;
-    tn_job_begin(&command, settings);
-    if (open_session(&command, &evolution)) {
+    tn_job_begin(&command, &settings->common);
+    if (open_session(&command, settings, &evolution)) {
         tn_job_show(&command);
-        tn_interrupt_watch();
         work(&evolution);
     }
     tn_run_clear(&evolution.run); /* before the job ends, which owns the study's texts */

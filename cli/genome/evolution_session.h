@@ -10,14 +10,25 @@
 #define OPTIONS_RUN(generations_help)                                                                                  \
     TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
         FLAG("resume", 0, resume, "go on with the run in the folder, if there is one"),                                \
+        FLAG("rescore", 0, rescore,                                                                                    \
+             "with --resume, where files that scores depend on have changed: score all members again"),                \
         NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
         LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
              "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated"),      \
-        NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS,                         \
+        NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS(threads),                \
         FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
+
+typedef struct tn_session_settings {
+    tn_settings common;
+    const char *output; /* the run's folder */
+    bool resume, durable, rescore;
+    tn_option_number generations, seed, threads;
+    tn_option_list changes;
+} tn_session_settings;
 
 typedef struct tn_evolution_session {
     tn_job *command;
+    const tn_session_settings *settings;
     tn_evolution_job job;
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
@@ -25,6 +36,6 @@ typedef struct tn_evolution_session {
 
 /* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
  * command's exit code. */
-int tn_evolution_session_run(const tn_settings *settings, void (*work)(tn_evolution_session *evolution));
+int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(tn_evolution_session *evolution));
 
 #endif

@@ -1,11 +1,13 @@
 /* tartan evolve: breeds sentences of a grammar towards what a study wants. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
+#include "runtime/base/utf8.h"
 
 static double now(void)
 {
@@ -35,13 +37,16 @@ static void evolve(tn_evolution_session *e)
     tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
     tn_status status = TN_OK;
     while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
+        tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there", e->run.generations);
         status = tn_run_step(&e->run, NULL, 0, &error);
         if (status == TN_OK && progress.shows)
             describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);
     }
     tn_progress_end(&progress);
-    if (status == TN_OK && e->run.generations)
+    if (status == TN_STOPPED)
+        status = TN_OK; /* within a generation, which is not kept */
+    if (status == TN_OK && e->run.generations && !tn_interrupted())
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK) {
         tn_job_fail(e->command, &error);
@@ -49,14 +54,14 @@ static void evolve(tn_evolution_session *e)
         tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
                     e->run.generations);
     } else if (tn_interrupted()) {
-        tn_job_note(e->command, "interrupted after %u generations; --resume goes on from there", e->run.generations);
-        e->command->exit_code = TN_EXIT_INTERRUPTED;
+        tn_job_interrupted(e->command, "interrupted after %u generations; --resume goes on from there",
+                           e->run.generations);
     }
 }
 
 static const char *why_no_score(const tn_individual *individual)
 {
-    return individual->reason != TN_MAP_VALID ? tn_map_reason_text(individual->reason) : individual->message;
+    return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
 }
 
 static void summarise(const tn_evolution_session *e, FILE *out)
@@ -73,8 +78,11 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     else
         fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
     fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
-    if (count && members[0]->score.state == TN_SCORED)
-        fprintf(out, "best: individual %" PRIu64 "\n%s\n", members[0]->id, members[0]->sentence);
+    if (count && members[0]->score.state == TN_SCORED) {
+        fprintf(out, "best: individual %" PRIu64 "\n", members[0]->id);
+        tn_write_shown(out, members[0]->sentence, strlen(members[0]->sentence));
+        fputc('\n', out);
+    }
     fprintf(out, "results are in %s\n", e->run.dir);
 }
 
@@ -91,9 +99,10 @@ static void evolve_and_tell(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run(settings, evolve_and_tell);
+    return tn_evolution_session_run((const tn_session_settings *)settings, evolve_and_tell);
 }
 
+#define SETTINGS tn_session_settings
 static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number")};
 
 const tn_command tn_command_evolve = {
@@ -114,6 +123,7 @@ const tn_command tn_command_evolve = {
     .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

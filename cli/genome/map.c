@@ -16,6 +16,20 @@
 #include "runtime/genome/mapping/mapper.h"
 #include "runtime/genome/picture/tree_draw.h"
 
+typedef struct map_settings {
+    tn_settings common;
+    const char *genome, *genomes, *invert, *tree, *output;
+    tn_option_number random, seed, codons;
+    tn_option_number wraps, max_depth, max_steps, max_items;
+    int format;
+    bool trace;
+} map_settings;
+
+static const map_settings *settings_of(const tn_job *job)
+{
+    return (const map_settings *)job->settings;
+}
+
 #define RANDOM_CODONS 200u   /* of a random genome, unless --codons says otherwise */
 #define RANDOM_CODON_BITS 31 /* their size */
 
@@ -23,7 +37,7 @@ typedef struct mapping_run {
     tn_job *job;
     tn_grammar *grammar;
     tn_mapper *mapper;
-    tn_map_options options;
+    tn_mapping_options options;
     tn_genome genome;
     FILE *out;
     uint64_t done; /* genomes mapped */
@@ -66,7 +80,7 @@ static void write_json_repair(FILE *out, const tn_mapping *m)
 static void write_json(const mapping_run *run, const tn_mapping *m)
 {
     fprintf(run->out, "{\"valid\":%s,\"reason\":", m->valid ? "true" : "false");
-    tn_write_json(run->out, m->valid ? NULL : tn_map_reason_text(m->reason));
+    tn_write_json(run->out, m->valid ? NULL : tn_mapping_reason_text(m->reason));
     fputs(",\"phenotype\":", run->out);
     tn_write_json(run->out, m->has_phenotype ? m->phenotype : NULL);
     write_number(run->out, "used_codons", m->has_phenotype, m->used);
@@ -85,7 +99,7 @@ static void write_text(const mapping_run *run, const tn_mapping *m)
         fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %u", m->used, m->wraps,
                 m->nodes, m->depth);
     if (!m->valid)
-        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_map_reason_text(m->reason));
+        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_mapping_reason_text(m->reason));
     if (m->repaired_count)
         fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", m->repaired_count,
                 m->repaired_used - m->used);
@@ -96,7 +110,7 @@ static void write_text(const mapping_run *run, const tn_mapping *m)
 
 static void write_tree(mapping_run *run, const tn_mapping *m)
 {
-    const char *how = run->job->settings->tree;
+    const char *how = settings_of(run->job)->tree;
     tn_tree tree;
     tn_error error;
     tn_status status = tn_tree_make(m->events, m->event_count, &tree, &error);
@@ -114,10 +128,11 @@ static void write_tree(mapping_run *run, const tn_mapping *m)
 
 static void map_genome(mapping_run *run)
 {
-    const tn_settings *settings = run->job->settings;
+    const map_settings *settings = settings_of(run->job);
     tn_mapping mapping;
     tn_error error;
-    if (tn_map_genome(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) != TN_OK) {
+    if (tn_mapper_derive(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) !=
+        TN_OK) {
         fail(run, &error);
         return;
     }
@@ -183,7 +198,7 @@ static void read_genomes(mapping_run *run, const char *path)
 
 static void random_genomes(mapping_run *run)
 {
-    const tn_settings *settings = run->job->settings;
+    const map_settings *settings = settings_of(run->job);
     size_t codons = settings->codons.given ? (size_t)settings->codons.value : RANDOM_CODONS;
     tn_error error;
     if (!tn_genome_reserve(&run->genome, codons)) {
@@ -203,7 +218,7 @@ static void random_genomes(mapping_run *run)
 
 static void invert(mapping_run *run)
 {
-    const tn_settings *settings = run->job->settings;
+    const map_settings *settings = settings_of(run->job);
     const char *sentence = settings->invert;
     tn_invert_options options = {.max_depth = run->options.max_depth, .max_items = (size_t)settings->max_items.value};
     tn_error error;
@@ -224,7 +239,7 @@ static void invert(mapping_run *run)
 /* Nothing that was asked for is left out without a word. */
 static bool formats_agree(tn_job *job)
 {
-    const tn_settings *s = job->settings;
+    const map_settings *s = settings_of(job);
     bool json = s->format == 1;
     if (s->invert && (json || s->tree || s->trace)) {
         tn_job_usage(job, "--invert writes a genome, and nothing else: map it for --tree, --trace or --format json");
@@ -239,7 +254,7 @@ static bool formats_agree(tn_job *job)
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *s = job->settings;
+    const map_settings *s = settings_of(job);
     int sources = (s->genome != NULL) + (s->genomes != NULL) + s->random.given + (s->invert != NULL);
     if (sources != 1) {
         tn_job_usage(job, "say what to map: one of --genome, --genomes, --random or --invert");
@@ -268,13 +283,13 @@ static bool check_options(tn_job *job)
 static bool prepare(mapping_run *run)
 {
     tn_job *job = run->job;
-    const tn_settings *settings = job->settings;
+    const map_settings *settings = settings_of(job);
     tn_error error;
-    if (!tn_job_open(job, settings->operands.items[0]))
+    if (!tn_job_open(job, settings->common.operands.items[0]))
         return false;
-    if (job->opened.module->GRAMMAR_count == 0) {
+    if (!tn_module_has_grammar(job->opened.module)) {
         tn_fail(&error, TN_INVALID, E_NOT_A_GRAMMAR, "%.200s holds no grammar that genomes are mapped through",
-                settings->operands.items[0]);
+                settings->common.operands.items[0]);
         tn_error_help(&error, "%s", tn_opened_help(&job->opened, "such grammars are .bnf files").text);
         fail(run, &error);
         return false;
@@ -289,7 +304,7 @@ static bool prepare(mapping_run *run)
         fail(run, &error);
         return false;
     }
-    run->options = tn_map_options_of(run->grammar);
+    run->options = tn_mapping_options_of(run->grammar);
     if (settings->wraps.given)
         run->options.wraps = (uint32_t)settings->wraps.value;
     if (settings->max_depth.given)
@@ -300,16 +315,16 @@ static bool prepare(mapping_run *run)
     return true;
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const map_settings *settings = (const map_settings *)common;
     tn_job job;
     mapping_run run = {.job = &job};
     tn_output output;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     if (check_options(&job) && prepare(&run) && tn_job_output(&job, settings->output, &output)) {
         run.out = output.stream;
-        tn_interrupt_watch();
         if (settings->invert)
             invert(&run);
         else if (settings->genome)
@@ -319,7 +334,7 @@ static int run(const tn_command *command, const tn_settings *settings)
         else
             random_genomes(&run);
         if (tn_interrupted())
-            job.exit_code = TN_EXIT_INTERRUPTED;
+            tn_job_interrupted(&job, "interrupted after %" PRIu64 " genomes", run.done);
         tn_job_close(&job, &output, !tn_interrupted());
     }
     tn_genome_clear(&run.genome);
@@ -328,6 +343,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS map_settings
 static const tn_option options[] = {
     TEXT("genome", 'g', "\"N N ...\"", genome, "map this genome"),
     TEXT("genomes", 0, "FILE", genomes, "map the genomes of FILE, one a line; - is standard input"),
@@ -366,6 +382,7 @@ const tn_command tn_command_map = {
     .example = "$ tartan map genr8-example --genome \"212 187 632 832 800 517 338 39\" --trace",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one GRAMMAR.bnf",
     .operands_min = 1,
     .operands_max = 1,

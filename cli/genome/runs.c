@@ -7,6 +7,12 @@
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "driver/breed/evolve.h"
+#include "runtime/base/utf8.h"
+
+typedef struct runs_settings {
+    tn_settings common;
+    const char *output;
+} runs_settings;
 
 /* What a run's database says of it. */
 typedef struct record {
@@ -44,13 +50,20 @@ static bool read_run(tn_job *job, const char *dir, record *r)
     return status == TN_OK;
 }
 
+static void show_line(FILE *out, const char *before, const char *text, size_t size)
+{
+    fputs(before, out);
+    tn_write_clean(out, text, size);
+    fputc('\n', out);
+}
+
 /* What a person decided before a generation was bred. */
 static void show_events(const record *r, uint32_t generation, FILE *out)
 {
     for (size_t i = 0; i < r->event_count; i++)
         if (r->events[i].generation == generation)
-            fprintf(out, "           %s %s\n",
-                    strcmp(r->events[i].kind, "set") == 0 ? "changed:" : "chosen:", r->events[i].text);
+            show_line(out, strcmp(r->events[i].kind, "choose") == 0 ? "           chosen: " : "           changed: ",
+                      r->events[i].text, strlen(r->events[i].text));
 }
 
 static void show(tn_job *job, const char *dir, FILE *out)
@@ -59,7 +72,7 @@ static void show(tn_job *job, const char *dir, FILE *out)
     if (read_run(job, dir, &r)) {
         fprintf(out, "%s%s\n", dir, r.identity ? "" : ": not begun");
         for (const char *line = r.identity; line && *line; line += strcspn(line, "\n") + 1)
-            fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
+            show_line(out, "  ", line, strcspn(line, "\n"));
         fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
                 "evaluations", "births");
         for (size_t i = 0; i < r.count; i++) {
@@ -127,14 +140,15 @@ static void replay(tn_job *job, const char *dir, const char *id_text, FILE *out)
     tn_close(&opened);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const runs_settings *settings = (const runs_settings *)common;
     tn_job job;
     tn_output output;
-    const tn_option_list *words = &settings->operands;
+    const tn_option_list *words = &common->operands;
     const char *what = words->items[0];
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     bool shows = strcmp(what, "show") == 0, compares = strcmp(what, "compare") == 0,
          replays = strcmp(what, "replay") == 0;
     if (!shows && !compares && !replays) {
@@ -162,6 +176,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS runs_settings
 static const tn_option options[] = {OPTION_OUTPUT};
 
 const tn_command tn_command_runs = {
@@ -175,6 +190,7 @@ const tn_command tn_command_runs = {
     .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "show, compare or replay, and a run's folder",
     .operands_min = 2,
     .operands_max = SIZE_MAX,

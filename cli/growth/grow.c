@@ -7,6 +7,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/growth/grow.h"
+#include "runtime/base/array.h"
 #include "runtime/growth/faults.h"
 #include "runtime/mesh/openmesh.h"
 
@@ -16,11 +17,11 @@
 /* A growth under way. */
 typedef struct run_state {
     tn_job *job;
-    const tn_settings *settings;
+    const tn_grow_settings *settings;
     tn_study study;
     tn_growth_system *system;
     tn_growth *growth;
-    tn_grow_format format;
+    tn_out_format format;
     uint64_t until_faces; /* 0: as many steps as the study says */
     tn_stats *stats;
     size_t stats_count;
@@ -59,23 +60,8 @@ static char *step_path(const char *path, uint32_t step)
 
 static bool make_room(run_state *run)
 {
-    if (run->stats_count == run->stats_room) {
-        size_t room = 2 * run->stats_room + 16;
-        tn_stats *grown = realloc(run->stats, room * sizeof *grown);
-        if (!grown)
-            return false;
-        run->stats = grown;
-        run->stats_room = room;
-    }
-    if (run->view_count == run->view_room) {
-        size_t room = 2 * run->view_room + 16;
-        tn_view **grown = realloc(run->views, room * sizeof *grown);
-        if (!grown)
-            return false;
-        run->views = grown;
-        run->view_room = room;
-    }
-    return true;
+    return tn_array_reserve_from(&run->stats, &run->stats_room, 16, run->stats_count, 1, sizeof *run->stats) &&
+           tn_array_reserve_from(&run->views, &run->view_room, 16, run->view_count, 1, sizeof *run->views);
 }
 
 static void note_fault(const tn_fault *found, uint32_t step, tn_fault *kept, uint32_t steps[2])
@@ -130,7 +116,7 @@ static void warn_of_faults(run_state *run)
 /* What there is to do with each step. */
 static tn_status note_step(run_state *run, tn_error *error)
 {
-    const tn_settings *settings = run->settings;
+    const tn_grow_settings *settings = run->settings;
     if (!make_room(run))
         return tn_fail_memory(error);
     if (settings->stats || !settings->output) {
@@ -193,25 +179,48 @@ static bool is_enough(run_state *run)
         return all_steps;
     if (faces >= run->until_faces)
         return true;
-    if (all_steps && run->settings->steps)
+    if (all_steps && run->settings->said.steps)
         tn_job_note(run->job, "after %u steps there are %u faces, fewer than %llu", steps, faces,
                     (unsigned long long)run->until_faces);
     else if (run->idle >= IDLE_STEPS)
         tn_job_note(run->job, "%u steps have made no face: there are %u, fewer than %llu", run->idle, faces,
                     (unsigned long long)run->until_faces);
-    return (all_steps && run->settings->steps) || run->idle >= IDLE_STEPS;
+    return (all_steps && run->settings->said.steps) || run->idle >= IDLE_STEPS;
 }
 
-/* Grows step by step. A limit, an interruption or rest ends it at the last complete step. */
+/* What an interrupt leaves, should one come after this step. */
+static void describe_rest(const run_state *run, uint32_t step, char *text, size_t size)
+{
+    const char *output = run->settings->output;
+    if (!output)
+        snprintf(text, size, "interrupted after step %u of %u", step, run->study.steps);
+    else if (run->settings->each_step)
+        snprintf(text, size, "interrupted after step %u of %u; the files of later steps are not written", step,
+                 run->study.steps);
+    else
+        snprintf(text, size, "interrupted after step %u of %u; %.300s is not written", step, run->study.steps, output);
+}
+
+static void promise(const run_state *run, uint32_t step)
+{
+    char text[480];
+    describe_rest(run, step, text, sizeof text);
+    tn_interrupt_last_words("%s", text);
+}
+
+/* Grows step by step. A limit or rest ends it at the last complete step. */
 static tn_status grow(run_state *run, tn_error *error)
 {
     tn_progress progress;
     tn_status status = note_step(run, error);
     tn_progress_begin(&progress, "steps", 0, run->until_faces ? 0 : run->study.steps);
-    while (status == TN_OK && !is_enough(run) && !tn_interrupted()) {
+    while (status == TN_OK && !is_enough(run)) {
         uint32_t complete = tn_growth_steps(run->growth), faces = tn_growth_map(run->growth)->face_count;
         tn_progress_update(&progress, complete);
-        status = tn_growth_step(run->growth, error);
+        promise(run, complete);
+        status = tn_interrupt_check(error);
+        if (status == TN_OK)
+            status = tn_growth_step(run->growth, error);
         if (status == TN_LIMIT) {
             tn_job_fail(run->job, error);
             tn_job_note(run->job, "the surface is that of step %u, the last complete one", complete);
@@ -237,7 +246,7 @@ static tn_status grow(run_state *run, tn_error *error)
 
 static void finish(run_state *run)
 {
-    const tn_settings *settings = run->settings;
+    const tn_grow_settings *settings = run->settings;
     warn_of_faults(run);
     if (settings->sheet)
         tn_grow_sheet(run->job, run->growth, &run->study, run->views, run->view_count, run->format);
@@ -245,8 +254,18 @@ static void finish(run_state *run)
         tn_grow_write(run->job, run->growth, &run->study, run->format, settings->output);
     if (settings->stats || !settings->output)
         tn_grow_stats(run->job, run->system, &run->study, run->stats, run->stats_count);
-    if (tn_interrupted())
-        run->job->exit_code = TN_EXIT_INTERRUPTED;
+}
+
+/* What ended it before the end; an interrupt says what is there and what is not. */
+static void fail(run_state *run, const tn_error *error)
+{
+    char text[480];
+    if (error->status != TN_STOPPED || !run->growth) {
+        tn_job_fail(run->job, error);
+        return;
+    }
+    describe_rest(run, tn_growth_steps(run->growth), text, sizeof text);
+    tn_job_interrupted(run->job, "%s", text);
 }
 
 /* --until faces=N */
@@ -264,7 +283,7 @@ static bool read_until(run_state *run)
 
 /* Bytes that growing may take: by default three quarters of the machine's memory, rather than that the system ends the
  * program. */
-static uint64_t memory_limit(const tn_settings *settings)
+static uint64_t memory_limit(const tn_grow_settings *settings)
 {
     long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
     if (settings->memory_limit.given || pages <= 0 || size <= 0)
@@ -289,39 +308,39 @@ static tn_status prepare(run_state *run, tn_error *error)
         return status;
     run->study.options.explain = run->settings->explain;
     run->study.options.interpret = run->settings->engine == TN_GROW_VM;
+    run->study.options.watch = tn_interrupt_waiting();
     run->study.options.threads = (int)run->settings->threads.value;
     run->study.options.memory_limit = memory_limit(run->settings);
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
     tn_error error;
-    tn_job_begin(&job, settings);
-    run_state state = {.job = &job, .settings = settings};
+    tn_job_begin(&job, common);
+    run_state state = {.job = &job, .settings = tn_grow_settings_of(&job)};
     if (tn_grow_format_of(&job, &state.format) && read_until(&state) && tn_grow_open(&job)) {
-        tn_interrupt_watch();
         tn_status status = prepare(&state, &error);
         if (status == TN_OK)
             status = grow(&state, &error);
         if (status == TN_OK)
             finish(&state);
         else
-            tn_job_fail(&job, &error);
+            fail(&state, &error);
     }
     clear(&state);
     return tn_job_end(&job);
 }
 
+#define SETTINGS tn_grow_settings
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output,
          "the surface: .obj, .ply, .stl, .off, .om, .glb, its edges: .dxf, or a picture: .svg, .png, .pdf; - is "
          "standard output"),
-    CHOICE("format", 'f', "FORMAT", mesh_format, TN_GROW_FORMATS,
-           "what is written, where the name of FILE does not say it"),
-    TEXT("steps", 'n', "N", steps, "how many derivation steps (default: the study's, or 4)"),
+    CHOICE("format", 'f', "FORMAT", format, TN_GROW_FORMATS, "what is written, where the name of FILE does not say it"),
+    TEXT("steps", 'n', "N", said.steps, "how many derivation steps (default: the study's, or 4)"),
     TEXT("until", 0, "faces=N", until,
          "stop at the first step with at least N faces, or after the steps of -n where that is given"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json",
@@ -339,27 +358,28 @@ static const tn_option options[] = {
            "subdivide the finished mesh N times (Catmull-Clark, or Loop where all faces are triangles)"),
     NUMBER("smooth", 0, "N", smooth, 1, 10000, "smooth the finished mesh N times (Laplace; the outline stays)"),
     NUMBER("decimate", 0, "FACES", decimate, 1, UINT32_MAX, "reduce the finished mesh to about FACES triangles"),
-    TEXT("scale", 0, "S", growth_scale, "factor of each step, or \"SX SY SZ\" for each axis"),
-    TEXT("start", 0, "\"X Y Z\"", start, "centre of the seed"),
-    TEXT("start-length", 0, "L", start_length, "side of the seed"),
-    TEXT("seed", 's', "N", growth_seed, "random stream of weighted rules"),
-    TEXT("branch-angle", 0, "DEGREES", branch_angle,
+    TEXT("scale", 0, "S", said.scale, "factor of each step, or \"SX SY SZ\" for each axis"),
+    TEXT("start", 0, "\"X Y Z\"", said.start, "centre of the seed"),
+    TEXT("start-length", 0, "L", said.start_length, "side of the seed"),
+    TEXT("seed", 's', "N", said.seed, "random stream of weighted rules"),
+    TEXT("branch-angle", 0, "DEGREES", said.branch_angle,
          "how far from opposite joined branches may point, instead of what the file says"),
-    TEXT("branch-length", 0, "L", branch_length, "longest join, in sides of the seed as scaled so far"),
-    TEXT("edge-limit", 0, "N", edge_limit, "the most edges a surface may have"),
+    TEXT("branch-length", 0, "L", said.branch_length, "longest join, in sides of the seed as scaled so far"),
+    TEXT("edge-limit", 0, "N", said.edge_limit, "the most edges a surface may have"),
     NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24,
            "the most memory that growing may take, in megabytes (default: three quarters of what there is)"),
-    FLAG("fixed-centre", 0, fixed_centre, "scale about the start instead of the mean of the vertices"),
-    FLAG("fixed-perimeter", 0, fixed_perimeter, "vertices of the outline stay"),
-    FLAG("facing", 0, facing, "join branches only where each points towards the other"),
-    FLAG("mirror", 0, grow_mirror, "`+` turns right, as in files of Genr8"),
-    LIST("attractor", 0, "\"at X Y Z ...\"", attractors,
+    FLAG("fixed-centre", 0, said.fixed_centre, "scale about the start instead of the mean of the vertices"),
+    FLAG("fixed-perimeter", 0, said.fixed_perimeter, "vertices of the outline stay"),
+    FLAG("facing", 0, said.facing, "join branches only where each points towards the other"),
+    FLAG("mirror", 0, said.mirror, "`+` turns right, as in files of Genr8"),
+    LIST("attractor", 0, "\"at X Y Z ...\"", said.attractors,
          "add an attractor, in the words of a study: \"at 4 4 3 strength 2\"; may be repeated"),
-    LIST("repeller", 0, "\"at X Y Z ...\"", repellers, "add a repeller"),
-    LIST("gravity", 0, "\"X Y Z\"", gravity, "add a displacement of every step"),
-    LIST("boundary", 0, "SHAPE", boundaries,
+    LIST("repeller", 0, "\"at X Y Z ...\"", said.repellers, "add a repeller"),
+    LIST("gravity", 0, "\"X Y Z\"", said.gravity, "add a displacement of every step"),
+    LIST("boundary", 0, "SHAPE", said.boundaries,
          "add a boundary, in the words of a study: \"sphere at 0 0 0 radius 2 stop\"; may be repeated"),
-    LIST("fitness", 0, "TERM", fitness, "add a fitness term, in the words of a study: \"size target 10 weight 2\""),
+    LIST("fitness", 0, "TERM", said.fitness,
+         "add a fitness term, in the words of a study: \"size target 10 weight 2\""),
     REAL("azimuth", 0, "DEGREES", azimuth, "where a picture is seen from, about z (default -60)"),
     REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
     NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture (default 480)"),
@@ -370,7 +390,7 @@ static const tn_option options[] = {
         "engine", 0, "ENGINE", engine, "templates|vm",
         "templates (the default) draws each successor once, before it grows; vm interprets the rules' code for every "
         "edge: the same surface, more slowly"),
-    OPTION_THREADS,
+    OPTION_THREADS(threads),
     OPTION_WERROR,
 };
 
@@ -391,6 +411,7 @@ const tn_command tn_command_grow = {
                "$ tartan grow square.hemls --boundary \"sphere at 0 0 -2 radius 1.5\" -o tent.glb",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -2,35 +2,32 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "cli/growth/grow.h"
-#include "runtime/geometry/write.h"
 #include "runtime/growth/surface.h"
-#include "runtime/mesh/openmesh.h"
 
-static bool is_picture(tn_grow_format format)
+static bool is_picture(tn_out_format format)
 {
-    return format >= TN_GROW_SVG;
+    return format >= TN_OUT_SVG;
 }
 
 /* Options that say something about some formats only: used with another one they would do nothing. */
-static bool check_use(tn_job *job, tn_grow_format format)
+static bool check_use(tn_job *job, tn_out_format format)
 {
     enum { MESH = 1, SURFACE = 2, LINES = 4, NORMALS = 8, GROUPS = 16, AXIS = 32, PICTURE = 64 };
-    static const unsigned can[TN_GROW_FORMAT_COUNT] = {
-        [TN_GROW_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
-        [TN_GROW_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
-        [TN_GROW_STL] = MESH | SURFACE | AXIS,
-        [TN_GROW_OFF] = MESH | SURFACE | AXIS,
-        [TN_GROW_OM] = MESH | SURFACE | AXIS,
-        [TN_GROW_GLB] = MESH | SURFACE | NORMALS | GROUPS,
-        [TN_GROW_DXF] = MESH | LINES | GROUPS | AXIS,
-        [TN_GROW_SVG] = PICTURE,
-        [TN_GROW_PNG] = PICTURE,
-        [TN_GROW_PDF] = PICTURE,
+    static const unsigned can[TN_OUT_FORMAT_COUNT] = {
+        [TN_OUT_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_OUT_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_OUT_STL] = MESH | SURFACE | AXIS,
+        [TN_OUT_OFF] = MESH | SURFACE | AXIS,
+        [TN_OUT_OM] = MESH | SURFACE | AXIS,
+        [TN_OUT_GLB] = MESH | SURFACE | NORMALS | GROUPS,
+        [TN_OUT_DXF] = MESH | LINES | GROUPS | AXIS,
+        [TN_OUT_SVG] = PICTURE,
+        [TN_OUT_PNG] = PICTURE,
+        [TN_OUT_PDF] = PICTURE,
     };
-    const tn_settings *s = job->settings;
+    const tn_grow_settings *s = tn_grow_settings_of(job);
     const struct {
         bool given;
         unsigned needs;
@@ -52,7 +49,7 @@ static bool check_use(tn_job *job, tn_grow_format format)
         {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
         {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
         {s->each_step, PICTURE | MESH, "each-step", "name one with -o"},
-        {s->mesh_format != 0, PICTURE | MESH, "format", "name one with -o"},
+        {s->format != 0, PICTURE | MESH, "format", "name one with -o"},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
         if (!uses[i].given || (can[format] & uses[i].needs))
@@ -72,19 +69,16 @@ static bool check_use(tn_job *job, tn_grow_format format)
     return true;
 }
 
-bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
+bool tn_grow_format_of(tn_job *job, tn_out_format *format)
 {
-    static const char *const words[TN_GROW_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
-                                                            "glb", "dxf", "svg", "png", "pdf"};
-    const tn_settings *settings = job->settings;
-    const char *path = settings->output, *dot = path ? strrchr(path, '.') : NULL;
-    *format = (tn_grow_format)settings->mesh_format;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
+    const char *path = settings->output;
+    *format = (tn_out_format)settings->format;
     if (!path)
-        return check_use(job, TN_GROW_NONE);
-    for (int f = TN_GROW_OBJ; *format == TN_GROW_NONE && dot && f < TN_GROW_FORMAT_COUNT; f++)
-        if (strcasecmp(dot + 1, words[f]) == 0)
-            *format = (tn_grow_format)f;
-    if (*format == TN_GROW_NONE) {
+        return check_use(job, TN_OUT_NONE);
+    if (*format == TN_OUT_NONE)
+        *format = tn_out_format_of(path);
+    if (*format == TN_OUT_NONE) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
                 "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
@@ -103,7 +97,7 @@ bool tn_grow_format_of(tn_job *job, tn_grow_format *format)
     return true;
 }
 
-tn_camera tn_grow_camera(const tn_settings *settings)
+tn_camera tn_grow_camera(const tn_grow_settings *settings)
 {
     tn_camera camera = tn_camera_default();
     if (settings->azimuth.given)
@@ -127,56 +121,11 @@ static void describe(const tn_job *job, const tn_growth *growth, char *text, siz
 
 /* ---- meshes */
 
-static tn_status rework(const tn_settings *settings, tn_grow_format format, tn_mesh *mesh, tn_error *error)
+static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format format, const char *path)
 {
-    tn_status status = TN_OK;
-    if (settings->subdivide.given)
-        status = tn_openmesh_subdivide(mesh, (unsigned)settings->subdivide.value, error);
-    if (status == TN_OK && settings->smooth.given)
-        status = tn_openmesh_smooth(mesh, (unsigned)settings->smooth.value, error);
-    if (status == TN_OK && settings->decimate.given)
-        status = tn_openmesh_decimate(mesh, (size_t)settings->decimate.value, error);
-    if (status == TN_OK && (settings->triangulate || format == TN_GROW_GLB || format == TN_GROW_STL))
-        status = tn_mesh_triangulate(mesh, error);
-    return status;
-}
-
-static tn_status write_by_openmesh(const tn_mesh *mesh, tn_grow_format format, bool y_up, FILE *out, tn_error *error)
-{
-    unsigned char *bytes;
-    size_t size;
-    tn_openmesh_format kind = format == TN_GROW_OFF   ? TN_OPENMESH_OFF
-                              : format == TN_GROW_STL ? TN_OPENMESH_STL
-                                                      : TN_OPENMESH_OM;
-    tn_status status = tn_openmesh_write(mesh, kind, y_up, &bytes, &size, error);
-    if (status == TN_OK)
-        fwrite(bytes, 1, size, out); /* failing shows when the output is committed */
-    free(bytes);
-    return status;
-}
-
-static tn_status write_mesh(const tn_settings *settings, const tn_mesh *mesh, tn_grow_format format, const char *note,
-                            FILE *out, tn_error *error)
-{
-    tn_mesh_style style = {.notes = &note, .note_count = 1, .normals = settings->normals, .y_up = settings->up == 1};
-    switch (format) {
-    case TN_GROW_OBJ:
-        return tn_mesh_write_obj(mesh, &style, out, error);
-    case TN_GROW_PLY:
-        return tn_mesh_write_ply(mesh, &style, out, error);
-    case TN_GROW_GLB:
-        return tn_mesh_write_glb(mesh, &style, out, error);
-    case TN_GROW_DXF:
-        return tn_mesh_write_dxf(mesh, &style, out, error);
-    default:
-        return write_by_openmesh(mesh, format, style.y_up, out, error);
-    }
-}
-
-static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format format, const char *path)
-{
-    const tn_settings *settings = job->settings;
-    bool dxf = format == TN_GROW_DXF;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
+    bool dxf = format == TN_OUT_DXF;
+    tn_out_changes changes = {settings->subdivide, settings->smooth, settings->decimate, settings->triangulate};
     tn_surface_options options = {
         .groups = settings->groups, .lines = settings->lines || dxf, .layers = dxf && !settings->groups};
     tn_mesh mesh;
@@ -186,9 +135,9 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format f
     describe(job, growth, note, sizeof note);
     tn_status status = tn_surface_mesh(growth, &options, &mesh, &error);
     if (status == TN_OK)
-        status = rework(settings, format, &mesh, &error);
+        status = tn_out_rework(&changes, format, &mesh, &error);
     if (status == TN_OK && tn_job_output(job, path, &output)) {
-        status = write_mesh(settings, &mesh, format, note, output.stream, &error);
+        status = tn_out_mesh(&mesh, format, settings->normals, settings->up == 1, note, output.stream, &error);
         if (status == TN_OK)
             tn_job_commit(job, &output);
         else
@@ -201,9 +150,9 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_grow_format f
 
 /* ---- pictures */
 
-static tn_picture picture_to(const char *path, tn_grow_format format)
+static tn_picture picture_to(const char *path, tn_out_format format)
 {
-    return (tn_picture){.path = path, .format = (tn_canvas_format)(format - TN_GROW_SVG + TN_CANVAS_SVG)};
+    return (tn_picture){.path = path, .format = (tn_canvas_format)(format - TN_OUT_SVG + TN_CANVAS_SVG)};
 }
 
 static void note_depth(tn_job *job, const tn_view *view)
@@ -214,12 +163,12 @@ static void note_depth(tn_job *job, const tn_view *view)
 }
 
 void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
-                   tn_grow_format format)
+                   tn_out_format format)
 {
     char caption[240];
     tn_error error;
     describe(job, growth, caption, sizeof caption);
-    const tn_settings *settings = job->settings;
+    const tn_grow_settings *settings = tn_grow_settings_of(job);
     for (size_t i = 0; i < count; i++)
         note_depth(job, views[i]);
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
@@ -232,17 +181,18 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
         tn_job_fail(job, &error);
 }
 
-static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format,
+static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format,
                           const char *path)
 {
-    tn_camera camera = tn_grow_camera(job->settings);
+    tn_camera camera = tn_grow_camera(tn_grow_settings_of(job));
     tn_view *view;
     tn_error error;
     char caption[240];
     describe(job, growth, caption, sizeof caption);
-    tn_view_options options = {.title = job->settings->title ? job->settings->title : study->title,
+    tn_view_options options = {.title =
+                                   tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
-                               .dpi = (uint32_t)job->settings->dpi.value,
+                               .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .system = tn_growth_rules(growth)};
     tn_picture to = picture_to(path, format);
     tn_status status = tn_view_take(growth, &camera, &view, &error);
@@ -255,7 +205,7 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
     tn_view_free(view);
 }
 
-void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_grow_format format, const char *path)
+void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format, const char *path)
 {
     if (is_picture(format))
         write_picture(job, growth, study, format, path);

@@ -69,7 +69,7 @@ void tn_grow_stats(tn_job *job, const tn_growth_system *system, const tn_study *
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
-    if (job->settings->stats == 2) {
+    if (tn_grow_settings_of(job)->stats == 2) {
         for (size_t i = 0; i < count; i++) {
             fputs(i ? ",\n" : "[", output.stream);
             write_json(output.stream, system, study, &stats[i]);

@@ -39,20 +39,20 @@ static bool say_list(FILE *out, const char *word, const tn_option_list *list)
 }
 
 /* Writes the statements; false where there are none. */
-static bool say_statements(FILE *out, const tn_settings *s)
+static bool say_statements(FILE *out, const tn_grow_statements *s)
 {
     bool any = say_text(out, "steps", s->steps);
-    any |= say_text(out, "scale", s->growth_scale);
+    any |= say_text(out, "scale", s->scale);
     any |= say_text(out, "start", s->start);
     any |= say_text(out, "start-length", s->start_length);
-    any |= say_text(out, "seed", s->growth_seed);
+    any |= say_text(out, "seed", s->seed);
     any |= say_text(out, "branch-angle", s->branch_angle);
     any |= say_text(out, "branch-length", s->branch_length);
     any |= say_text(out, "edge-limit", s->edge_limit);
     any |= say_flag(out, "fixed-centre", s->fixed_centre);
     any |= say_flag(out, "fixed-perimeter", s->fixed_perimeter);
     any |= say_flag(out, "facing", s->facing);
-    any |= say_flag(out, "mirror", s->grow_mirror);
+    any |= say_flag(out, "mirror", s->mirror);
     any |= say_list(out, "attractor", &s->attractors);
     any |= say_list(out, "repeller", &s->repellers);
     any |= say_list(out, "gravity", &s->gravity);
@@ -69,7 +69,7 @@ static bool open_options(tn_job *job, const char *text, size_t size)
     tn_error error;
     tn_status status = tn_stdlib_dirs_find(&dirs, &error);
     tn_files_begin(&files, &dirs);
-    tn_compile_options options = {tn_files_resolver(&files), job->settings->werror, NULL};
+    tn_compile_options options = {.resolver = tn_files_resolver(&files), .warnings_are_errors = job->settings->werror};
     if (status == TN_OK)
         tn_job_status(job, tn_open_text(TN_NOTATION(study), "<options>", text, size, &options, &job->opened));
     else
@@ -112,7 +112,7 @@ bool tn_grow_open(tn_job *job)
     tn_stdlib_file_clear(&found);
     fputs(notation == TN_NOTATION(hemls) ? "rules " : "use ", out);
     say_quoted(out, path);
-    bool any = say_statements(out, job->settings), written = !ferror(out);
+    bool any = say_statements(out, &tn_grow_settings_of(job)->said), written = !ferror(out);
     fclose(out);
     bool opened = false;
     if (!written) {

@@ -5,12 +5,30 @@
 #include "cli/plan/library_job.h"
 #include "driver/plan/tests.h"
 
-/* What `tartan count` prints of a library. */
-void tn_job_count(tn_job *job, const tn_ready_library *ready);
+/* How counts are printed: all zero as `tartan count` does without options. */
+typedef struct tn_count_options {
+    bool json, mirror;
+} tn_count_options;
 
-/* What `tartan diff` prints of two; paths: their files. The job is the one that has the second open. */
-void tn_job_compare(tn_job *job, const char *const paths[2], const tn_ready_library *before,
-                    const tn_ready_library *after);
+/* Writes what `tartan count` prints of a library; path: NULL is standard output. */
+void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path);
+
+/* How two libraries are compared: all zero as `tartan diff` does without options. */
+typedef struct tn_compare_options {
+    tn_option_number sample, seed;
+    bool json;
+    const char *output, *title; /* of a picture */
+} tn_compare_options;
+
+/* Two libraries that are open, and their files. */
+typedef struct tn_compared {
+    const char *paths[2];
+    const tn_ready_library *before, *after;
+    uint32_t max_states; /* 0: the default */
+} tn_compared;
+
+/* What `tartan diff` prints of the two. The job is the one that has the second open. */
+void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_options *options);
 
 /* The last line of `tartan test`. */
 void tn_test_counts_write(const tn_test_counts *counts, FILE *out);

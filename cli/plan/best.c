@@ -8,6 +8,19 @@
 
 enum { BEST_DEFAULT = 10, BEST_MAX = 1000000 };
 
+typedef struct best_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_written_settings written;
+    tn_option_list wanted; /* wishes */
+    bool mirror;
+} best_settings;
+
+static const best_settings *settings_of(const tn_job *job)
+{
+    return (const best_settings *)job->settings;
+}
+
 /* Where the plans go: lines with their values, JSON with them, or what `sample` writes. */
 typedef struct sink {
     tn_job *job;
@@ -60,7 +73,7 @@ static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const 
 /* A plan whose mirror image is kept and of lower rank is left out where pairs count once. */
 static bool is_wanted(const sink *s, const tn_tray *trays, uint32_t length)
 {
-    return !s->job->settings->mirror || tn_library_mirror_first(s->ready->library, trays, length);
+    return !settings_of(s->job)->mirror || tn_library_mirror_first(s->ready->library, trays, length);
 }
 
 static void give(sink *s, tn_best *best, uint64_t wanted)
@@ -90,12 +103,12 @@ static void give(sink *s, tn_best *best, uint64_t wanted)
 /* Text goes out here, so that values can stand with the plans; the other formats as `sample` writes them. */
 static bool open_sink(sink *s)
 {
-    const tn_settings *settings = s->job->settings;
+    const tn_written_settings *settings = &settings_of(s->job)->written;
     tn_plan_format format = (tn_plan_format)settings->format;
     s->json = format == TN_FORMAT_JSON;
     bool text = s->json || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !settings->output);
     return text ? tn_job_output(s->job, settings->output, &s->output)
-                : tn_job_plan_writer(s->job, s->ready, "best", &s->writer);
+                : tn_job_plan_writer(s->job, s->ready, settings, "best", &s->writer);
 }
 
 static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wanted)
@@ -104,7 +117,7 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     tn_weighed *weighed = NULL;
     tn_best *best = NULL;
     tn_error error;
-    if (!tn_wishes_read(job, ready, 1, &wishes))
+    if (!tn_wishes_read(job, ready, &settings_of(job)->wanted, 1, &wishes))
         return;
     tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
     if (status == TN_OK)
@@ -125,38 +138,40 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     tn_weighed_free(weighed);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const best_settings *settings = (const best_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
     uint64_t wanted = BEST_DEFAULT;
-    tn_job_begin(&job, settings);
-    if (settings->operands.count > 1 && (!tn_number_read(settings->operands.items[1], &wanted) || wanted > BEST_MAX)) {
+    tn_job_begin(&job, common);
+    if (common->operands.count > 1 && (!tn_number_read(common->operands.items[1], &wanted) || wanted > BEST_MAX)) {
         tn_diagnostic *d = tn_job_usage(&job, "the number of plans is a number from 0 to %d, not `%.60s`", BEST_MAX,
-                                        settings->operands.items[1]);
+                                        common->operands.items[1]);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan best FILE N --least MEASURE");
-    } else if (tn_job_library(&job, settings->operands.items[0], &ready)) {
+    } else if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
         find_best(&job, &ready, wanted);
     }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS best_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
-    WISH("least", "the plans with the least MEASURE first"),
-    WISH("most", "the plans with the most MEASURE first"),
-    WISH("then-least", "of equal ones those with the least of this measure; may be repeated"),
-    WISH("then-most", "of equal ones those with the most of this measure; may be repeated"),
+    WISH("least", wanted, "the plans with the least MEASURE first"),
+    WISH("most", wanted, "the plans with the most MEASURE first"),
+    WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
+    WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     OPTION_PLAN_FORMAT,
     OPTION_PLAN_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_best = {
@@ -172,6 +187,7 @@ const tn_command tn_command_best = {
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and perhaps a number N",
     .operands_min = 1,
     .operands_max = 2,

@@ -4,9 +4,8 @@
 
 #include "driver/plan/library.h"
 
-static bool choose_asked(tn_job *job, tn_chosen_rules *chosen)
+static bool choose_asked(tn_job *job, const tn_option_list *asked, tn_chosen_rules *chosen)
 {
-    const tn_option_list *asked = &job->settings->rules;
     for (size_t i = 0; i < asked->count; i++) {
         tn_status status = tn_rule_choose(&job->opened, asked->items[i], &chosen->indices[chosen->count]);
         tn_job_status(job, status);
@@ -52,18 +51,18 @@ static bool choose_schema(tn_job *job, tn_chosen_rules *chosen)
     return true;
 }
 
-bool tn_job_choose_rules(tn_job *job, const char *otherwise, tn_chosen_rules *chosen)
+bool tn_job_choose_rules(tn_job *job, const tn_option_list *asked, const char *otherwise, tn_chosen_rules *chosen)
 {
-    size_t asked = job->settings->rules.count;
-    *chosen =
-        (tn_chosen_rules){.indices = malloc(sizeof *chosen->indices * (asked + job->opened.module->RULE_count + 1))};
+    *chosen = (tn_chosen_rules){
+        .indices = malloc(sizeof *chosen->indices * (asked->count + job->opened.module->RULE_count + 1))};
     if (!chosen->indices) {
         tn_error error;
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
         return false;
     }
-    return (asked ? choose_asked(job, chosen) : choose_own(job, otherwise, chosen)) && choose_schema(job, chosen);
+    return (asked->count ? choose_asked(job, asked, chosen) : choose_own(job, otherwise, chosen)) &&
+           choose_schema(job, chosen);
 }
 
 void tn_chosen_rules_clear(tn_chosen_rules *chosen)

@@ -10,9 +10,9 @@ typedef struct tn_chosen_rules {
     uint32_t schema;   /* which all of them are about */
 } tn_chosen_rules;
 
-/* False where there are none, or where they are about different trays (then end the job). `otherwise` says what to do
- * where the file has no rules of its own. Clear them in any case. */
-bool tn_job_choose_rules(tn_job *job, const char *otherwise, tn_chosen_rules *chosen);
+/* asked: the words of --rule. False where there are none, or where they are about different trays (then end the job).
+ * `otherwise` says what to do where the file has no rules of its own. Clear them in any case. */
+bool tn_job_choose_rules(tn_job *job, const tn_option_list *asked, const char *otherwise, tn_chosen_rules *chosen);
 void tn_chosen_rules_clear(tn_chosen_rules *chosen);
 
 #endif

@@ -4,9 +4,21 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/measure/complete.h"
+
+typedef struct complete_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool json;
+    const char *output;
+} complete_settings;
+
+static const complete_settings *settings_of(const tn_job *job)
+{
+    return (const complete_settings *)job->settings;
+}
 
 typedef struct paper {
     const tn_schema *schema;
@@ -87,31 +99,36 @@ static void complete(tn_job *job, const tn_ready_library *ready)
     tn_job_show(job);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, job->settings->output, &output)) {
-        (job->settings->json ? write_json : write_text)(&p, output.stream);
+    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
+        (settings_of(job)->json ? write_json : write_text)(&p, output.stream);
         tn_job_commit(job, &output);
     }
     tn_completions_clear(&found);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    tn_settings with_pattern = *settings;
-    with_pattern.pattern = settings->operands.items[1];
+    const complete_settings *settings = (const complete_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
-    tn_job_begin(&job, &with_pattern);
-    if (tn_job_library(&job, settings->operands.items[0], &ready))
+    tn_job_begin(&job, common);
+    if (tn_job_library_open_plan(&job, common->operands.items[0], &settings->plans, common->operands.items[1], &ready))
         complete(&job, &ready);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS complete_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,    OPTION_WHERE,   FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    OPTION_OUTPUT,     OPTION_TRAYS,   OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES, OPTION_THREADS,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
+    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    OPTION_OUTPUT,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_complete = {
@@ -128,6 +145,7 @@ const tn_command tn_command_complete = {
     .example = "$ tartan complete lahave-houses \"8' public | ? | great | ...\"",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and a PATTERN",
     .operands_min = 2,
     .operands_max = 2,

@@ -8,6 +8,17 @@
 #include "cli/plan/count_by.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
+#include "runtime/base/utf8.h"
+
+typedef struct count_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_count_options count;
+    const char *by; /* the measure that is counted by */
+    const char *step;
+    tn_option_number bins;
+    const char *output;
+} count_settings;
 
 /* All counts of a library: one a length, and one (at the end) of all. */
 typedef struct length_counts {
@@ -173,8 +184,9 @@ static void write_text(const counts *c, FILE *out)
     mpz_init(pruned);
     mpz_sub(pruned, total->generated, total->kept);
     char *text = tn_digits(pruned, true);
-    fprintf(out, "%s%s%s\npruned: %s\nstates: %u%s\n\n", tn_text(module, c->ready->record->name), *doc ? ": " : "", doc,
-            text ? text : "?", tn_library_states(c->ready->library),
+    fprintf(out, "%s%s", tn_text(module, c->ready->record->name), *doc ? ": " : "");
+    tn_write_clean(out, doc, strlen(doc));
+    fprintf(out, "\npruned: %s\nstates: %u%s\n\n", text ? text : "?", tn_library_states(c->ready->library),
             tn_library_within(c->ready->library) ? " within these lengths" : "");
     free(text);
     mpz_clear(pruned);
@@ -248,13 +260,12 @@ static void write_json(const counts *c, FILE *out)
     mpz_clear(pruned);
 }
 
-void tn_job_count(tn_job *job, const tn_ready_library *ready)
+void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path)
 {
-    const tn_settings *settings = job->settings;
     counts c;
     tn_error error;
     tn_output output;
-    if (!counts_new(ready, settings->mirror, &c)) {
+    if (!counts_new(ready, options->mirror, &c)) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
         return;
@@ -262,38 +273,49 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready)
     tn_job_show(job);
     if (count_all(&c, &job->opened, &error) != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, settings->output, &output)) {
-        (settings->json ? write_json : write_text)(&c, output.stream);
+    } else if (tn_job_output(job, path, &output)) {
+        (options->json ? write_json : write_text)(&c, output.stream);
         tn_job_commit(job, &output);
     }
     counts_free(&c);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static void answer(tn_job *job, const tn_ready_library *ready, const count_settings *settings)
+{
+    if (settings->by)
+        tn_count_by(job, ready, settings->by,
+                    &(tn_count_by_options){settings->count.json, settings->step, settings->bins}, settings->output);
+    else
+        tn_job_count(job, ready, &settings->count, settings->output);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const count_settings *settings = (const count_settings *)common;
     tn_job job;
     tn_ready_library ready;
-    tn_job_begin(&job, settings);
-    if (tn_job_library(&job, settings->operands.items[0], &ready))
-        (settings->by ? tn_count_by : tn_job_count)(&job, &ready);
+    tn_job_begin(&job, common);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+        answer(&job, &ready, settings);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS count_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
-    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
+    FLAG("json", 0, count.json, "write JSON, every count as a string of digits"),
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
     NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
-    FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
+    FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_count = {
@@ -309,6 +331,7 @@ const tn_command tn_command_count = {
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -73,24 +73,23 @@ static void find_step(paper *p, unsigned long most)
 }
 
 /* As the options say, or by how many values there are. */
-static bool choose_bins(tn_job *job, paper *p)
+static bool choose_bins(tn_job *job, const tn_count_by_options *options, paper *p)
 {
-    const tn_settings *settings = job->settings;
-    if (settings->step) {
-        bool good = tn_decimal_read(settings->step, strlen(settings->step), p->step) && mpq_sgn(p->step) > 0;
+    if (options->step) {
+        bool good = tn_decimal_read(options->step, strlen(options->step), p->step) && mpq_sgn(p->step) > 0;
         if (!good) {
-            tn_diagnostic *d = tn_job_usage(job, "the step is a number above 0, not `%.60s`", settings->step);
+            tn_diagnostic *d = tn_job_usage(job, "the step is a number above 0, not `%.60s`", options->step);
             tn_help(tn_job_diagnostics(job), d, "write it in %s, without the unit: --step 50",
                     *tn_amount_unit_name(p->unit) ? tn_amount_unit_name(p->unit) : "the measure's numbers");
             return false;
         }
     }
     p->binned =
-        p->d->count > 0 && (settings->step || settings->bins.given || (p->d->count > VALUES_LISTED && !settings->json));
+        p->d->count > 0 && (options->step || options->bins.given || (p->d->count > VALUES_LISTED && !options->json));
     if (!p->binned)
         return true;
-    if (!settings->step)
-        find_step(p, settings->bins.given ? (unsigned long)settings->bins.value : BINS_DEFAULT);
+    if (!options->step)
+        find_step(p, options->bins.given ? (unsigned long)options->bins.value : BINS_DEFAULT);
     mpz_t bins;
     mpz_init(bins);
     count_bins(p, bins);
@@ -330,7 +329,8 @@ static void write_text(const paper *p, FILE *out)
     write_rows(p, out);
 }
 
-void tn_count_by(tn_job *job, const tn_ready_library *ready)
+void tn_count_by(tn_job *job, const tn_ready_library *ready, const char *measure, const tn_count_by_options *options,
+                 const char *path)
 {
     const tn_module *module = job->opened.module;
     uint32_t index;
@@ -338,7 +338,7 @@ void tn_count_by(tn_job *job, const tn_ready_library *ready)
     tn_distribution d;
     tn_error error;
     tn_output output;
-    tn_status status = tn_measure_choose(&job->opened, job->settings->by, ready->record->schema, &index);
+    tn_status status = tn_measure_choose(&job->opened, measure, ready->record->schema, &index);
     tn_job_status(job, status);
     if (status != TN_OK)
         return;
@@ -351,10 +351,10 @@ void tn_count_by(tn_job *job, const tn_ready_library *ready)
     mpq_init(p.step);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (choose_bins(job, &p)) {
+    } else if (choose_bins(job, options, &p)) {
         tn_job_show(job);
-        if (tn_job_output(job, job->settings->output, &output)) {
-            (job->settings->json ? write_json : write_text)(&p, output.stream);
+        if (tn_job_output(job, path, &output)) {
+            (options->json ? write_json : write_text)(&p, output.stream);
             tn_job_commit(job, &output);
         }
     }

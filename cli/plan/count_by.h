@@ -4,6 +4,15 @@
 
 #include "cli/plan/library_job.h"
 
-void tn_count_by(tn_job *job, const tn_ready_library *ready);
+/* How the distribution is shown: all zero lists its values, or few bins where they are many. */
+typedef struct tn_count_by_options {
+    bool json;
+    const char *step; /* of bins, in the measure's unit */
+    tn_option_number bins;
+} tn_count_by_options;
+
+/* Writes the distribution of the measure of that name; path: NULL is standard output. */
+void tn_count_by(tn_job *job, const tn_ready_library *ready, const char *measure, const tn_count_by_options *options,
+                 const char *path);
 
 #endif

@@ -10,6 +10,17 @@
 #include "runtime/base/picture.h"
 #include "runtime/plan/picture/draw.h"
 
+typedef struct diff_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_compare_options compare;
+} diff_settings;
+
+static const diff_settings *settings_of(const tn_job *job)
+{
+    return (const diff_settings *)job->settings;
+}
+
 enum { SHOWN = 3, SHOWN_MAX = 1000, NOTE_SIZE = 400 };
 
 /* ---- the picture: removed plans, added ones, kept ones, each under a heading */
@@ -75,7 +86,7 @@ static tn_status collect(const tn_diff_report *report, char headings[TN_DIFF_PAR
     return status;
 }
 
-static tn_status draw(const tn_diff_report *report, const tn_settings *settings, tn_error *error)
+static tn_status draw(const tn_diff_report *report, const tn_compare_options *options, tn_error *error)
 {
     char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
     const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
@@ -84,60 +95,57 @@ static tn_status draw(const tn_diff_report *report, const tn_settings *settings,
         describe(report, (tn_diff_part)part, headings[part]);
     tn_status status = collect(report, headings, &s, error);
     snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, report->paths[0], report->paths[1],
-             settings->seed.value);
+             options->seed.value);
     snprintf(title, sizeof title, "%.160s: what changes", tn_text(report->modules[1], report->records[1]->name));
-    tn_draw_options options = {.title = settings->title ? settings->title : title,
+    tn_draw_options drawing = {.title = options->title ? options->title : title,
                                .number_name = "rank",
                                .notes = lines,
                                .note_count = TN_DIFF_PARTS + 1};
     if (status == TN_OK)
         status = tn_plans_draw(tn_library_schema(tn_library_diff_part(report->diff, TN_DIFF_KEPT)), s.plans, s.count,
-                               &options, &(tn_picture){.path = settings->output}, error);
+                               &drawing, &(tn_picture){.path = options->output}, error);
     sheet_clear(&s);
     return status;
 }
 
 /* ---- the command */
 
-static void deliver(tn_job *job, tn_diff_report *report)
+static void deliver(tn_job *job, tn_diff_report *report, const tn_compare_options *options)
 {
-    const tn_settings *settings = job->settings;
-    size_t count = settings->sample.given ? (size_t)settings->sample.value : SHOWN;
+    size_t count = options->sample.given ? (size_t)options->sample.value : SHOWN;
     tn_output output;
     tn_error error;
-    tn_status status = tn_diff_samples_take(report, count, settings->seed.value, &error);
+    tn_status status = tn_diff_samples_take(report, count, options->seed.value, &error);
     tn_job_show(job);
-    if (status == TN_OK && settings->output)
-        status = draw(report, settings, &error);
+    if (status == TN_OK && options->output)
+        status = draw(report, options, &error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
         return;
     }
     if (!tn_job_output(job, NULL, &output))
         return;
-    status = (settings->json ? tn_diff_write_json : tn_diff_write_text)(report, output.stream, &error);
+    status = (options->json ? tn_diff_write_json : tn_diff_write_text)(report, output.stream, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_job_close(job, &output, status == TN_OK);
 }
 
-void tn_job_compare(tn_job *job, const char *const paths[2], const tn_ready_library *before,
-                    const tn_ready_library *after)
+void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_options *options)
 {
-    const tn_settings *settings = job->settings;
+    const tn_ready_library *before = compared->before, *after = compared->after;
     tn_library_diff *diff;
     tn_error error;
-    if (tn_library_diff_new(before->library, after->library, (uint32_t)settings->max_states.value, NULL, &diff, &error) !=
-        TN_OK) {
+    if (tn_library_diff_new(before->library, after->library, compared->max_states, NULL, &diff, &error) != TN_OK) {
         error.code_offset = TN_NO_OFFSET;
         tn_job_fail(job, &error);
         return;
     }
     tn_diff_report report = {.diff = diff,
-                             .paths = {paths[0], paths[1]},
+                             .paths = {compared->paths[0], compared->paths[1]},
                              .modules = {before->schema->module, after->schema->module},
                              .records = {before->record, after->record}};
-    deliver(job, &report);
+    deliver(job, &report, options);
     tn_diff_samples_clear(&report);
     tn_library_diff_free(diff);
 }
@@ -146,40 +154,47 @@ static bool check_options(tn_job *job)
 {
     tn_canvas_format format;
     tn_error error;
-    if (!job->settings->output || tn_canvas_format_of(job->settings->output, &format, &error) == TN_OK)
+    if (!settings_of(job)->compare.output ||
+        tn_canvas_format_of(settings_of(job)->compare.output, &format, &error) == TN_OK)
         return true;
     tn_job_fail(job, &error);
     return false;
 }
 
 /* Two files are open at once, each with diagnostics of its own. */
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const diff_settings *settings = (const diff_settings *)common;
+    const char *const *paths = common->operands.items;
     tn_job jobs[2];
     tn_ready_library before = {0}, after = {0};
-    tn_job_begin(&jobs[0], settings);
-    tn_job_begin(&jobs[1], settings);
-    if (check_options(&jobs[0]) && tn_job_library(&jobs[0], settings->operands.items[0], &before) &&
-        tn_job_library(&jobs[1], settings->operands.items[1], &after))
-        tn_job_compare(&jobs[1], settings->operands.items, &before, &after);
+    tn_job_begin(&jobs[0], common);
+    tn_job_begin(&jobs[1], common);
+    if (check_options(&jobs[0]) && tn_job_library(&jobs[0], paths[0], &settings->plans, &before) &&
+        tn_job_library(&jobs[1], paths[1], &settings->plans, &after))
+        tn_job_compare(
+            &jobs[1], &(tn_compared){{paths[0], paths[1]}, &before, &after, (uint32_t)settings->plans.max_states.value},
+            &settings->compare);
     tn_library_close(&before);
     tn_library_close(&after);
     int first = tn_job_end(&jobs[0]), second = tn_job_end(&jobs[1]);
     return first > second ? first : second;
 }
 
+#define SETTINGS diff_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
-    NUMBER("sample", 0, "N", sample, 0, SHOWN_MAX, "show the first plan of each and N at random (default 3)"),
-    NUMBER("seed", 's', "S", seed, 0, 0, "which random ones (default 0)"),
-    FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    TEXT("output", 'o', "FILE", output, "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
-    TEXT("title", 0, "TEXT", title, "the picture's title"),
+    NUMBER("sample", 0, "N", compare.sample, 0, SHOWN_MAX, "show the first plan of each and N at random (default 3)"),
+    NUMBER("seed", 's', "S", compare.seed, 0, 0, "which random ones (default 0)"),
+    FLAG("json", 0, compare.json, "write JSON, every count as a string of digits"),
+    TEXT("output", 'o', "FILE", compare.output,
+         "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
+    TEXT("title", 0, "TEXT", compare.title, "the picture's title"),
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_diff = {
@@ -195,6 +210,7 @@ const tn_command tn_command_diff = {
     .example = "$ tartan diff before.plan after.plan\n$ tartan diff before.plan after.plan --sample 12 -o edit.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "two files, OLD and NEW",
     .operands_min = 2,
     .operands_max = 2,

@@ -7,9 +7,25 @@
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
 #include "driver/open/digits.h"
+#include "runtime/base/array.h"
 #include "runtime/base/picture.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
+
+typedef struct draw_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_input_settings input;
+    tn_sampled_settings sampled;
+    const char *output, *title, *paper;
+    tn_option_list rules;
+    tn_option_number sample, scale, columns, dpi, max_plans;
+} draw_settings;
+
+static const draw_settings *settings_of(const tn_job *job)
+{
+    return (const draw_settings *)job->settings;
+}
 
 enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
 
@@ -25,7 +41,7 @@ typedef struct sheet {
     size_t note_count;
 } sheet;
 
-static size_t max_plans(const tn_settings *settings)
+static size_t max_plans(const draw_settings *settings)
 {
     return settings->max_plans.given ? (size_t)settings->max_plans.value : TN_DRAW_PLANS_DEFAULT;
 }
@@ -33,15 +49,9 @@ static size_t max_plans(const tn_settings *settings)
 /* Takes over `number`; the trays are copied. */
 static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *number, tn_error *error)
 {
-    if (s->count == s->room) {
-        size_t room = s->room ? s->room * 2 : 64;
-        tn_drawn_plan *plans = realloc(s->plans, sizeof *plans * room);
-        if (!plans) {
-            free(number);
-            return tn_fail_memory(error);
-        }
-        s->plans = plans;
-        s->room = room;
+    if (!tn_array_reserve(&s->plans, &s->room, s->count, 1, sizeof *s->plans)) {
+        free(number);
+        return tn_fail_memory(error);
     }
     tn_tray *copy = malloc(sizeof *copy * (length + 1));
     if (!copy || !number) {
@@ -90,10 +100,12 @@ static bool read_plans(sheet *s, const char *path)
     tn_plan_reader *reader;
     const tn_plan *plan;
     tn_error error;
-    bool going = tn_job_reader(s->job, s->schema, path, &reader);
+    const draw_settings *settings = settings_of(s->job);
+    const tn_plans_source source = {path, &settings->input, &settings->plans};
+    bool going = tn_job_reader(s->job, s->schema, &source, &reader);
     if (!going)
         return false;
-    while (going && s->count <= max_plans(s->job->settings)) {
+    while (going && s->count <= max_plans(settings)) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
         if (status == TN_OK && !plan)
             break;
@@ -102,7 +114,7 @@ static bool read_plans(sheet *s, const char *path)
         else if (error.line > 0) {
             size_t size = 0;
             const char *text = tn_plan_reader_text(reader, &size);
-            going = tn_job_bad_plan(s->job, path, &error, text, size);
+            going = tn_job_bad_plan(s->job, &source, &error, text, size);
             continue;
         }
         if (status != TN_OK) {
@@ -141,7 +153,7 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
     char *digits = tn_digits(kept, true);
     tn_library_hash(ready->library, hash);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
-             digits ? digits : "?", s->job->settings->seed.value);
+             digits ? digits : "?", settings_of(s->job)->sampled.seed.value);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
     free(digits);
     mpz_clear(kept);
@@ -150,7 +162,8 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
 static bool sample_plans(sheet *s, const tn_ready_library *ready)
 {
     tn_sampled sampled;
-    bool drawn = tn_job_sample(s->job, ready, (size_t)s->job->settings->sample.value, &sampled) &&
+    bool drawn = tn_job_sample(s->job, ready, &settings_of(s->job)->sampled, (size_t)settings_of(s->job)->sample.value,
+                               &sampled) &&
                  unrank_all(s, ready, &sampled);
     tn_sampled_clear(&sampled);
     s->ranked = true;
@@ -174,7 +187,7 @@ static void note_rules(sheet *s)
 
 static void draw_sheet(sheet *s)
 {
-    const tn_settings *settings = s->job->settings;
+    const draw_settings *settings = settings_of(s->job);
     const tn_module *module = s->job->opened.module;
     const char *notes[NOTE_COUNT];
     tn_error error;
@@ -202,7 +215,7 @@ static void draw_sheet(sheet *s)
 static void draw_sample(tn_job *job)
 {
     tn_ready_library ready;
-    if (tn_job_library(job, job->settings->operands.items[0], &ready)) {
+    if (tn_job_library(job, job->settings->operands.items[0], &settings_of(job)->plans, &ready)) {
         sheet s = {.job = job, .schema = ready.schema, .library = ready.record};
         if (sample_plans(&s, &ready))
             draw_sheet(&s);
@@ -218,7 +231,7 @@ static void draw_file(tn_job *job, const char *path)
     tn_error error;
     if (!tn_job_open(job, job->settings->operands.items[0]))
         return;
-    tn_status status = tn_schema_choose(&job->opened, job->settings->library, &index, &library);
+    tn_status status = tn_schema_choose(&job->opened, settings_of(job)->plans.library, &index, &library);
     tn_job_status(job, status);
     if (status != TN_OK)
         return;
@@ -242,7 +255,7 @@ static void draw_file(tn_job *job, const char *path)
 /* Rules rather than plans: one picture of those asked for, which are about the same trays. */
 static void draw_rules(tn_job *job)
 {
-    const tn_option_list *asked = &job->settings->rules;
+    const tn_option_list *asked = &settings_of(job)->rules;
     tn_schema *schema = NULL;
     tn_error error;
     if (!tn_job_open(job, job->settings->operands.items[0]))
@@ -266,7 +279,7 @@ static void draw_rules(tn_job *job)
     }
     if (status == TN_OK) {
         status = tn_schema_new(module, trays, 0, &schema, &error);
-        tn_picture to = {.path = job->settings->output, .dpi = (uint32_t)job->settings->dpi.value};
+        tn_picture to = {.path = settings_of(job)->output, .dpi = (uint32_t)settings_of(job)->dpi.value};
         if (status == TN_OK)
             status = tn_rules_draw(schema, rules, asked->count, &to, &error);
         if (status != TN_OK)
@@ -278,36 +291,38 @@ static void draw_rules(tn_job *job)
     free(rules);
 }
 
-static bool is_sampled(const tn_settings *settings)
+static bool is_sampled(const draw_settings *settings)
 {
-    return settings->sample.given || settings->per_length.given;
+    return settings->sample.given || settings->sampled.per_length.given;
 }
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const draw_settings *settings = settings_of(job);
     tn_canvas_format format;
     tn_error error;
     if (!settings->output)
         tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
     else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
         tn_job_fail(job, &error);
-    else if (settings->rules.count && (is_sampled(settings) || settings->operands.count > 1))
+    else if (settings->rules.count && (is_sampled(settings) || settings->common.operands.count > 1))
         tn_job_usage(job, "draw either rules or plans, not both");
-    else if (is_sampled(settings) && settings->operands.count > 1)
+    else if (is_sampled(settings) && settings->common.operands.count > 1)
         tn_job_usage(job, "draw either a file of plans or a --sample, not both");
-    else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->trays.given))
+    else if (!is_sampled(settings) &&
+             (settings->sampled.seed.given || settings->sampled.length.given || settings->plans.trays.given))
         tn_job_usage(job, "--seed, --length and --trays say what is sampled: give --sample N too");
     else
         return true;
     return false;
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const draw_settings *settings = (const draw_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     if (!check_options(&job))
         return tn_job_end(&job);
     if (settings->rules.count) {
@@ -322,15 +337,16 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS draw_settings
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTION_LIBRARY,
     OPTION_WHERE,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
-    NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
-    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
-    NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
+    NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
+    NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
     TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
     TEXT("paper", 0, "SIZE", paper,
          "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
@@ -343,7 +359,7 @@ static const tn_option options[] = {
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_draw = {
@@ -362,6 +378,7 @@ const tn_command tn_command_draw = {
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,

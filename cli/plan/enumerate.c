@@ -10,6 +10,20 @@
 #include "cli/plan/plan_output.h"
 #include "driver/open/digits.h"
 
+typedef struct enumerate_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_written_settings written;
+    const char *from, *to;
+    tn_option_number limit;
+    bool mirror;
+} enumerate_settings;
+
+static const enumerate_settings *settings_of(const tn_job *job)
+{
+    return (const enumerate_settings *)job->settings;
+}
+
 /* How often the loop looks at the clock and for interruptions. */
 enum { LOOK_EVERY = 4096 };
 
@@ -26,7 +40,7 @@ typedef struct enumeration {
 
 static void refuse_range(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const enumerate_settings *settings = settings_of(job);
     tn_diagnostic *d = tn_job_usage(job, "no rank is from %.60s on and before %.60s", settings->from, settings->to);
     tn_help(tn_job_diagnostics(job), d, "write the smaller rank after --from");
 }
@@ -35,14 +49,14 @@ static void note_end(tn_job *job, const mpz_t kept)
 {
     char *digits = tn_digits(kept, false);
     tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?",
-                job->settings->from);
+                settings_of(job)->from);
     free(digits);
 }
 
 /* The ranks asked for, no further than the library goes. False where no stretch was asked for. */
 static bool find_range(enumeration *e)
 {
-    const tn_settings *settings = e->job->settings;
+    const enumerate_settings *settings = settings_of(e->job);
     mpz_t kept, zero;
     mpz_inits(kept, zero, NULL);
     tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
@@ -63,7 +77,7 @@ static bool find_range(enumeration *e)
 }
 
 /* What decides the result. The limit is left out: a library can be resumed to go on past it. */
-static char *describe(const tn_settings *settings)
+static char *describe(const enumerate_settings *settings)
 {
     const char *from = settings->from ? settings->from : "0", *to = settings->to ? settings->to : "";
     size_t size = strlen(from) + strlen(to) + 80;
@@ -72,9 +86,9 @@ static char *describe(const tn_settings *settings)
         return NULL;
     int used = snprintf(text, size, "enumerate --from %s%s%s%s", from, *to ? " --to " : "", to,
                         settings->mirror ? " --mirror" : "");
-    if (settings->trays.given)
-        snprintf(text + used, size - (size_t)used, " --trays %" PRIu64 "..%" PRIu64, settings->trays.low,
-                 settings->trays.high);
+    if (settings->plans.trays.given)
+        snprintf(text + used, size - (size_t)used, " --trays %" PRIu64 "..%" PRIu64, settings->plans.trays.low,
+                 settings->plans.trays.high);
     return text;
 }
 
@@ -99,18 +113,18 @@ static bool is_done(const enumeration *e)
 /* Keeps what was written: whole batches of a database, every plan of anything else. */
 static void interrupt(enumeration *e)
 {
+    tn_interrupt_answered();
     if (tn_plan_writer_resumes(e->writer)) {
-        tn_job_note(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+        tn_job_interrupted(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
     } else {
         tn_job_plan_close(e->job, e->writer);
         e->writer = NULL;
         char *rank = mpz_get_str(NULL, 10, e->rank);
         if (rank)
-            tn_job_note(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
-                        e->written, rank);
+            tn_job_interrupted(e->job, "interrupted; %" PRIu64 " plans are written, and --from %s goes on after them",
+                               e->written, rank);
         free(rank);
     }
-    e->job->exit_code = TN_EXIT_INTERRUPTED;
 }
 
 /* ---- progress: plans, where there is a limit of them, else ranks */
@@ -132,8 +146,8 @@ static double done(const enumeration *e)
 
 static void begin_progress(const enumeration *e, tn_progress *progress)
 {
-    const tn_settings *settings = e->job->settings;
-    bool to_stdout = !settings->output || strcmp(settings->output, "-") == 0;
+    const enumerate_settings *settings = settings_of(e->job);
+    bool to_stdout = !settings->written.output || strcmp(settings->written.output, "-") == 0;
     double ranks = ranks_from_first(e, e->to), plans = (double)e->limit;
     bool enough = settings->mirror || plans < ranks; /* as far as can be known */
     tn_progress_begin(progress, settings->mirror && !e->limited ? "ranks" : "plans", done(e),
@@ -143,7 +157,7 @@ static void begin_progress(const enumeration *e, tn_progress *progress)
 
 static tn_status write_plans(enumeration *e, tn_cursor *cursor, tn_error *error)
 {
-    bool mirror = e->job->settings->mirror;
+    bool mirror = settings_of(e->job)->mirror;
     const tn_tray *trays;
     uint32_t length;
     uint64_t seen = 0;
@@ -173,7 +187,6 @@ static void enumerate(enumeration *e)
     resume(e);
     tn_status status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, &error);
     if (status == TN_OK) {
-        tn_interrupt_watch();
         status = write_plans(e, cursor, &error);
         tn_cursor_free(cursor);
     }
@@ -187,25 +200,26 @@ static void enumerate(enumeration *e)
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
-    if (!settings->resume || (settings->output && strcmp(settings->output, "-") != 0))
+    const enumerate_settings *settings = settings_of(job);
+    if (!settings->written.resume || (settings->written.output && strcmp(settings->written.output, "-") != 0))
         return true;
     tn_job_usage(job, "--resume needs the database that it is to go on with: -o FILE.sqlite");
     return false;
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const enumerate_settings *settings = (const enumerate_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
-    tn_job_begin(&job, settings);
-    if (check_options(&job) && tn_job_library(&job, settings->operands.items[0], &ready)) {
+    tn_job_begin(&job, common);
+    if (check_options(&job) && tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
         enumeration e = {
             .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
         char *made = describe(settings);
         mpz_inits(e.rank, e.to, e.first, NULL);
-        if (find_range(&e) && made && tn_job_plan_writer(&job, &ready, made, &e.writer))
+        if (find_range(&e) && made && tn_job_plan_writer(&job, &ready, &settings->written, made, &e.writer))
             enumerate(&e);
         mpz_clears(e.rank, e.to, e.first, NULL);
         free(made);
@@ -214,6 +228,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS enumerate_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
@@ -223,12 +238,13 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
-    FLAG("resume", 0, resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
+    FLAG("resume", 0, written.resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_enumerate = {
@@ -245,6 +261,7 @@ const tn_command tn_command_enumerate = {
     .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -9,13 +9,30 @@
 #include "cli/plan/plan_input.h"
 #include "driver/plan/explain.h"
 #include "runtime/base/picture.h"
+#include "runtime/base/utf8.h"
+
+typedef struct explain_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_input_settings input;
+    const char *plan_file;
+    tn_option_list rules;
+    bool full, json;
+    const char *output;
+    tn_option_number nearest, dpi;
+} explain_settings;
+
+static const explain_settings *settings_of(const tn_job *job)
+{
+    return (const explain_settings *)job->settings;
+}
 
 #define NEAREST_DEFAULT 3
 
 /* What is explained, and against what. */
 typedef struct explaining {
     tn_job *job;
-    const tn_settings *settings;
+    const explain_settings *settings;
     const tn_library_record *record; /* or NULL: rules by themselves */
     tn_chosen_rules rules;
     tn_schema *schema;
@@ -39,20 +56,20 @@ static bool choose(explaining *e)
     uint32_t schema, library = UINT32_MAX;
     tn_error error;
     bool rules = e->settings->rules.count > 0;
-    if (!rules && !e->settings->library && opened->module->LIBRARY_count > 0) {
+    if (!rules && !e->settings->plans.library && opened->module->LIBRARY_count > 0) {
         tn_status status = tn_library_choose(opened, NULL, &library);
         tn_job_status(e->job, status);
         if (status != TN_OK)
             return false;
         schema = opened->module->LIBRARY_records[library].schema;
-    } else if (!rules && e->settings->library) {
-        tn_status status = tn_schema_choose(opened, e->settings->library, &schema, &library);
+    } else if (!rules && e->settings->plans.library) {
+        tn_status status = tn_schema_choose(opened, e->settings->plans.library, &schema, &library);
         tn_job_status(e->job, status);
         if (status != TN_OK)
             return false;
     } else {
         static const char otherwise[] = "name one of those it uses with --rule";
-        if (!tn_job_choose_rules(e->job, otherwise, &e->rules))
+        if (!tn_job_choose_rules(e->job, &e->settings->rules, otherwise, &e->rules))
             return false;
         schema = e->rules.schema;
     }
@@ -82,8 +99,8 @@ static void make_library(explaining *e)
     if (e->tried_library || !e->record)
         return;
     e->tried_library = true;
-    tn_library_options options = {.max_states = (uint32_t)e->settings->max_states.value,
-                                  .max_length = (uint32_t)e->settings->max_length.value};
+    tn_library_options options = {.max_states = (uint32_t)e->settings->plans.max_states.value,
+                                  .max_length = (uint32_t)e->settings->plans.max_length.value};
     tn_status status = tn_library_new(e->schema, library_index(e), &options, &e->library, &error);
     if (status == TN_LIMIT)
         note_limit(e, &error, "so ranks are not known");
@@ -97,7 +114,7 @@ static void make_nearest(explaining *e)
     if (e->tried_nearest)
         return;
     e->tried_nearest = true;
-    const tn_near_options options = {.max_states = (uint32_t)e->settings->max_states.value};
+    const tn_near_options options = {.max_states = (uint32_t)e->settings->plans.max_states.value};
     tn_status status = tn_near_finder_new(e->schema, library_index(e), &options, &e->finder, &error);
     if (status == TN_LIMIT)
         note_limit(e, &error, "so nearest plans are not known");
@@ -121,11 +138,20 @@ static void find_near(explaining *e, tn_explained *explained)
         tn_job_fail(e->job, &error);
 }
 
+/* JSON keeps its bytes; what people read does not reach the terminal as it is. */
+static void write_text(const explain_settings *settings, const tn_buffer *text, FILE *out)
+{
+    if (settings->json)
+        fwrite(text->data, 1, text->size, out);
+    else
+        tn_write_shown(out, text->data, text->size);
+}
+
 static void write_explained(explaining *e, const tn_explained *explained)
 {
     tn_error error;
     tn_buffer text = {0};
-    const tn_settings *settings = e->settings;
+    const explain_settings *settings = e->settings;
     if (settings->output) {
         tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
         if (tn_explained_draw(explained, settings->full, &to, &error) != TN_OK)
@@ -134,7 +160,7 @@ static void write_explained(explaining *e, const tn_explained *explained)
                                 : tn_explained_text(explained, settings->full, &text))) {
         fail_memory(e->job);
     } else {
-        fwrite(text.data, 1, text.size, e->output.stream);
+        write_text(settings, &text, e->output.stream);
     }
     free(text.data);
 }
@@ -143,7 +169,8 @@ static void explain_plan(explaining *e, const tn_tray *trays, size_t length)
 {
     tn_explained explained;
     tn_error error;
-    size_t longest = e->settings->max_length.given ? (size_t)e->settings->max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
+    size_t longest =
+        e->settings->plans.max_length.given ? (size_t)e->settings->plans.max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
     tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules.indices,
                                          e->rules.count, trays, length, longest, &error);
     if (e->settings->json || e->settings->full) /* ranks take several times as long as all the rest */
@@ -189,7 +216,7 @@ static void explain_rank(explaining *e, const char *digits)
 
 static void explain_text(explaining *e, const char *text)
 {
-    size_t longest = tn_job_max_length(e->settings);
+    size_t longest = tn_job_max_length(&e->settings->plans);
     tn_plan plan = {0};
     tn_error error;
     tn_status status = text[strspn(text, " ")] == '{'
@@ -211,7 +238,8 @@ static void explain_file(explaining *e, const char *path)
     tn_plan_reader *reader;
     const tn_plan *plan = NULL;
     tn_error error;
-    if (!tn_job_reader(e->job, e->schema, path, &reader))
+    const tn_plans_source source = {path, &e->settings->input, &e->settings->plans};
+    if (!tn_job_reader(e->job, e->schema, &source, &reader))
         return;
     for (size_t count = 0; e->job->exit_code == TN_EXIT_DONE; count++) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
@@ -220,7 +248,7 @@ static void explain_file(explaining *e, const char *path)
         size_t size = 0;
         const char *text = status == TN_OK ? NULL : tn_plan_reader_text(reader, &size);
         if (status != TN_OK) {
-            tn_job_bad_plan(e->job, path, &error, text, size);
+            tn_job_bad_plan(e->job, &source, &error, text, size);
             break;
         }
         if (e->settings->output && count > 0) {
@@ -236,10 +264,10 @@ static void explain_file(explaining *e, const char *path)
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const explain_settings *settings = settings_of(job);
     tn_canvas_format format;
     tn_error error;
-    if ((settings->operands.count > 1) == (settings->plan_file != NULL))
+    if ((settings->common.operands.count > 1) == (settings->plan_file != NULL))
         tn_job_usage(job, "say which plan: a plan line, #RANK, or --plan FILE");
     else if (settings->output && settings->json)
         tn_job_usage(job, "either a picture (-o) or --json, not both");
@@ -252,9 +280,9 @@ static bool check_options(tn_job *job)
 
 static void explain(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const explain_settings *settings = settings_of(job);
     explaining e = {.job = job, .settings = settings};
-    const char *text = settings->operands.count > 1 ? settings->operands.items[1] : NULL;
+    const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : NULL;
     if (choose(&e) && tn_job_output(job, NULL, &e.output)) {
         tn_job_show(job);
         if (!text)
@@ -271,16 +299,17 @@ static void explain(tn_job *job)
     tn_chosen_rules_clear(&e.rules);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
-    tn_job_begin(&job, settings);
-    if (check_options(&job) && tn_job_open(&job, settings->operands.items[0]))
+    tn_job_begin(&job, common);
+    if (check_options(&job) && tn_job_open(&job, common->operands.items[0]))
         explain(&job);
     return tn_job_end(&job);
 }
 
+#define SETTINGS explain_settings
 static const tn_option options[] = {
     TEXT("plan", 0, "FILE", plan_file, "explain every plan of FILE; - is standard input"),
     LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
@@ -313,6 +342,7 @@ const tn_command tn_command_explain = {
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and a PLAN",
     .operands_min = 1,
     .operands_max = 2,

@@ -8,6 +8,19 @@
 #include "runtime/plan/text/export_prolog.h"
 #include "runtime/plan/text/export_regex.h"
 
+typedef struct export_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool prolog, regex;
+    tn_option_list rules;
+    const char *output;
+} export_settings;
+
+static const export_settings *settings_of(const tn_job *job)
+{
+    return (const export_settings *)job->settings;
+}
+
 typedef struct exporting {
     tn_job *job;
     const tn_module *module;
@@ -26,7 +39,7 @@ static tn_status export_regex(exporting *e, tn_error *error)
     tn_dfa *dfa = NULL;
     tn_status status = tn_classes_new(e->schema, &function, 1, &classes, error);
     if (status == TN_OK)
-        status = tn_lowering_new(classes, (uint32_t)e->job->settings->max_states.value, &lowering, error);
+        status = tn_lowering_new(classes, (uint32_t)settings_of(e->job)->plans.max_states.value, &lowering, error);
     if (status == TN_OK)
         status = tn_lower(lowering, function, &dfa, error);
     tn_buffer pattern = {0};
@@ -51,7 +64,7 @@ static tn_status export_regex(exporting *e, tn_error *error)
 /* The rule asked for, and the schema: the rule's, the library's, or the only one. */
 static bool choose(exporting *e, uint32_t *schema)
 {
-    const tn_settings *settings = e->job->settings;
+    const export_settings *settings = settings_of(e->job);
     uint32_t library;
     tn_status status;
     if (settings->regex) {
@@ -59,7 +72,7 @@ static bool choose(exporting *e, uint32_t *schema)
         if (status == TN_OK)
             *schema = e->module->RULE_records[e->rule].schema;
     } else {
-        status = tn_schema_choose(&e->job->opened, settings->library, schema, &library);
+        status = tn_schema_choose(&e->job->opened, settings->plans.library, schema, &library);
     }
     tn_job_status(e->job, status);
     return status == TN_OK;
@@ -75,10 +88,10 @@ static void export(tn_job *job)
         return;
     tn_status status = tn_schema_new(e.module, schema, 0, &e.schema, &error);
     if (status == TN_OK)
-        status = job->settings->regex ? export_regex(&e, &error) : tn_export_prolog(e.schema, &e.text, &error);
+        status = settings_of(job)->regex ? export_regex(&e, &error) : tn_export_prolog(e.schema, &e.text, &error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, job->settings->output, &output)) {
+    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
         fwrite(e.text.data, 1, e.text.size, output.stream);
         tn_job_commit(job, &output);
     }
@@ -86,11 +99,12 @@ static void export(tn_job *job)
     tn_schema_free(e.schema);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const export_settings *settings = (const export_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     if (settings->prolog == settings->regex)
         tn_job_usage(&job, settings->prolog ? "--prolog and --regex are one or the other: leave one out"
                                             : "say what to write: --prolog or --regex");
@@ -98,11 +112,12 @@ static int run(const tn_command *command, const tn_settings *settings)
         tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
     else if (settings->prolog && settings->rules.count)
         tn_job_usage(&job, "--prolog writes all rules; --rule is for --regex");
-    else if (tn_job_open(&job, settings->operands.items[0]))
+    else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         export(&job);
     return tn_job_end(&job);
 }
 
+#define SETTINGS export_settings
 static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
@@ -128,6 +143,7 @@ const tn_command tn_command_export = {
         "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a rule file",
     .operands_min = 1,
     .operands_max = 1,

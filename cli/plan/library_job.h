@@ -3,19 +3,56 @@
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
 #include "cli/common/job.h"
+#include "cli/common/option_rows.h"
 #include "driver/plan/library.h"
 
+/* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */
+typedef struct tn_plan_settings {
+    const char *library;
+    tn_option_list wheres; /* further requirements */
+    tn_option_range trays;
+    tn_option_number max_length, max_states, threads;
+} tn_plan_settings;
+
+#define OPTION_LIBRARY                                                                                                 \
+    TEXT("library", 'l', "NAME", plans.library,                                                                        \
+         "which library of the file; may be left out where the file has only one")
+#define OPTION_WHERE                                                                                                   \
+    LIST("where", 0, "EXPRESSION", plans.wheres,                                                                       \
+         "only plans that meet EXPRESSION too, a requirement in the words of the file; may be repeated")
+#define OPTION_TRAYS                                                                                                   \
+    RANGE("trays", 0, "A..B", plans.trays, 0, UINT32_MAX - 1,                                                          \
+          "how many trays a plan has, instead of what the library says")
+#define OPTION_MAX_LENGTH                                                                                              \
+    NUMBER("max-length", 0, "N", plans.max_length, 1, 1u << 24,                                                        \
+           "the longest plan that is accepted, in trays (default 4096)")
+#define OPTION_MAX_STATES                                                                                              \
+    NUMBER("max-states", 0, "N", plans.max_states, 1, 1u << 30,                                                        \
+           "the most states an automaton may have while it is made (default 20000, 1000000 for a library)")
+#define OPTION_ENGINE                                                                                                  \
+    CHOICE(                                                                                                            \
+        "engine", 0, "ENGINE", engine, "auto|vm|dfa",                                                                  \
+        "vm (the interpreter) or dfa (automata); auto, the default, is automata with the interpreter for rules that "  \
+        "pass the state limit")
+
+/* Opens the file with the further requirements of --where; false where that failed (then end the job). */
+bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans);
+
 /* Opens the file and makes the chosen library ready; false where that failed (then end the job). */
-bool tn_job_library(tn_job *job, const char *path, tn_ready_library *ready);
+bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
+
+/* The same, with an open plan whose trays become functions of the module. */
+bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
+                              tn_ready_library *ready);
 
 /* The same, but only the schema: for commands that match plans against the clauses. */
-bool tn_job_library_schema(tn_job *job, const char *path, tn_ready_library *ready);
+bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 
 /* How many threads the options ask for; sets it for the library's own parallel loops too. */
-int tn_job_threads(const tn_settings *settings);
+int tn_job_threads(const tn_plan_settings *plans);
 
 /* The longest plan that the options accept. */
-size_t tn_job_max_length(const tn_settings *settings);
+size_t tn_job_max_length(const tn_plan_settings *plans);
 
 /* A rank of the options ("" or NULL: `otherwise`). `number` is initialised. */
 void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number);

@@ -8,6 +8,21 @@
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
 
+typedef struct match_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_input_settings input;
+    tn_option_list rules;
+    int format;
+    const char *output;
+    int engine; /* a tn_matching_engine */
+} match_settings;
+
+static const match_settings *settings_of(const tn_job *job)
+{
+    return (const match_settings *)job->settings;
+}
+
 enum { FORMAT_NAMES, FORMAT_JSON, FORMAT_BITS };
 
 /* The rules to match, and where the answers go. */
@@ -29,17 +44,17 @@ static const char *rule_name(const void *context, size_t i)
 
 static bool choose_rules(matching *m)
 {
-    return tn_job_choose_rules(m->job, "name one of those it uses with --rule, or filter with `tartan prune`",
-                               &m->rules);
+    return tn_job_choose_rules(m->job, &settings_of(m->job)->rules,
+                               "name one of those it uses with --rule, or filter with `tartan prune`", &m->rules);
 }
 
 static bool compile_rules(matching *m)
 {
-    const tn_settings *settings = m->job->settings;
+    const match_settings *settings = settings_of(m->job);
     const tn_module *module = m->job->opened.module;
     tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
-                                .max_states = (uint32_t)settings->max_states.value,
-                                .max_length = tn_job_max_length(settings)};
+                                .max_states = (uint32_t)settings->plans.max_states.value,
+                                .max_length = tn_job_max_length(&settings->plans)};
     uint32_t *functions = malloc(sizeof *functions * m->rules.count);
     tn_error error;
     tn_status status =
@@ -113,9 +128,9 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     const matching *m = context;
     tn_buffer *out = &texts[0];
     bool done;
-    if (m->job->settings->format == FORMAT_BITS)
+    if (settings_of(m->job)->format == FORMAT_BITS)
         done = append_bits(m, plan, out);
-    else if (m->job->settings->format == FORMAT_NAMES)
+    else if (settings_of(m->job)->format == FORMAT_NAMES)
         done = append_names_or_dash(m, plan, out);
     else
         done = append_object(m, plan, out);
@@ -125,16 +140,16 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
 static bool open_output(void *context)
 {
     matching *m = context;
-    return tn_job_output(m->job, m->job->settings->output, &m->output);
+    return tn_job_output(m->job, settings_of(m->job)->output, &m->output);
 }
 
 static void match_plans(matching *m)
 {
     tn_sifting sifting = {.job = m->job,
-                          .path = m->path,
+                          .source = {m->path, &settings_of(m->job)->input, &settings_of(m->job)->plans},
                           .schema = m->schema,
                           .rules = m->compiled,
-                          .numbered = m->job->settings->format == FORMAT_JSON,
+                          .numbered = settings_of(m->job)->format == FORMAT_JSON,
                           .open = open_output,
                           .plan = describe,
                           .streams = {&m->output.stream},
@@ -144,14 +159,15 @@ static void match_plans(matching *m)
         tn_job_close(m->job, &m->output, !sifting.stopped);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const match_settings *settings = (const match_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     matching m = {.job = &job, .path = tn_job_plans_path(&job)};
-    tn_job_threads(settings);
-    if (m.path && tn_job_open(&job, settings->operands.items[0]) && choose_rules(&m) && compile_rules(&m))
+    tn_job_threads(&settings->plans);
+    if (m.path && tn_job_open(&job, common->operands.items[0]) && choose_rules(&m) && compile_rules(&m))
         match_plans(&m);
     tn_rules_free(m.compiled);
     tn_schema_free(m.schema);
@@ -159,6 +175,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS match_settings
 static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "match this rule; may be repeated (default: all rules of the file itself)"),
     CHOICE("format", 'f', "FORMAT", format, "names|json|bits",
@@ -170,7 +187,7 @@ static const tn_option options[] = {
     OPTION_ENGINE,
     OPTION_MAX_STATES,
     OPTION_MAX_LENGTH,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_match = {
@@ -185,6 +202,7 @@ const tn_command tn_command_match = {
     .example = "$ tartan match lahave plans.txt --rule narrow-pair --format bits",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,

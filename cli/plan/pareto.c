@@ -8,6 +8,19 @@
 #include "runtime/plan/measure/pareto.h"
 #include "runtime/plan/text/text.h"
 
+typedef struct pareto_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_option_list wanted; /* wishes */
+    bool json;
+    const char *output;
+} pareto_settings;
+
+static const pareto_settings *settings_of(const tn_job *job)
+{
+    return (const pareto_settings *)job->settings;
+}
+
 typedef struct paper {
     const tn_ready_library *ready;
     const tn_wishes *wishes;
@@ -94,7 +107,7 @@ static void find_front(tn_job *job, const tn_ready_library *ready)
     tn_pareto_front front = {0};
     tn_error error;
     tn_output output;
-    if (!tn_wishes_read(job, ready, 2, &wishes))
+    if (!tn_wishes_read(job, ready, &settings_of(job)->wanted, 2, &wishes))
         return;
     tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
     if (status == TN_OK)
@@ -103,8 +116,8 @@ static void find_front(tn_job *job, const tn_ready_library *ready)
     tn_job_show(job);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, job->settings->output, &output)) {
-        if (!(job->settings->json ? write_json : write_text)(&p, output.stream)) {
+    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
+        if (!(settings_of(job)->json ? write_json : write_text)(&p, output.stream)) {
             tn_fail_memory(&error);
             tn_job_fail(job, &error);
         }
@@ -114,29 +127,31 @@ static void find_front(tn_job *job, const tn_ready_library *ready)
     tn_weighed_free(weighed);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const pareto_settings *settings = (const pareto_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
-    tn_job_begin(&job, settings);
-    if (tn_job_library(&job, settings->operands.items[0], &ready))
+    tn_job_begin(&job, common);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
         find_front(&job, &ready);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS pareto_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
-    WISH("least", "the less of MEASURE the better"),
-    WISH("most", "the more of MEASURE the better"),
+    WISH("least", wanted, "the less of MEASURE the better"),
+    WISH("most", wanted, "the more of MEASURE the better"),
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_pareto = {
@@ -151,6 +166,7 @@ const tn_command tn_command_pareto = {
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE",
     .operands_min = 1,
     .operands_max = 1,

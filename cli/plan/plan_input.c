@@ -1,8 +1,10 @@
 #include "cli/plan/plan_input.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/plan/library_job.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/plan/store/sqlite.h"
@@ -18,24 +20,25 @@ const char *tn_job_plans_path(tn_job *job)
     return path;
 }
 
-bool tn_job_reader(tn_job *job, const tn_schema *schema, const char *path, tn_plan_reader **reader)
+bool tn_job_reader(tn_job *job, const tn_schema *schema, const tn_plans_source *source, tn_plan_reader **reader)
 {
-    tn_reader_options options = {.format = (tn_plan_format)job->settings->input_format,
-                                 .max_length = tn_job_max_length(job->settings),
+    tn_reader_options options = {.format = (tn_plan_format)source->input->format,
+                                 .max_length = tn_job_max_length(source->plans),
                                  .sqlite = tn_plan_sqlite()};
     tn_error error;
-    if (tn_plan_reader_open(schema, path, &options, reader, &error) == TN_OK)
+    if (tn_plan_reader_open(schema, source->path, &options, reader, &error) == TN_OK)
         return true;
-    tn_suggest_file(path, &error);
+    tn_suggest_file(source->path, &error);
     tn_job_fail(job, &error);
     return false;
 }
 
-bool tn_job_bad_plan(tn_job *job, const char *path, const tn_error *error, const char *text, size_t size)
+bool tn_job_bad_plan(tn_job *job, const tn_plans_source *source, const tn_error *error, const char *text, size_t size)
 {
+    const char *path = source->path;
     tn_report_error(tn_job_diagnostics(job), error, strcmp(path, "-") == 0 ? "standard input" : path, text, size);
     tn_job_status(job, error->status);
-    return job->settings->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
+    return source->input->on_error == 1 && error->status != TN_MEMORY && error->status != TN_INTERNAL;
 }
 
 static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
@@ -52,7 +55,7 @@ static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_
         written = texts[t].size == 0 || fwrite(texts[t].data, 1, texts[t].size, *s->streams[t]) == texts[t].size;
     s->done += plans;
     tn_progress_update(&s->progress, (double)s->done);
-    return written;
+    return written && !tn_interrupted();
 }
 
 /* Not between answers that are shown on the same terminal. */
@@ -60,13 +63,14 @@ static void begin_progress(tn_sifting *s)
 {
     tn_progress_begin(&s->progress, "plans", 0, 0);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
-        s->progress.shows &= !s->streams[t] || !*s->streams[t] || !isatty(fileno(*s->streams[t]));
+        s->progress.shows &= !s->streams[t] || !*s->streams[t] ||
+                             !isatty(*s->streams[t] == stdout ? STDOUT_FILENO : fileno(*s->streams[t]));
 }
 
 static bool complain(void *context, const tn_error *error, const char *text, size_t size)
 {
     tn_sifting *s = context;
-    s->stopped = !tn_job_bad_plan(s->job, s->path, error, text, size);
+    s->stopped = !tn_job_bad_plan(s->job, &s->source, error, text, size);
     return !s->stopped;
 }
 
@@ -74,17 +78,23 @@ bool tn_job_sift(tn_sifting *s)
 {
     tn_plan_reader *reader;
     tn_error error;
-    if (!tn_job_reader(s->job, s->schema, s->path, &reader))
+    if (!tn_job_reader(s->job, s->schema, &s->source, &reader))
         return false;
     bool opened = s->open(s->context);
     tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
     if (opened)
         begin_progress(s);
-    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->job->settings), &calls, &error) != TN_OK) {
+    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }
     tn_progress_end(&s->progress);
+    if (tn_interrupted() && !s->stopped) {
+        s->stopped = true;
+        tn_job_interrupted(s->job, "interrupted after %" PRIu64 " plans; %s", s->done,
+                           tn_settings_output(s->job->settings) ? "no file is written"
+                                                                : "what is said of them is written");
+    }
     tn_plan_reader_free(reader);
     return opened;
 }

@@ -4,12 +4,16 @@
 
 #include "runtime/plan/store/sqlite.h"
 
-bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer)
+bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_written_settings *settings,
+                        const char *made, tn_plan_writer **writer)
 {
-    const tn_settings *settings = job->settings;
     const tn_module *module = job->opened.module;
     if (!tn_job_takes_text(job, settings->output))
         return false;
+    if (settings->csv_safe && settings->format != TN_FORMAT_CSV) {
+        tn_job_usage(job, "--csv-safe is about --format csv");
+        return false;
+    }
     char library_hash[33], rules_hash[20] = "";
     tn_library_hash(ready->library, library_hash);
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
@@ -20,9 +24,10 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *
         .metadata = {.library = tn_text(module, ready->record->name),
                      .library_hash = library_hash,
                      .rules_hash = rules_hash,
-                     .rules_path = settings->operands.items[0],
+                     .rules_path = job->settings->operands.items[0],
                      .version = producer ? tn_text(module, producer->version) : NULL,
                      .command = made},
+        .csv_safe = settings->csv_safe,
         .resume = settings->resume,
         .sqlite = tn_plan_sqlite(),
     };

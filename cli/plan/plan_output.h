@@ -5,15 +5,28 @@
 #include "cli/plan/library_job.h"
 #include "runtime/plan/text/stream.h"
 
+/* How ranked plans are written. Commands embed it as `written`. */
+typedef struct tn_written_settings {
+    const char *output;
+    int format; /* a tn_plan_format */
+    bool csv_safe;
+    bool resume;
+} tn_written_settings;
+
 #define OPTION_PLAN_FORMAT                                                                                             \
-    CHOICE("format", 'f', "FORMAT", format, "auto|lines|json|csv|bin|sqlite",                                          \
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",                                  \
            "what to write: lines, json, csv, bin or sqlite (default: sqlite for .sqlite and .db, otherwise lines)")
+#define OPTION_CSV_SAFE                                                                                                \
+    FLAG("csv-safe", 0, written.csv_safe,                                                                              \
+         "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")
 #define OPTION_PLAN_OUTPUT                                                                                             \
-    TEXT("output", 'o', "FILE", output, "write to FILE instead of standard output; .sqlite and .db make a database")
+    TEXT("output", 'o', "FILE", written.output,                                                                        \
+         "write to FILE instead of standard output; .sqlite and .db make a database")
 
 /* Opens the output that --output and --format ask for. `made` says what was asked for, in words of the command line
  * that decide the result. False where that failed. */
-bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const char *made, tn_plan_writer **writer);
+bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_written_settings *settings,
+                        const char *made, tn_plan_writer **writer);
 
 /* Finishes the file, unless the job has failed: then it is given up (a database keeps its whole batches). Frees the
  * writer. */

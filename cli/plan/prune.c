@@ -7,6 +7,20 @@
 #include "cli/plan/plan_input.h"
 #include "driver/plan/clauses.h"
 
+typedef struct prune_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_input_settings input;
+    const char *output, *dropped;
+    int format;
+    int engine; /* a tn_matching_engine */
+} prune_settings;
+
+static const prune_settings *settings_of(const tn_job *job)
+{
+    return (const prune_settings *)job->settings;
+}
+
 enum { FORMAT_LINES, FORMAT_JSON };
 
 typedef struct pruning {
@@ -70,7 +84,7 @@ static bool append_reasons(const pruning *p, const tn_sifted *plan, const char *
 static bool append_dropped(const pruning *p, const tn_sifted *plan, tn_buffer *out)
 {
     const tn_schema *schema = p->ready.schema;
-    if (p->job->settings->format == FORMAT_LINES)
+    if (settings_of(p->job)->format == FORMAT_LINES)
         return tn_buffer_printf(out, "# dropped by ") && append_reasons(p, plan, "", out) &&
                tn_buffer_append(out, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, out);
     if (!tn_plan_write_json(schema, plan->trays, plan->length, out))
@@ -83,8 +97,8 @@ static bool append_dropped(const pruning *p, const tn_sifted *plan, tn_buffer *o
 static bool append_kept(const pruning *p, const tn_sifted *plan, tn_buffer *out)
 {
     const tn_schema *schema = p->ready.schema;
-    return p->job->settings->format == FORMAT_JSON ? tn_plan_write_json(schema, plan->trays, plan->length, out)
-                                                   : tn_plan_write_line(schema, plan->trays, plan->length, out);
+    return settings_of(p->job)->format == FORMAT_JSON ? tn_plan_write_json(schema, plan->trays, plan->length, out)
+                                                      : tn_plan_write_line(schema, plan->trays, plan->length, out);
 }
 
 /* Plans that go to the same stream are in the same text, in the order they came. */
@@ -100,13 +114,13 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
 
 static bool compile_clauses(pruning *p)
 {
-    const tn_settings *settings = p->job->settings;
+    const prune_settings *settings = settings_of(p->job);
     tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
-                                .max_states = (uint32_t)settings->max_states.value,
-                                .max_length = tn_job_max_length(settings)};
+                                .max_states = (uint32_t)settings->plans.max_states.value,
+                                .max_length = tn_job_max_length(&settings->plans)};
     tn_error error;
-    p->trays_min = settings->trays.given ? (uint32_t)settings->trays.low : p->ready.record->trays_min;
-    p->trays_max = settings->trays.given ? (uint32_t)settings->trays.high : p->ready.record->trays_max;
+    p->trays_min = settings->plans.trays.given ? (uint32_t)settings->plans.trays.low : p->ready.record->trays_min;
+    p->trays_max = settings->plans.trays.given ? (uint32_t)settings->plans.trays.high : p->ready.record->trays_max;
     if (tn_clause_rules_new(p->ready.schema, p->ready.record, &options, &p->rules, &error) == TN_OK) {
         tn_job_fallbacks(p->job, p->rules, clause_name, p);
         return true;
@@ -119,7 +133,7 @@ static bool compile_clauses(pruning *p)
 static bool open_outputs(void *context)
 {
     pruning *p = context;
-    const tn_settings *settings = p->job->settings;
+    const prune_settings *settings = settings_of(p->job);
     if (!tn_job_output(p->job, settings->output, &p->kept))
         return false;
     if (!settings->dropped)
@@ -139,7 +153,7 @@ static bool open_outputs(void *context)
 static void prune_plans(pruning *p)
 {
     tn_sifting sifting = {.job = p->job,
-                          .path = p->path,
+                          .source = {p->path, &settings_of(p->job)->input, &settings_of(p->job)->plans},
                           .schema = p->ready.schema,
                           .rules = p->rules,
                           .open = open_outputs,
@@ -153,19 +167,22 @@ static void prune_plans(pruning *p)
         tn_job_close(p->job, &p->dropped, !sifting.stopped);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const prune_settings *settings = (const prune_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     pruning p = {.job = &job, .path = tn_job_plans_path(&job)};
-    if (p.path && tn_job_library_schema(&job, settings->operands.items[0], &p.ready) && compile_clauses(&p))
+    if (p.path && tn_job_library_schema(&job, common->operands.items[0], &settings->plans, &p.ready) &&
+        compile_clauses(&p))
         prune_plans(&p);
     tn_rules_free(p.rules);
     tn_library_close(&p.ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS prune_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
@@ -179,7 +196,7 @@ static const tn_option options[] = {
     OPTION_ENGINE,
     OPTION_MAX_STATES,
     OPTION_MAX_LENGTH,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_prune = {
@@ -194,6 +211,7 @@ const tn_command tn_command_prune = {
     .example = "$ tartan prune lahave-houses plans.txt --dropped why.txt",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,

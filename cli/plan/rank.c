@@ -7,6 +7,16 @@
 #include "driver/plan/clauses.h"
 #include "runtime/plan/text/text.h"
 
+typedef struct rank_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+} rank_settings;
+
+static const rank_settings *settings_of(const tn_job *job)
+{
+    return (const rank_settings *)job->settings;
+}
+
 /* Names one clause that the plan fails, and where it is written. */
 static void name_clause(tn_job *job, tn_diagnostic *why, uint32_t clause)
 {
@@ -23,7 +33,7 @@ static void name_clause(tn_job *job, tn_diagnostic *why, uint32_t clause)
 static tn_status say_why(tn_job *job, const tn_ready_library *ready, const tn_plan *plan, tn_error *error)
 {
     const tn_module *module = job->opened.module;
-    tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = tn_job_max_length(job->settings)};
+    tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = tn_job_max_length(&settings_of(job)->plans)};
     tn_rules *rules = NULL;
     tn_matcher *matcher = NULL;
     uint64_t *bits = calloc(ready->record->clause_count / 64 + 1, sizeof *bits);
@@ -75,20 +85,22 @@ static void rank_plan(tn_job *job, const tn_ready_library *ready, const tn_plan 
     mpz_clear(rank);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const rank_settings *settings = (const rank_settings *)common;
     tn_job job;
     tn_ready_library ready;
-    const char *text = settings->operands.items[1];
-    tn_job_begin(&job, settings);
-    if (tn_job_library(&job, settings->operands.items[0], &ready)) {
+    const char *text = common->operands.items[1];
+    tn_job_begin(&job, common);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
         tn_plan plan = {0};
         tn_error error;
-        tn_status status =
-            text[strspn(text, " ")] == '{'
-                ? tn_plan_parse_json(ready.schema, text, strlen(text), tn_job_max_length(settings), &plan, &error)
-                : tn_plan_parse_line(ready.schema, text, strlen(text), tn_job_max_length(settings), &plan, &error);
+        tn_status status = text[strspn(text, " ")] == '{'
+                               ? tn_plan_parse_json(ready.schema, text, strlen(text),
+                                                    tn_job_max_length(&settings->plans), &plan, &error)
+                               : tn_plan_parse_line(ready.schema, text, strlen(text),
+                                                    tn_job_max_length(&settings->plans), &plan, &error);
         if (status == TN_OK) {
             rank_plan(&job, &ready, &plan);
         } else {
@@ -102,8 +114,9 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS rank_settings
 static const tn_option options[] = {OPTION_LIBRARY,    OPTION_WHERE,      OPTION_TRAYS,
-                                    OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS};
+                                    OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)};
 
 const tn_command tn_command_rank = {
     .name = "rank",
@@ -117,6 +130,7 @@ const tn_command tn_command_rank = {
     .example = "$ tartan rank terrace \"$(tartan unrank terrace 1000)\"\n1000",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and a PLAN",
     .operands_min = 2,
     .operands_max = 2,

@@ -3,9 +3,22 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 #include "driver/report/report.h"
+
+typedef struct report_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    const char *output; /* a folder */
+    tn_option_number sample, seed;
+} report_settings;
+
+static const report_settings *settings_of(const tn_job *job)
+{
+    return (const report_settings *)job->settings;
+}
 
 #define SAMPLES_DEFAULT 24
 #define SAMPLES_MAX 2000
@@ -30,14 +43,14 @@ static void write_page(tn_job *job, const char *path, const tn_buffer *page)
 
 static void report(tn_job *job, const tn_ready_library *ready, const char *folder)
 {
-    const tn_settings *settings = job->settings;
+    const report_settings *settings = settings_of(job);
     char path[4096];
     tn_buffer page = {0};
     tn_error error;
     snprintf(path, sizeof path, "%s/index.html", folder);
     tn_report_options options = {.seed = settings->seed.value,
                                  .samples = settings->sample.given ? settings->sample.value : SAMPLES_DEFAULT,
-                                 .max_states = (uint32_t)settings->max_states.value};
+                                 .max_states = (uint32_t)settings->plans.max_states.value};
     const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
                                           .max_states = options.max_states,
                                           .imported = true};
@@ -57,23 +70,26 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *folde
     free(page.data);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const report_settings *settings = (const report_settings *)common;
     tn_job job;
     tn_ready_library ready;
-    tn_job_begin(&job, settings);
+    tn_job_begin(&job, common);
     const char *folder = settings->output;
     if (!folder || strcmp(folder, "-") == 0 || strlen(folder) > 4000) {
         tn_job_usage(&job, "report needs -o FOLDER, a folder to write into");
         return tn_job_end(&job);
     }
-    if (tn_job_library(&job, settings->operands.items[0], &ready) && make_folder(&job, folder))
+    tn_interrupt_last_words("interrupted; %.400s/index.html is not written", folder);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready) && make_folder(&job, folder))
         report(&job, &ready, folder);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS report_settings
 static const tn_option options[] = {
     TEXT("output", 'o', "FOLDER", output, "write FOLDER/index.html; the folder is made where it is not there"),
     NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
@@ -82,7 +98,7 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
     OPTION_WERROR,
 };
 
@@ -100,6 +116,7 @@ const tn_command tn_command_report = {
     .example = "$ tartan report lahave-houses -o report",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE",
     .operands_min = 1,
     .operands_max = 1,

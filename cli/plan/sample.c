@@ -2,9 +2,24 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
+
+#define PART "interrupted; %.400s holds only the first plans of the sample"
+
+typedef struct sample_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_sampled_settings sampled;
+    tn_written_settings written;
+} sample_settings;
+
+static const sample_settings *settings_of(const tn_job *job)
+{
+    return (const sample_settings *)job->settings;
+}
 
 static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sampled *sampled, tn_plan_writer *writer)
 {
@@ -13,6 +28,8 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     tn_status status = trays ? TN_OK : tn_fail_memory(&error);
     for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
         uint32_t length;
+        if ((status = tn_interrupt_check(&error)) != TN_OK)
+            break;
         if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
             status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
         else
@@ -23,15 +40,22 @@ static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sam
     free(trays);
 }
 
-/* What decides the result, for the record in the file. */
-static void describe(const tn_settings *settings, size_t wanted, char *text, size_t size)
+/* A part of a sample is not drawn evenly: a file is not written, and of a database it is said. */
+static void promise(const tn_job *job, const tn_plan_writer *writer)
 {
-    int used = settings->per_length.given
-                   ? snprintf(text, size, "sample --per-length %" PRIu64, settings->per_length.value)
+    if (tn_plan_writer_resumes(writer))
+        tn_interrupt_last_words(PART, settings_of(job)->written.output);
+}
+
+/* What decides the result, for the record in the file. */
+static void describe(const sample_settings *settings, size_t wanted, char *text, size_t size)
+{
+    int used = settings->sampled.per_length.given
+                   ? snprintf(text, size, "sample --per-length %" PRIu64, settings->sampled.per_length.value)
                    : snprintf(text, size, "sample %zu", wanted);
-    used += snprintf(text + used, size - (size_t)used, " --seed %" PRIu64, settings->seed.value);
-    if (settings->length.given)
-        snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->length.value);
+    used += snprintf(text + used, size - (size_t)used, " --seed %" PRIu64, settings->sampled.seed.value);
+    if (settings->sampled.length.given)
+        snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->sampled.length.value);
 }
 
 static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
@@ -39,11 +63,14 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
     tn_sampled sampled;
     tn_plan_writer *writer;
     char made[128];
-    describe(job->settings, wanted, made, sizeof made);
-    if (tn_job_sample(job, ready, wanted, &sampled)) {
+    describe(settings_of(job), wanted, made, sizeof made);
+    if (tn_job_sample(job, ready, &settings_of(job)->sampled, wanted, &sampled)) {
         tn_job_show(job);
-        if (tn_job_plan_writer(job, ready, made, &writer)) {
+        if (tn_job_plan_writer(job, ready, &settings_of(job)->written, made, &writer)) {
+            promise(job, writer);
             write_plans(job, ready, &sampled, writer);
+            if (job->stopped && tn_plan_writer_resumes(writer))
+                tn_job_interrupted(job, PART, settings_of(job)->written.output);
             tn_job_plan_close(job, writer);
         }
     }
@@ -53,20 +80,20 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
 /* The operand N; it and --per-length say the same thing in two ways. */
 static bool read_wanted(tn_job *job, size_t *wanted)
 {
-    const tn_settings *settings = job->settings;
+    const sample_settings *settings = settings_of(job);
     uint64_t number = 0;
-    if ((settings->operands.count > 1) == settings->per_length.given) {
+    if ((settings->common.operands.count > 1) == settings->sampled.per_length.given) {
         tn_job_usage(job, "say how many plans: either N after the file, or --per-length N");
         return false;
     }
-    if (settings->per_length.given && settings->length.given) {
+    if (settings->sampled.per_length.given && settings->sampled.length.given) {
         tn_job_usage(job, "--length and --per-length exclude each other");
         return false;
     }
-    if (settings->operands.count > 1 &&
-        (!tn_number_read(settings->operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
+    if (settings->common.operands.count > 1 &&
+        (!tn_number_read(settings->common.operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
         tn_diagnostic *d = tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
-                                        settings->operands.items[1]);
+                                        settings->common.operands.items[1]);
         tn_help(tn_job_diagnostics(job), d, "the file comes first: tartan sample FILE N");
         return false;
     }
@@ -74,31 +101,35 @@ static bool read_wanted(tn_job *job, size_t *wanted)
     return true;
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const sample_settings *settings = (const sample_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
     size_t wanted;
-    tn_job_begin(&job, settings);
-    if (read_wanted(&job, &wanted) && tn_job_library(&job, settings->operands.items[0], &ready))
+    tn_job_begin(&job, common);
+    if (read_wanted(&job, &wanted) && tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
         sample(&job, &ready, wanted);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS sample_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
-    NUMBER("seed", 's', "S", seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
-    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
-    NUMBER("per-length", 0, "N", per_length, 0, TN_SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
+    NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
+    NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
+    NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
+           "N plans of each number of trays, instead of N in all"),
     OPTION_PLAN_FORMAT,
+    OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     OPTION_TRAYS,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_sample = {
@@ -113,6 +144,7 @@ const tn_command tn_command_sample = {
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and a number N",
     .operands_min = 1,
     .operands_max = 2,

@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
+
 static bool out_of_memory(tn_job *job)
 {
     tn_error error;
@@ -15,12 +17,10 @@ static bool grow(tn_sampled *sampled, size_t more)
     if (sampled->room - sampled->count >= more && sampled->ranks)
         return true;
     size_t room = sampled->count + more;
-    mpz_t *ranks = realloc(sampled->ranks, sizeof *ranks * (room + 1));
-    if (!ranks)
+    if (!tn_array_resize(&sampled->ranks, room, sizeof *sampled->ranks))
         return false;
-    sampled->ranks = ranks;
     for (size_t i = sampled->room; i < room; i++)
-        mpz_init(ranks[i]);
+        mpz_init(sampled->ranks[i]);
     sampled->room = room;
     return true;
 }
@@ -37,14 +37,23 @@ static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
     return wanted;
 }
 
-static bool draw(tn_job *job, const tn_library *library, uint32_t length, size_t wanted, tn_sampled *sampled)
+typedef struct drawing {
+    tn_job *job;
+    const tn_library *library;
+    uint64_t seed;
+    tn_sampled *sampled;
+} drawing;
+
+static bool draw(const drawing *d, uint32_t length, size_t wanted)
 {
+    tn_job *job = d->job;
+    const tn_library *library = d->library;
+    tn_sampled *sampled = d->sampled;
     size_t count = at_most(library, length, wanted), found = 0;
     tn_error error;
     if (!grow(sampled, count))
         return out_of_memory(job);
-    if (tn_library_sample(library, job->settings->seed.value, length, count, sampled->ranks + sampled->count, &found,
-                          &error) != TN_OK) {
+    if (tn_library_sample(library, d->seed, length, count, sampled->ranks + sampled->count, &found, &error) != TN_OK) {
         tn_job_fail(job, &error);
         return false;
     }
@@ -61,19 +70,20 @@ static bool draw(tn_job *job, const tn_library *library, uint32_t length, size_t
     return true;
 }
 
-bool tn_job_sample(tn_job *job, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled)
+bool tn_job_sample(tn_job *job, const tn_ready_library *ready, const tn_sampled_settings *settings, size_t wanted,
+                   tn_sampled *sampled)
 {
-    const tn_settings *settings = job->settings;
     const tn_library *library = ready->library;
     *sampled = (tn_sampled){0};
+    const drawing d = {job, library, settings->seed.value, sampled};
     if (settings->per_length.given) {
         for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++)
-            if (!draw(job, library, length, (size_t)settings->per_length.value, sampled))
+            if (!draw(&d, length, (size_t)settings->per_length.value))
                 return false;
         return true;
     }
     uint32_t length = settings->length.given ? (uint32_t)settings->length.value : TN_ALL_LENGTHS;
-    return draw(job, library, length, wanted, sampled);
+    return draw(&d, length, wanted);
 }
 
 void tn_sampled_clear(tn_sampled *sampled)

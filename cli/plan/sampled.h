@@ -7,6 +7,11 @@
 /* The most ranks that are drawn at once: they are all in memory. */
 #define TN_SAMPLE_MAX 50000000u
 
+/* Which ranks are drawn. Commands embed it as `sampled`. */
+typedef struct tn_sampled_settings {
+    tn_option_number seed, length, per_length;
+} tn_sampled_settings;
+
 typedef struct tn_sampled {
     mpz_t *ranks; /* ascending */
     size_t count, room;
@@ -14,7 +19,8 @@ typedef struct tn_sampled {
 
 /* Draws `wanted` ranks of all lengths or of --length, or as many of each length with --per-length. Notes where there
  * are fewer. False where it failed. Clear in any case. */
-bool tn_job_sample(tn_job *job, const tn_ready_library *ready, size_t wanted, tn_sampled *sampled);
+bool tn_job_sample(tn_job *job, const tn_ready_library *ready, const tn_sampled_settings *settings, size_t wanted,
+                   tn_sampled *sampled);
 void tn_sampled_clear(tn_sampled *sampled);
 
 #endif

@@ -4,6 +4,18 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "driver/plan/coverage.h"
+#include "runtime/base/utf8.h"
+
+typedef struct test_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool coverage, json;
+} test_settings;
+
+static const test_settings *settings_of(const tn_job *job)
+{
+    return (const test_settings *)job->settings;
+}
 
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
@@ -33,7 +45,7 @@ static void write_report(tn_job *job, const test_report *report)
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
-    if (job->settings->json)
+    if (settings_of(job)->json)
         write_json(report, output.stream);
     else
         tn_test_counts_write(&report->counts, output.stream);
@@ -43,15 +55,15 @@ static void write_report(tn_job *job, const test_report *report)
 /* The coverage of the file that is open: in JSON it waits for the others. */
 static void write_coverage(tn_job *job, test_report *report)
 {
-    const tn_coverage_options options = {.library = job->settings->library,
-                                         .max_states = (uint32_t)job->settings->max_states.value};
+    const tn_coverage_options options = {.library = settings_of(job)->plans.library,
+                                         .max_states = (uint32_t)settings_of(job)->plans.max_states.value};
     tn_covered covered;
     tn_buffer text = {0};
     tn_output output;
     tn_error error;
     tn_status status = tn_coverage_measure(&job->opened, &options, &covered);
     tn_job_status(job, status);
-    bool json = job->settings->json, written = true;
+    bool json = settings_of(job)->json, written = true;
     if (status == TN_OK && json)
         written = (!report->files.size || tn_buffer_append(&report->files, ",", 1)) &&
                   tn_covered_json(&covered, &report->files);
@@ -61,24 +73,25 @@ static void write_coverage(tn_job *job, test_report *report)
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
     } else if (text.size && tn_job_output(job, NULL, &output)) {
-        fwrite(text.data, 1, text.size, output.stream);
+        tn_write_shown(output.stream, text.data, text.size);
         tn_job_commit(job, &output);
     }
     free(text.data);
     tn_covered_clear(&covered);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const test_settings *settings = (const test_settings *)common;
     tn_job job;
     test_report report = {0};
-    tn_job_begin(&job, settings);
-    for (size_t i = 0; i < settings->operands.count; i++) {
-        const char *path = settings->operands.items[i];
+    tn_job_begin(&job, common);
+    for (size_t i = 0; i < common->operands.count; i++) {
+        const char *path = common->operands.items[i];
         if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
             continue;
-        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->max_states.value, &report.counts));
+        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, &report.counts));
         if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }
@@ -89,6 +102,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS test_settings
 static const tn_option options[] = {
     FLAG("coverage", 0, coverage,
          "say of each part of each rule how many plans it decides, and whether a test notices"),
@@ -114,6 +128,7 @@ const tn_command tn_command_test = {
     .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "at least one FILE",
     .operands_min = 1,
     .operands_max = SIZE_MAX,

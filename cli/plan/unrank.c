@@ -6,13 +6,24 @@
 #include "cli/plan/library_job.h"
 #include "runtime/plan/text/text.h"
 
+typedef struct unrank_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool json;
+} unrank_settings;
+
+static const unrank_settings *settings_of(const tn_job *job)
+{
+    return (const unrank_settings *)job->settings;
+}
+
 static void write_plan(tn_job *job, const tn_ready_library *ready, const tn_tray *trays, uint32_t length)
 {
     tn_buffer line = {0};
     tn_output output;
     tn_error error;
-    bool written = job->settings->json ? tn_plan_write_json(ready->schema, trays, length, &line)
-                                       : tn_plan_write_line(ready->schema, trays, length, &line);
+    bool written = settings_of(job)->json ? tn_plan_write_json(ready->schema, trays, length, &line)
+                                          : tn_plan_write_line(ready->schema, trays, length, &line);
     if (!written || !tn_buffer_append(&line, "\n", 1)) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
@@ -43,26 +54,32 @@ static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
     free(trays);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const unrank_settings *settings = (const unrank_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
-    const char *text = settings->operands.items[1];
-    tn_job_begin(&job, settings);
+    const char *text = common->operands.items[1];
+    tn_job_begin(&job, common);
     if (!*text || strspn(text, "0123456789") != strlen(text)) {
         tn_diagnostic *d = tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan unrank FILE RANK");
-    } else if (tn_job_library(&job, settings->operands.items[0], &ready))
+    } else if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
         unrank(&job, &ready, text);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
 
+#define SETTINGS unrank_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY, OPTION_WHERE,      FLAG("json", 0, json, "write the plan as a JSON object"),
-    OPTION_TRAYS,   OPTION_MAX_LENGTH, OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_LIBRARY,
+    OPTION_WHERE,
+    FLAG("json", 0, json, "write the plan as a JSON object"),
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_unrank = {
@@ -74,6 +91,7 @@ const tn_command tn_command_unrank = {
     .example = "$ tartan unrank lahave-houses 123456789",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "a FILE and a RANK",
     .operands_min = 2,
     .operands_max = 2,

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, uint32_t least, tn_wishes *wishes)
+bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_list *list, uint32_t least,
+                    tn_wishes *wishes)
 {
-    const tn_option_list *list = &job->settings->wanted;
     const tn_module *module = job->opened.module;
     *wishes = (tn_wishes){0};
     if (list->count / 2 < least || list->count / 2 > TN_WEIGHED_MAX) {

@@ -13,8 +13,10 @@ typedef struct tn_wishes {
     tn_amount_unit unit[TN_WEIGHED_MAX];
 } tn_wishes;
 
-/* Reads the options; `least` of them are needed. false where one is wrong: then reported. */
-bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, uint32_t least, tn_wishes *wishes);
+/* Reads the options, which have added to `list`; `least` of them are needed. false where one is wrong: then reported.
+ */
+bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_list *list, uint32_t least,
+                    tn_wishes *wishes);
 
 /* Appends the value of measure k: "p/q" in its unit, or for people. */
 bool tn_wishes_exact(const tn_wishes *wishes, const tn_weighed *weighed, uint32_t k, int64_t steps, tn_buffer *out);

@@ -5,6 +5,11 @@
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 
+typedef struct build_settings {
+    tn_settings common;
+    const char *output;
+} build_settings;
+
 /* houses.plan -> houses.tnb, in the folder where we are called; the caller frees it. NULL where out of memory. */
 static char *default_output(const char *path)
 {
@@ -47,31 +52,35 @@ static void build(tn_job *job, const char *path, const char *output)
     free(name);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    const char *path = settings->operands.items[0];
+    const build_settings *settings = (const build_settings *)common;
+    const char *path = common->operands.items[0];
     tn_job job;
-    tn_job_begin(&job, settings);
-    if (tn_job_open(&job, path))
+    tn_job_begin(&job, common);
+    if (tn_job_open_joined(&job, common->operands.items, common->operands.count))
         build(&job, path, settings->output);
     return tn_job_end(&job);
 }
 
+#define SETTINGS build_settings
 static const tn_option options[] = {OPTION_OUTPUT, OPTION_WERROR};
 
 const tn_command tn_command_build = {
     .name = "build",
     .summary = "compile a rule file to a module",
-    .usage = "FILE.plan [-o FILE.tnb]",
+    .usage = "FILE.plan [-o FILE.tnb]\nFILE.pcfg... [-o FILE.tnb]",
     .description =
         "Compiles the rule file and all that it uses to one module of bytecode, which every other command takes in the "
-        "rule file's place. Without -o the module is named after the rule file and written to the current folder.",
+        "rule file's place. Without -o the module is named after the rule file and written to the current folder. "
+        "Connection grammars (.pcfg) are one grammar together, in the order given.",
     .example = "$ tartan build houses.plan -o houses.tnb\n$ tartan count houses.tnb",
     .options = options,
     .option_count = OPTION_COUNT(options),
-    .operands = "one FILE",
+    .settings_size = sizeof(SETTINGS),
+    .operands = "at least one FILE",
     .operands_min = 1,
-    .operands_max = 1,
+    .operands_max = SIZE_MAX,
     .run = run,
 };

@@ -1,24 +1,41 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
+#include <stdlib.h>
+
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
 #include "driver/breed/grammar_report.h"
 
+typedef struct check_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    bool no_analysis, figures;
+    bool relations, examples, json;
+    const char *output; /* of the relations */
+    bool with_tests, with_counts;
+    const char *before; /* the file before an edit, to compare with */
+} check_settings;
+
+static const check_settings *settings_of(const tn_job *job)
+{
+    return (const check_settings *)job->settings;
+}
+
 static void report_grammar(tn_job *job)
 {
     tn_error error;
-    if (tn_grammar_report(&job->opened, job->settings->figures, &error) != TN_OK)
+    if (tn_grammar_report(&job->opened, settings_of(job)->figures, &error) != TN_OK)
         tn_job_fail(job, &error);
 }
 
 static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
 {
-    tn_relations_options options = {.json = job->settings->json, .examples = job->settings->examples};
+    tn_relations_options options = {.json = settings_of(job)->json, .examples = settings_of(job)->examples};
     tn_output output;
     tn_error error;
     tn_job_show(job);
-    if (!tn_job_output(job, job->settings->output, &output))
+    if (!tn_job_output(job, settings_of(job)->output, &output))
         return;
     tn_status status = tn_relations_write(analyses, &options, output.stream, &error);
     if (status != TN_OK)
@@ -29,8 +46,9 @@ static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
 /* library: the one that is counted too, or NULL. */
 static void analyse(tn_job *job, const tn_library *library)
 {
-    const tn_settings *settings = job->settings;
-    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->max_states.value, .library = library};
+    const check_settings *settings = settings_of(job);
+    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                              .library = library};
     tn_plan_analyses analyses;
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
@@ -45,7 +63,7 @@ static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
     tn_output output;
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)job->settings->max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
     tn_job_show(job);
     if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
         return;
@@ -56,13 +74,17 @@ static void run_tests(tn_job *job)
 /* The file before an edit is open at the same time, with diagnostics of its own. */
 static void compare(tn_job *job, const tn_ready_library *after)
 {
-    const tn_settings *settings = job->settings;
-    const char *const paths[2] = {settings->before, settings->operands.items[0]};
+    const check_settings *settings = settings_of(job);
     tn_job old;
     tn_ready_library before = {0};
-    tn_job_begin(&old, settings);
-    if (tn_job_library(&old, settings->before, &before))
-        tn_job_compare(job, paths, &before, after);
+    tn_job_begin(&old, job->settings);
+    if (tn_job_library(&old, settings->before, &settings->plans, &before))
+        tn_job_compare(job,
+                       &(tn_compared){{settings->before, settings->common.operands.items[0]},
+                                      &before,
+                                      after,
+                                      (uint32_t)settings->plans.max_states.value},
+                       &(tn_compare_options){0});
     tn_library_close(&before);
     int code = tn_job_end(&old);
     job->exit_code = code > job->exit_code ? code : job->exit_code;
@@ -71,19 +93,19 @@ static void compare(tn_job *job, const tn_ready_library *after)
 /* Makes the library that is counted or compared, so that checking can take from it what it needs of it. */
 static bool make_library(tn_job *job, tn_ready_library *ready)
 {
-    const tn_settings *settings = job->settings;
-    const tn_library_options options = {.max_states = (uint32_t)settings->max_states.value};
+    const check_settings *settings = settings_of(job);
+    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value};
     *ready = (tn_ready_library){0};
     if (!settings->with_counts && !settings->before)
         return true;
-    tn_status status = tn_library_ready(&job->opened, settings->library, &options, ready);
+    tn_status status = tn_library_ready(&job->opened, settings->plans.library, &options, ready);
     tn_job_status(job, status);
     return status == TN_OK;
 }
 
 static void answer(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     tn_ready_library ready;
     bool made = make_library(job, &ready);
     if (!settings->no_analysis)
@@ -91,7 +113,7 @@ static void answer(tn_job *job)
     if (settings->with_tests)
         run_tests(job);
     if (made && settings->with_counts)
-        tn_job_count(job, &ready);
+        tn_job_count(job, &ready, &(tn_count_options){0}, NULL);
     if (made && settings->before)
         compare(job, &ready);
     tn_library_close(&ready);
@@ -99,14 +121,14 @@ static void answer(tn_job *job)
 
 static bool check_options(tn_job *job)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     if (settings->relations && settings->no_analysis)
         tn_job_usage(job, "--relations is part of the analysis that --no-analysis leaves out");
-    else if (settings->relations && settings->operands.count > 1)
+    else if (settings->relations && settings->common.operands.count > 1)
         tn_job_usage(job, "--relations takes one FILE");
-    else if ((settings->with_counts || settings->before) && settings->operands.count > 1)
+    else if ((settings->with_counts || settings->before) && settings->common.operands.count > 1)
         tn_job_usage(job, "%s takes one FILE", settings->with_counts ? "--count" : "--diff");
-    else if (settings->library && !settings->with_counts && !settings->before)
+    else if (settings->plans.library && !settings->with_counts && !settings->before)
         tn_job_usage(job, "--library is about --count and --diff: give one of them too");
     else if (settings->relations && (settings->with_tests || settings->with_counts || settings->before))
         tn_job_usage(job, "--relations is asked alone, without --test, --count and --diff");
@@ -122,35 +144,67 @@ static bool check_options(tn_job *job)
 
 static void check(tn_job *job, const char *path)
 {
-    const tn_settings *settings = job->settings;
+    const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
-    if (settings->figures && module->GRAMMAR_count == 0)
+    if (settings->figures && !tn_module_has_grammar(module))
         tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
     else if (settings->relations && module->RULE_count == 0)
         tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
-    else if (module->GRAMMAR_count)
+    else if (tn_module_has_grammar(module))
         report_grammar(job);
+    else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
+        return;
     else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
     else
         answer(job);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+/* Opens operand i: with it, those further ones that are one text with it. */
+static bool open_operand(tn_job *job, size_t i)
 {
+    const tn_option_list *operands = &job->settings->operands;
+    const char *path = operands->items[i];
+    if (i > 0)
+        tn_job_next(job);
+    if (!tn_path_joins(path))
+        return tn_job_open(job, path);
+    const char **joined = calloc(operands->count, sizeof *joined);
+    tn_error error;
+    size_t count = 0;
+    if (!joined) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return false;
+    }
+    for (size_t k = i; k < operands->count; k++)
+        if (tn_path_joins(operands->items[k]))
+            joined[count++] = operands->items[k];
+    bool open = tn_job_open_joined(job, joined, count);
+    free(joined);
+    return open;
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    bool joined = false;
     (void)command;
+    const check_settings *settings = (const check_settings *)common;
     tn_job job;
-    tn_job_begin(&job, settings);
-    tn_job_threads(settings);
+    tn_job_begin(&job, common);
+    tn_job_threads(&settings->plans);
     bool going = check_options(&job);
-    for (size_t i = 0; going && i < settings->operands.count; i++) {
-        const char *path = settings->operands.items[i];
-        if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
+    for (size_t i = 0; going && i < common->operands.count; i++) {
+        const char *path = common->operands.items[i];
+        bool part = tn_path_joins(path);
+        if ((!part || !joined) && open_operand(&job, i))
             check(&job, path);
+        joined |= part;
     }
     return tn_job_end(&job);
 }
 
+#define SETTINGS check_settings
 static const tn_option options[] = {
     FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
     FLAG("relations", 0, relations, "print how the plans that each two rules match lie to one another"),
@@ -165,7 +219,7 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
-    OPTION_THREADS,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_check = {
@@ -180,7 +234,9 @@ const tn_command tn_command_check = {
         "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
         "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
         "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. "
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. Connection grammars (.pcfg) are "
+        "one "
+        "grammar together, in the order given. "
         "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
         "testing, "
         "counting and comparing have in common is worked out once, so that after an edit this is faster than one "
@@ -190,6 +246,7 @@ const tn_command tn_command_check = {
                "--diff old.plan",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "at least one FILE",
     .operands_min = 1,
     .operands_max = SIZE_MAX,

@@ -6,10 +6,21 @@
 #include "cli/common/option_rows.h"
 #include "driver/plan/library.h"
 
+typedef struct disasm_settings {
+    tn_settings common;
+    tn_option_list rules;
+    const char *output;
+} disasm_settings;
+
+static const disasm_settings *settings_of(const tn_job *job)
+{
+    return (const disasm_settings *)job->settings;
+}
+
 /* Finds the rules of --rule; `rules` has room for them. */
 static bool choose_rules(tn_job *job, uint32_t *rules)
 {
-    const tn_option_list *asked = &job->settings->rules;
+    const tn_option_list *asked = &settings_of(job)->rules;
     tn_error error;
     if (!rules) {
         tn_fail_memory(&error);
@@ -26,9 +37,9 @@ static bool write_listing(tn_job *job, const uint32_t *rules, FILE *out)
 {
     const tn_module *module = job->opened.module;
     bool listed = true;
-    for (size_t i = 0; i < job->settings->rules.count && listed; i++)
+    for (size_t i = 0; i < settings_of(job)->rules.count && listed; i++)
         listed = tn_module_disassemble_rule(module, rules[i], out);
-    if (job->settings->rules.count == 0)
+    if (settings_of(job)->rules.count == 0)
         listed = tn_module_disassemble(module, out);
     if (listed || ferror(out))
         return true;
@@ -38,14 +49,15 @@ static bool write_listing(tn_job *job, const uint32_t *rules, FILE *out)
     return false;
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const disasm_settings *settings = (const disasm_settings *)common;
     tn_job job;
     tn_output output;
     uint32_t *rules = malloc(sizeof *rules * (settings->rules.count + 1));
-    tn_job_begin(&job, settings);
-    if (tn_job_open(&job, settings->operands.items[0]) && choose_rules(&job, rules) &&
+    tn_job_begin(&job, common);
+    if (tn_job_open(&job, common->operands.items[0]) && choose_rules(&job, rules) &&
         tn_job_output(&job, settings->output, &output)) {
         bool complete = write_listing(&job, rules, output.stream);
         tn_job_close(&job, &output, complete);
@@ -54,6 +66,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     return tn_job_end(&job);
 }
 
+#define SETTINGS disasm_settings
 static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "list only this rule and the functions it needs; may be repeated"),
     OPTION_OUTPUT,
@@ -69,6 +82,7 @@ const tn_command tn_command_disasm = {
     .example = "$ tartan disasm houses.plan | less",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -7,8 +7,19 @@
 #include "cli/common/option_rows.h"
 #include "compiler/format.h"
 
+typedef struct fmt_settings {
+    tn_settings common;
+    bool check, diff;
+    int notation; /* 0: what the file's name says; otherwise one more than a notation that has a layout */
+} fmt_settings;
+
+static const fmt_settings *settings_of(const tn_job *job)
+{
+    return (const fmt_settings *)job->settings;
+}
+
 /* What the option says, in the order of its choices; else what the name does; else the first. */
-static const tn_notation *notation_of(const tn_settings *settings, const char *path, const char *text, size_t size)
+static const tn_notation *notation_of(const fmt_settings *settings, const char *path, const char *text, size_t size)
 {
     const char *language = NULL;
     for (size_t i = 0, choice = 0; i < tn_notation_count && settings->notation; i++) {
@@ -61,7 +72,7 @@ static void write_diff(tn_job *job, const char *path, const char *old_text, cons
 /* What to do with a file whose layout is `formatted`. */
 static void deliver(tn_job *job, const char *path, const char *text, const char *formatted, size_t size)
 {
-    const tn_settings *settings = job->settings;
+    const fmt_settings *settings = settings_of(job);
     bool same = strcmp(text, formatted) == 0, report = settings->check || settings->diff;
     if (!report && strcmp(path, "-") == 0)
         write_text(job, NULL, formatted, size);
@@ -87,9 +98,9 @@ static void format_file(tn_job *job, const char *path)
         return;
     }
     const char *text = (const char *)bytes;
-    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(job->settings, path, text, size), path, text,
-                                      size, &formatted, &formatted_size));
-    if (!formatted && !job->settings->notation && !tn_notation_of(path, text, size)) {
+    tn_job_status(job, tn_format_text(tn_job_diagnostics(job), notation_of(settings_of(job), path, text, size), path,
+                                      text, size, &formatted, &formatted_size));
+    if (!formatted && !settings_of(job)->notation && !tn_notation_of(path, text, size)) {
         char others[160] = "";
         list_others(others, sizeof others);
         tn_job_note(job, "%.200s was read as %s, as its name says nothing else; --notation %s does", path,
@@ -101,15 +112,15 @@ static void format_file(tn_job *job, const char *path)
     free(bytes);
 }
 
-static int run(const tn_command *command, const tn_settings *settings)
+static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
-    tn_job_begin(&job, settings);
-    for (size_t i = 0; i < settings->operands.count; i++) {
+    tn_job_begin(&job, common);
+    for (size_t i = 0; i < common->operands.count; i++) {
         if (i > 0)
             tn_job_next(&job);
-        format_file(&job, settings->operands.items[i]);
+        format_file(&job, common->operands.items[i]);
     }
     return tn_job_end(&job);
 }
@@ -120,6 +131,7 @@ static const char languages[] = "auto"
 #include "compiler/notations.def"
     ;
 
+#define SETTINGS fmt_settings
 static const tn_option options[] = {
     FLAG("check", 0, check, "change nothing; say which files are laid out otherwise, and exit with 1 where one is"),
     FLAG("diff", 0, diff, "change nothing; show what would be changed"),
@@ -146,6 +158,7 @@ const tn_command tn_command_fmt = {
                "$ tartan fmt --notation hemls - <square.hemls",
     .options = options,
     .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
     .operands = "at least one FILE",
     .operands_min = 1,
     .operands_max = SIZE_MAX,

@@ -34,6 +34,7 @@ const tn_command tn_command_lsp = {
         "mean where that is hardly meant, completes fields, values and rules, says what a name means, what its rule "
         "prunes and how it lies to others, finds and renames names, and offers the fixes that diagnostics suggest.",
     .example = "$ tartan lsp 2>lsp.log",
+    .settings_size = sizeof(tn_settings),
     .operands = "no operands",
     .run = run,
 };

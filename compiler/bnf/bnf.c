@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compiler/bnf/check.h"
+#include "compiler/common/import.h"
 
 bool tn_bnf_collect_rules(tn_bnf_grammar *g)
 {
@@ -81,23 +82,16 @@ static void emit_rule(tn_builder *builder, const tn_bnf_rule *rule, uint32_t fir
     for (const tn_bnf_alternative *a = rule->alternatives.first; a; a = a->next) {
         tn_production_record production = {
             .code_begin = tn_builder_offset(builder), .file = a->span.file, .begin = a->span.begin, .end = a->span.end};
-        tn_builder_add_MAP(builder, &(tn_map_record){.offset = production.code_begin,
-                                                     .file = a->span.file,
-                                                     .begin = a->span.begin,
-                                                     .end = a->span.end});
+        tn_builder_add_SOURCE_MAP(builder, &(tn_source_map_record){.offset = production.code_begin,
+                                                                   .file = a->span.file,
+                                                                   .begin = a->span.begin,
+                                                                   .end = a->span.end});
         emit_items(builder, a->items, first_rule);
         tn_builder_emit(builder, TN_OP_DONE, 0, 0);
         production.code_end = tn_builder_offset(builder);
         tn_builder_add_PRODUCTION(builder, &production);
     }
     tn_builder_add_NONTERMINAL(builder, &record);
-}
-
-/* The file's name without folder and extension. */
-static tn_bnf_text grammar_name(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
-    return (tn_bnf_text){name, dot && dot > name ? (size_t)(dot - name) : strlen(name)};
 }
 
 static uint32_t named(const tn_bnf_grammar *g, const char *name, uint32_t first_rule)
@@ -117,9 +111,10 @@ static void emit(const tn_bnf_grammar *g, const tn_source *source, tn_builder *b
     uint32_t first_rule = (uint32_t)tn_builder_count(builder, TN_SECTION_NONTERMINAL);
     for (size_t r = 0; r < g->rule_count; r++)
         emit_rule(builder, g->rules[r], first_rule);
-    tn_bnf_text name = grammar_name(source->path);
+    size_t length;
+    const char *name = tn_path_stem(source->path, &length);
     tn_grammar_record record = {
-        .name = tn_builder_string_n(builder, name.text, name.length),
+        .name = tn_builder_string_n(builder, name, length),
         .dialect = ast->dialect,
         .flags = ast->skip_single ? TN_SKIP_SINGLE : 0,
         .repair = genr8 ? ast->repair : TN_REPAIR_OFF,

@@ -55,7 +55,7 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
 
 static bool made(const tn_module *module)
 {
-    return module->GRAMMAR_count > 0;
+    return tn_module_has_grammar(module);
 }
 
 static bool same(const tn_reading *one, const tn_reading *other)

@@ -18,6 +18,11 @@ typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
     bool warnings_are_errors;
     const tn_questions *questions; /* of a .plan file, or NULL */
+    /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins).
+     */
+    const tn_input *more;
+    size_t more_count;
+    bool partial; /* the text may be only a part of what it belongs to: an editor looks at one */
 } tn_compile_options;
 
 typedef struct tn_compilation {

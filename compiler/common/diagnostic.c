@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define ERRORS_SHOWN 100u
 #define FIRST_WARNING 10000u /* added to the numbers of warnings */
 
@@ -71,15 +73,9 @@ static tn_diagnostic *add(tn_diagnostics *list, tn_severity severity, uint32_t c
         list->dropped++;
         return &list->scratch;
     }
-    if (list->count == list->capacity) {
-        size_t capacity = list->capacity ? list->capacity * 2 : 16;
-        tn_diagnostic *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) {
-            list->failed = true;
-            return &list->scratch;
-        }
-        list->items = items;
-        list->capacity = capacity;
+    if (!tn_array_reserve_from(&list->items, &list->capacity, 16, list->count, 1, sizeof *list->items)) {
+        list->failed = true;
+        return &list->scratch;
     }
     tn_diagnostic *item = &list->items[list->count];
     *item = (tn_diagnostic){.severity = severity, .code = code, .order = list->count};
@@ -112,6 +108,12 @@ tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32
 tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
                                const char *input_text, size_t input_size)
 {
+    if (error->status == TN_STOPPED) {
+        list->stopped = true;
+        clear_item(&list->scratch);
+        list->scratch = (tn_diagnostic){.severity = TN_NOTE};
+        return &list->scratch;
+    }
     tn_diagnostic *item = tn_report_bare(list, TN_ERROR, error->code, "%s", error->message);
     if (error->help[0])
         tn_help(list, item, "%s", error->help);
@@ -129,17 +131,15 @@ tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, cons
 
 void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *span, const char *format, ...)
 {
-    tn_diagnostic_note *notes = realloc(diagnostic->notes, (diagnostic->note_count + 1) * sizeof *notes);
-    if (!notes) {
+    if (!tn_array_resize(&diagnostic->notes, diagnostic->note_count + 1, sizeof *diagnostic->notes)) {
         list->failed = true;
         return;
     }
-    diagnostic->notes = notes;
     va_list args;
     va_start(args, format);
     char *text = print(list, format, args);
     va_end(args);
-    notes[diagnostic->note_count++] =
+    diagnostic->notes[diagnostic->note_count++] =
         (tn_diagnostic_note){.has_span = span != NULL, .span = span ? *span : (tn_span){0}, .text = text};
 }
 

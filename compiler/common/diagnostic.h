@@ -51,6 +51,7 @@ typedef struct tn_diagnostics {
     size_t error_limit;    /* further errors (and further warnings) are counted but not kept; 0: 100 */
     size_t dropped;        /* past the limit */
     bool failed;           /* out of memory while collecting */
+    bool stopped;          /* work ended because nobody wanted it any more: nobody's mistake, and not listed */
     tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
 } tn_diagnostics;
 

@@ -1,6 +1,8 @@
 /* The texts that a module was made of, and what made it, as records of the module. */
 #include "compiler/common/emit_sources.h"
 
+#include <string.h>
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -19,4 +21,23 @@ void tn_emit_sources(tn_builder *builder, const tn_imports *imports, const tn_so
     }
     tn_builder_add_PRODUCER(builder,
                             &(tn_producer_record){tn_builder_string(builder, "tartan " TARTAN_VERSION), (int64_t)hash});
+}
+
+static size_t folder_size(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+const char *tn_emit_path(tn_arena *arena, const tn_sources *sources, uint32_t file, const char *path, uint32_t root)
+{
+    const char *user = sources->files[file].path, *whole = sources->files[root].path;
+    size_t below = folder_size(whole), folder = path[0] == '/' ? 0 : folder_size(user);
+    size_t name = strlen(path), skip = below <= folder && memcmp(user, whole, below) == 0 ? below : 0;
+    char *resolved = tn_arena_alloc(arena, folder - skip + name + 1);
+    if (!resolved)
+        return path;
+    memcpy(resolved, user + skip, folder - skip);
+    memcpy(resolved + folder - skip, path, name + 1);
+    return resolved;
 }

@@ -8,4 +8,9 @@
 /* Adds a SOURCE record for every source, under the path that importing recorded for it, and the PRODUCER record. */
 void tn_emit_sources(tn_builder *builder, const tn_imports *imports, const tn_sources *sources);
 
+/* A path that a file names starts at that file's folder. The module holds it from the folder of the whole, file `root`,
+ * on, so that both can be moved together; a file that is used lies below that folder's name or is told from the root.
+ * In the arena, which remembers where memory ran out. */
+const char *tn_emit_path(tn_arena *arena, const tn_sources *sources, uint32_t file, const char *path, uint32_t root);
+
 #endif

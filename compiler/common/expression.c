@@ -264,9 +264,9 @@ tn_status tn_expression_violation(const tn_expression *expression, tn_formula *f
     return tn_formula_end(formula, error);
 }
 
-uint32_t tn_formula_emit(tn_builder *builder, const char *name, const tn_formula *formula)
+uint32_t tn_formula_emit(tn_builder *builder, tn_function_kind kind, const char *name, const tn_formula *formula)
 {
-    tn_function_record record = {.name = tn_builder_string(builder, name), .kind = TN_FUNCTION_MEASURE};
+    tn_function_record record = {.name = tn_builder_string(builder, name), .kind = kind};
     record.code_begin = tn_builder_offset(builder);
     record.stack_max = formula->depth;
     tn_instruction instruction;

@@ -62,7 +62,7 @@ tn_status tn_expression_code(const tn_expression *expression, tn_formula *formul
  * no condition holds where it is not 0. For searching, which wants a slope. */
 tn_status tn_expression_violation(const tn_expression *expression, tn_formula *formula, tn_error *error);
 
-/* Adds the formula to a module as a function of this name, and returns its index. */
-uint32_t tn_formula_emit(tn_builder *builder, const char *name, const tn_formula *formula);
+/* Adds the formula to a module as a function of this kind and name, and returns its index. */
+uint32_t tn_formula_emit(tn_builder *builder, tn_function_kind kind, const char *name, const tn_formula *formula);
 
 #endif

@@ -28,6 +28,15 @@ const char *tn_path_extension(const char *path)
     return dot ? dot : "";
 }
 
+const char *tn_path_stem(const char *path, size_t *length)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+    *length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    while (*length > TN_NAME_MAX || (*length > 0 && ((unsigned char)name[*length] & 0xC0) == 0x80))
+        (*length)--; /* not within a character */
+    return name;
+}
+
 static const char *copy(tn_importer *importer, const char *text)
 {
     return tn_arena_copy(importer->arena, text, strlen(text));

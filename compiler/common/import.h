@@ -50,6 +50,9 @@ tn_status tn_import_all(tn_compilation *compilation, const tn_compile_options *o
 /* The end of a path from the last point of its last part on: ".plan"; empty where there is none. */
 const char *tn_path_extension(const char *path);
 
+/* The last part of a path without its extension, `length` bytes of the path; never longer than a name may be. */
+const char *tn_path_stem(const char *path, size_t *length);
+
 /* Can `from` see what `to` defines? Indices of units. */
 static inline bool tn_import_reaches(const tn_imports *imports, size_t from, size_t to)
 {

@@ -13,7 +13,6 @@
 #define TN_TESTS_MAX 10000u          /* test blocks over all files */
 #define TN_FORBIDS_MAX 1000u         /* of one schema */
 #define TN_LITERAL_TRAYS_MAX 4096u   /* of a plan in a test: the engines' default for the longest plan */
-#define TN_TRAYS_MAX 1000000000u     /* of a library's plans; engines have their own, lower limits */
 #define TN_INSTRUCTIONS_MAX 1000000u /* of a module: what loading accepts */
 
 #endif

@@ -31,6 +31,9 @@ typedef struct tn_front {
     /* Was this module, or the part that matters, compiled from a file of the notation? */
     bool (*made)(const tn_module *module);
 
+    /* Are several files one text, in the order given? Commands then compile all that they are given together. */
+    bool joins;
+
     /* Lists what the text has, from its tokens. NULL: it is listed from what was compiled, where that is a plan's. */
     void (*list)(tn_listing *listing);
 

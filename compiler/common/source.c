@@ -3,20 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const byte_order_mark = "\xEF\xBB\xBF";
+#include "runtime/base/array.h"
 
-static tn_status grow(tn_sources *sources, tn_error *error)
-{
-    if (sources->count < sources->capacity)
-        return TN_OK;
-    size_t capacity = sources->capacity ? sources->capacity * 2 : 8;
-    tn_source *files = realloc(sources->files, capacity * sizeof *files);
-    if (!files)
-        return tn_fail_memory(error);
-    sources->files = files;
-    sources->capacity = capacity;
-    return TN_OK;
-}
+static const char *const byte_order_mark = "\xEF\xBB\xBF";
 
 tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text, size_t size, uint32_t *file,
                          tn_error *error)
@@ -27,9 +16,8 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
     if (size > TN_SOURCES_BYTES_MAX - sources->bytes)
         return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE,
                        "with %s the source files together pass the limit of %u bytes", path, TN_SOURCES_BYTES_MAX);
-    tn_status status = grow(sources, error);
-    if (status != TN_OK)
-        return status;
+    if (!tn_array_reserve_from(&sources->files, &sources->capacity, 8, sources->count, 1, sizeof *sources->files))
+        return tn_fail_memory(error);
     tn_source source = {.path = strdup(path), .text = calloc(size + 2, 1), .size = size};
     if (!source.path || !source.text) {
         free(source.path);

@@ -16,7 +16,7 @@ static uint32_t label_index(const tn_checked_growth *growth, uint32_t number)
 static tn_function_record begin(tn_builder *builder, tn_function_kind kind, tn_span span)
 {
     uint32_t offset = tn_builder_offset(builder);
-    tn_builder_add_MAP(builder, &(tn_map_record){offset, span.file, span.begin, span.end});
+    tn_builder_add_SOURCE_MAP(builder, &(tn_source_map_record){offset, span.file, span.begin, span.end});
     return (tn_function_record){.kind = kind, .code_begin = offset};
 }
 

@@ -1,7 +1,6 @@
-/* Expressions and open plans that the command line gives. */
-#include <string.h>
+#include "compiler/plan/ask.h"
 
-#include "compiler/plan/check.h"
+#include <string.h>
 
 static tn_status parse(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sources, const char *path,
                        const char *text, tn_parse_what what, tn_ast_file **tree, tn_error *error)

@@ -1,8 +1,9 @@
 /* Compiles .plan files; and the front end that the table of notations names. */
 #include "compiler/common/notation.h"
-#include "compiler/plan/emit.h"
+#include "compiler/plan/ask.h"
+#include "compiler/plan/emit/emit.h"
 #include "compiler/plan/format_clauses.h"
-#include "compiler/plan/parse.h"
+#include "compiler/plan/syntax/parse.h"
 
 /* What `use` needs to know of a file. */
 static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
@@ -61,7 +62,7 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
 
 static bool made(const tn_module *module)
 {
-    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count > 0;
+    return module->SCHEMA_count + module->RULE_count + module->LIBRARY_count + module->FORM_count > 0;
 }
 
 static bool rename_clauses(tn_arena *arena, const tn_source *source, const tn_reading *from, const tn_format *format,

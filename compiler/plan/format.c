@@ -14,8 +14,9 @@ enum {
 /* Does a bracket stand directly at the word before it? */
 static bool takes_bracket(const tn_format *format, size_t i)
 {
-    static const char *const calls[] = {"tray", "neighbour", "neighbor", "quantity", "occurrences", "sum", "distance",
-                                        "many", "optional",  "every",    "matches",  "min",         "max", NULL};
+    static const char *const calls[] = {"cell",        "section", "tray",     "neighbour", "neighbor", "quantity",
+                                        "occurrences", "sum",     "distance", "many",      "optional", "every",
+                                        "matches",     "min",     "max",      NULL};
     return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
 }
 
@@ -33,8 +34,8 @@ static bool is_sign(const tn_format *format, size_t i)
 /* The blanks between token i and the one before it. */
 static size_t gap_before(const tn_format *format, size_t i)
 {
-    static const char *const tight_before[] = {")", "]", ",", "..", NULL};
-    static const char *const tight_after[] = {"(", "[", "..", NULL};
+    static const char *const tight_before[] = {")", "]", ",", "..", ":", NULL};
+    static const char *const tight_after[] = {"(", "[", "..", ":", NULL};
     if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after) ||
         is_sign(format, i - 1))
         return 0;
@@ -45,7 +46,7 @@ typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
 static bool starts_item(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"use", "schema", "rule", "library", "test", "measure", "let"};
+    static const char *const words[] = {"use", "schema", "rule", "library", "form", "test", "measure", "let"};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is(format, i, words[k]))
             return true;
@@ -64,6 +65,27 @@ static bool starts_clause(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "trays") || tn_format_is(format, i, "total") || tn_format_is(format, i, "require") ||
            tn_format_is(format, i, "prune") || tn_format_is(format, i, "allow");
+}
+
+/* A line of a form; `section(` is a part of one. */
+static bool starts_part(const tn_format *format, size_t i)
+{
+    static const char *const words[] = {"storey", "spine", "wall",     "partition", "deck", "roof", "section", "forbid",
+                                        "void",   "no",    "function", "opening",   "face", "tile", NULL};
+    return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words) &&
+           !(tn_format_is(format, i, "section") && tn_format_is(format, i + 1, "("));
+}
+
+static bool starts_tile_part(const tn_format *format, size_t i)
+{
+    static const char *const words[] = {"against", "wide", "deep", "item", "keep", NULL};
+    return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words);
+}
+
+static bool at_part_break(const tn_format *format, size_t i)
+{
+    static const char *const words[] = {"at", "and", "or", "=", "|", NULL};
+    return tn_format_is_any(format, i, words);
 }
 
 static bool is_expectation(const tn_format *format, size_t i)
@@ -172,6 +194,36 @@ static void put_clauses(tn_format *format, const size_t *starts, size_t count)
         tn_format_put(format, starts[i], 0);
         tn_layout_spaces(&format->layout, 1);
         tn_format_fill(format, starts[i] + 1, starts[i + 1], at_comma, true, BODY + CONTINUED, 0);
+    }
+}
+
+/* ---- lines of a form */
+
+static void put_tile(tn_format *format, size_t first, size_t last)
+{
+    size_t open = find(format, first, last, "{"), close = last - 1;
+    tn_format_fill(format, first, open + 1, at_head_part, false, BODY + CONTINUED, 0);
+    for (size_t i = open + 1, next; i < close; i = next) {
+        next = next_start(format, i, close, starts_tile_part);
+        format->tokens[i].blank &= i > open + 1; /* none after the opening brace */
+        tn_format_gap(format, i, 2 * BODY, false);
+        tn_layout_line(&format->layout, 2 * BODY);
+        tn_format_fill(format, i, next, at_comma, true, 2 * BODY + CONTINUED, 0);
+    }
+    format->tokens[close].blank = false;
+    tn_format_gap(format, close, 2 * BODY, false);
+    tn_layout_line(&format->layout, BODY);
+    tn_format_put(format, close, 0);
+}
+
+static void put_parts(tn_format *format, const size_t *starts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        tn_layout_line(&format->layout, BODY);
+        if (tn_format_is(format, starts[i], "tile"))
+            put_tile(format, starts[i], starts[i + 1]);
+        else
+            tn_format_fill(format, starts[i], starts[i + 1], at_part_break, false, BODY + CONTINUED, 0);
     }
 }
 
@@ -305,6 +357,8 @@ static void put_item(tn_format *format, size_t first, size_t last, bool one_line
         put_block(format, first, last, starts_field, put_fields);
     else if (tn_format_is(format, first, "library"))
         put_block(format, first, last, starts_clause, put_clauses);
+    else if (tn_format_is(format, first, "form"))
+        put_block(format, first, last, starts_part, put_parts);
     else if (tn_format_is(format, first, "test"))
         put_block(format, first, last, starts_case, put_cases);
     else if (tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure"))

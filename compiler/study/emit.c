@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "compiler/common/emit_sources.h"
 #include "compiler/study/study.h"
 
 static double number_or(const tn_checked_study *study, tn_study_kind kind, double otherwise)
@@ -59,28 +60,6 @@ static void emit_force(tn_builder *builder, const tn_study_item *item)
                                             item->span.file, item->span.begin, item->span.end});
 }
 
-static size_t folder_size(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? (size_t)(slash - path) + 1 : 0;
-}
-
-/* A mesh's path starts at the folder of the file that names it. The module holds it from the folder of the whole study
- * on, so that both can be moved together; a file that is used lies below that folder's name or is told from the root.
- */
-static const char *resolve(tn_arena *arena, const tn_sources *sources, const tn_study_item *item, uint32_t root)
-{
-    const char *user = sources->files[item->span.file].path, *whole = sources->files[root].path;
-    size_t below = folder_size(whole), folder = item->text[0] == '/' ? 0 : folder_size(user);
-    size_t name = strlen(item->text), skip = below <= folder && memcmp(user, whole, below) == 0 ? below : 0;
-    char *path = tn_arena_alloc(arena, folder - skip + name + 1);
-    if (!path)
-        return item->text;
-    memcpy(path, user + skip, folder - skip);
-    memcpy(path + folder - skip, item->text, name + 1);
-    return path;
-}
-
 static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_study_item *item,
                           uint32_t root)
 {
@@ -96,7 +75,7 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
     if (item->which == TN_BOUNDARY_SPHERE) {
         record.radius = item->b.x;
     } else if (item->which == TN_BOUNDARY_MESH) {
-        record.mesh = tn_builder_string(builder, resolve(arena, sources, item, root));
+        record.mesh = tn_builder_string(builder, tn_emit_path(arena, sources, item->span.file, item->text, root));
     } else {
         double scale = 1;
         if (item->which == TN_BOUNDARY_PLANE)
@@ -121,7 +100,7 @@ static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_st
         if (status != TN_OK)
             return status;
         record.name = tn_builder_string(builder, goal->text);
-        record.function = tn_formula_emit(builder, goal->text, formula);
+        record.function = tn_formula_emit(builder, TN_FUNCTION_MEASURE, goal->text, formula);
     }
     tn_builder_add_GOAL(builder, &record);
     return TN_OK;

@@ -32,11 +32,13 @@ typedef struct tn_evolution_job {
     size_t seed_count;
     char *seeds_text;      /* the file that they are from, or NULL */
     char *identity;        /* all that decides what the run does, a setting a line */
+    char *inputs;          /* what else scores depend on (inputs.h); NULL: nothing */
     const char *extension; /* of the files of best/ */
 } tn_evolution_job;
 
 typedef struct tn_evolution_job_options {
     unsigned threads; /* 0: as many as there are */
+    tn_watch *watch;  /* borrowed, or NULL: breeding gives up (TN_STOPPED) once this says so */
     bool says_seed;
     uint64_t seed;
     bool only_replay;         /* no evaluating: scores will be recalled */
@@ -54,6 +56,7 @@ void tn_evolution_job_clear(tn_evolution_job *job);
 typedef struct tn_run_options {
     bool resume;
     bool durable;
+    bool rescore; /* where a resumed run's inputs have changed, all members are scored again; otherwise E1252 */
 } tn_run_options;
 
 typedef struct tn_run {
@@ -62,8 +65,8 @@ typedef struct tn_run {
     tn_run_store *store;
     tn_evolution *evolution;
     uint32_t generations; /* done */
-    tn_run_event
-        *changes; /* of targets and weights: all that were made, the last `new_changes` of them not stored yet */
+    tn_run_event *
+        changes; /* of targets, weights and inputs: all that were made, the last `new_changes` of them not stored yet */
     size_t change_count, new_changes;
     tn_rescored *rescored; /* by those */
     size_t rescored_count;

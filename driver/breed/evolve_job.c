@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "driver/breed/evolve.h"
+#include "driver/breed/inputs.h"
+#include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
 
@@ -22,6 +24,7 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     free(job->seeds_text);
     free(job->blamed_path);
     free(job->identity);
+    free(job->inputs);
     *job = (tn_evolution_job){0};
 }
 
@@ -77,13 +80,14 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
     out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
-    out->mapping = tn_map_options_of(grammar);
+    out->mapping = tn_mapping_options_of(grammar);
     if (s->of[TN_SET_MAX_DEPTH].written)
         out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
     if (s->of[TN_SET_WRAPS].written)
         out->mapping.wraps = whole(s, TN_SET_WRAPS);
     out->mapping.max_steps = (uint64_t)s->of[TN_SET_MAX_STEPS].first;
     out->threads = options->threads ? options->threads : tn_crew_default();
+    out->watch = options->watch;
 }
 
 /* Everything that decides what the run does, but for how long, a setting a line: two runs of one identity are the same
@@ -141,7 +145,9 @@ static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *err
     tn_status status = read_data(job, TN_SET_FIT, path, &bytes, &size, error);
     if (status != TN_OK)
         return status;
-    status = tn_problem_fit_csv((const char *)bytes, size, job->settings.threads, &job->problem, error);
+    status = tn_inputs_add(&job->inputs, "fit", job->blamed_path, bytes, size, error);
+    if (status == TN_OK)
+        status = tn_problem_fit_csv((const char *)bytes, size, job->settings.threads, &job->problem, error);
     free(bytes);
     return status;
 }
@@ -157,9 +163,13 @@ static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error 
     job->blamed = TN_SET_SCHEMA;
     tn_status status = tn_learner_new(schema ? schema : "lahave", path, job->study.of[TN_SET_LENGTH_WEIGHT].first,
                                       weighs_separately(job), &job->learner, error);
+    if (status == TN_OK)
+        status = tn_inputs_add_sources(&job->inputs, "schema", tn_learner_schema(job->learner), UINT32_MAX, error);
     static const tn_setting sources[] = {TN_SET_KEEP, TN_SET_DROP};
     for (size_t i = 0; i < 2 && status == TN_OK; i++) {
         status = find_data(job, sources[i], path, error);
+        if (status == TN_OK)
+            status = tn_inputs_add_file(&job->inputs, tn_setting_rows[sources[i]].name, job->blamed_path, error);
         if (status == TN_OK)
             status = tn_learner_read(job->learner, job->blamed_path, sources[i] == TN_SET_DROP, error);
     }
@@ -169,9 +179,9 @@ static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error 
 static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *error)
 {
     tn_status status = find_data(job, TN_SET_GROW, path, error);
-    return status == TN_OK
-               ? tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error)
-               : status;
+    if (status == TN_OK)
+        status = tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error);
+    return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
 
 static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
@@ -216,13 +226,8 @@ static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size
         size_t length = end ? (size_t)(end - text) - at : size - at;
         line++;
         if (length && text[at] != '#' && job->seed_count < job->settings.population) {
-            if (job->seed_count == capacity) {
-                capacity = capacity ? capacity * 2 : 16;
-                tn_genome *grown = realloc(job->seeds, capacity * sizeof *grown);
-                if (!grown)
-                    return tn_fail_memory(error);
-                job->seeds = grown;
-            }
+            if (!tn_array_reserve_from(&job->seeds, &capacity, 16, job->seed_count, 1, sizeof *job->seeds))
+                return tn_fail_memory(error);
             job->seeds[job->seed_count] = (tn_genome){0};
             tn_status status = tn_genome_read(text + at, length, &job->seeds[job->seed_count++], error);
             if (status != TN_OK) {
@@ -249,6 +254,9 @@ static tn_status take_seeds(tn_evolution_job *job, const char *path, const char 
         return status;
     job->seeds_text = stored ? strdup(stored) : strndup((const char *)bytes, size);
     free(bytes);
+    if (job->seeds_text && tn_inputs_add(&job->inputs, "seeds", job->study.of[TN_SET_SEEDS].text, job->seeds_text,
+                                         strlen(job->seeds_text), error) != TN_OK)
+        return TN_MEMORY;
     return job->seeds_text ? read_seeds(job, job->seeds_text, strlen(job->seeds_text), error) : tn_fail_memory(error);
 }
 
@@ -259,6 +267,8 @@ tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *pat
     tn_status status = tn_grammar_new(module, 0, &job->grammar, error);
     if (status == TN_OK)
         translate(study, job->grammar, options, &job->settings);
+    if (status == TN_OK)
+        status = tn_inputs_add_sources(&job->inputs, "grammar", module, study->of[TN_SET_GRAMMAR].file, error);
     if (status == TN_OK)
         status = take_seeds(job, path, options->stored_seeds, error);
     if (status == TN_OK)

@@ -50,14 +50,14 @@ static tn_status write_sentence(const char *path, const tn_individual *individua
 /* The derivation as a picture; one that is too large to draw is left out. */
 static tn_status draw_derivation(tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
 {
-    tn_map_options options = run->job->settings.mapping;
+    tn_mapping_options options = run->job->settings.mapping;
     tn_mapper *mapper = tn_mapper_new(run->job->grammar);
     tn_mapping mapping;
     tn_tree tree = {0};
     options.record = true;
-    tn_status status =
-        mapper ? tn_map_genome(mapper, individual->genome.codons, individual->genome.count, &options, &mapping, error)
-               : tn_fail_memory(error);
+    tn_status status = mapper ? tn_mapper_derive(mapper, individual->genome.codons, individual->genome.count, &options,
+                                                 &mapping, error)
+                              : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
     if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
@@ -197,7 +197,7 @@ tn_status tn_run_results(tn_run *run, tn_error *error)
 {
     tn_generation_stats *stats = NULL;
     size_t count;
-    char *plot = NULL;
+    char *plot = NULL, *study = NULL;
     tn_status status = write_best(run, error);
     if (status == TN_OK)
         status = tn_run_store_stats(run->store, &stats, &count, error);
@@ -206,9 +206,12 @@ tn_status tn_run_results(tn_run *run, tn_error *error)
     if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_stats_plot(stats, count, run->dir, plot, error);
+        status = tn_run_store_get_meta(run->store, "study_path", &study, error);
+    if (status == TN_OK) /* no name of a folder: the same run has the same picture, wherever it lies */
+        status = tn_stats_plot(stats, count, study ? study : "", plot, error);
     if (status != TN_OK && error->code == E_PART_ABSENT)
         status = TN_OK; /* the numbers are in stats.csv */
+    free(study);
     free(plot);
     free(stats);
     return status;

@@ -9,6 +9,8 @@
 
 #include "compiler/evolution/evolution.h"
 #include "driver/breed/evolve.h"
+#include "driver/breed/inputs.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 char *tn_run_database(const char *dir)
@@ -37,7 +39,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
     snprintf(seed, sizeof seed, "%" PRIu64, job->settings.seed);
     snprintf(objectives, sizeof objectives, "%zu", job->evaluator.objectives);
     const char *const keys[] = {"format", "identity",     "seed",    "objectives", "study_path",
-                                "study",  "grammar_path", "grammar", "seeds"};
+                                "study",  "grammar_path", "grammar", "inputs",     "seeds"};
     const char *const values[] = {"1",
                                   job->identity,
                                   seed,
@@ -46,6 +48,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
                                   texts->study_text,
                                   texts->grammar_path,
                                   texts->grammar_text,
+                                  job->inputs ? job->inputs : "",
                                   job->seeds_text};
     size_t count = sizeof keys / sizeof *keys;
     return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
@@ -103,19 +106,20 @@ static bool holds_already(const tn_run *run, const char *change)
 {
     size_t length = subject_of(change);
     for (size_t i = run->change_count; i-- > 0;)
-        if (subject_of(run->changes[i].text) == length && strncmp(run->changes[i].text, change, length) == 0)
+        if (strcmp(run->changes[i].kind, "set") == 0 && subject_of(run->changes[i].text) == length &&
+            strncmp(run->changes[i].text, change, length) == 0)
             return strcmp(run->changes[i].text, change) == 0;
     return false;
 }
 
-static tn_status remember_change(tn_run *run, uint32_t generation, const char *change, tn_error *error)
+static tn_status remember_change(tn_run *run, uint32_t generation, const char *kind, const char *change,
+                                 tn_error *error)
 {
-    tn_run_event *grown = realloc(run->changes, (run->change_count + 1) * sizeof *grown);
-    if (!grown)
+    if (!tn_array_resize(&run->changes, run->change_count + 1, sizeof *run->changes))
         return tn_fail_memory(error);
-    run->changes = grown;
-    grown[run->change_count++] = (tn_run_event){generation, strdup("set"), strdup(change)};
-    return grown[run->change_count - 1].kind && grown[run->change_count - 1].text ? TN_OK : tn_fail_memory(error);
+    tn_run_event *event = &run->changes[run->change_count++];
+    *event = (tn_run_event){generation, strdup(kind), strdup(change)};
+    return event->kind && event->text ? TN_OK : tn_fail_memory(error);
 }
 
 static int compare_rescored(const void *left, const void *right)
@@ -140,6 +144,13 @@ static tn_status keep_rescored(tn_run *run, tn_error *error)
     return TN_OK;
 }
 
+static tn_status rescore(tn_run *run, tn_error *error)
+{
+    run->new_changes++;
+    tn_status status = tn_evolution_rescore(run->evolution, error);
+    return status == TN_OK ? keep_rescored(run, error) : status;
+}
+
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
@@ -154,12 +165,8 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
         return TN_OK;
     tn_status status = evaluator->adjust(evaluator->context, change, error);
     if (status == TN_OK)
-        status = remember_change(run, run->generations, change, error);
-    if (status == TN_OK) {
-        run->new_changes++;
-        status = tn_evolution_rescore(run->evolution, error);
-    }
-    return status == TN_OK ? keep_rescored(run, error) : status;
+        status = remember_change(run, run->generations, "set", change, error);
+    return status == TN_OK ? rescore(run, error) : status;
 }
 
 typedef struct rescored_list {
@@ -183,9 +190,10 @@ static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error 
     const tn_evaluator *evaluator = &run->job->evaluator;
     rescored_list list = {0};
     tn_rescored *items = NULL;
-    tn_status status = evaluator->adjust ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
+    bool adjusts = evaluator->adjust && strcmp(event->kind, "set") == 0;
+    tn_status status = adjusts ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
     if (status == TN_OK)
-        status = remember_change(run, event->generation, event->text, error);
+        status = remember_change(run, event->generation, event->kind, event->text, error);
     if (status == TN_OK)
         status =
             tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
@@ -229,8 +237,8 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
         if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
             break;
         for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++)
-            status = strcmp(events[at].kind, "set") == 0 ? repeat_change(run, &events[at], error)
-                                                         : repeat_choice(run, &events[at], error);
+            status = strcmp(events[at].kind, "choose") == 0 ? repeat_choice(run, &events[at], error)
+                                                            : repeat_change(run, &events[at], error);
         tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
         if (status == TN_OK)
             status = tn_evolution_step(run->evolution, error);
@@ -241,6 +249,42 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
     tn_run_scores_clear(&scores);
     tn_run_events_free(events, event_count);
     return status;
+}
+
+/* ---- inputs: what scores depend on besides study and grammar (inputs.h) */
+
+/* Those that the stored scores are of: what the last event "inputs" says, or else what the run began with. NULL: the
+ * run is from before they were stored. The caller frees them. */
+static tn_status stored_inputs(tn_run *run, char **inputs, tn_error *error)
+{
+    for (size_t i = run->change_count; i-- > 0;)
+        if (strcmp(run->changes[i].kind, "inputs") == 0) {
+            *inputs = strdup(run->changes[i].text);
+            return *inputs ? TN_OK : tn_fail_memory(error);
+        }
+    return tn_run_store_get_meta(run->store, "inputs", inputs, error);
+}
+
+/* Scores of different inputs are never mixed: all members are scored again, where that is wished, or the run is not
+ * gone on with. */
+static tn_status same_inputs(tn_run *run, bool may_rescore, tn_error *error)
+{
+    char *before = NULL, name[200] = "";
+    const char *now = run->job->inputs ? run->job->inputs : "";
+    tn_status status = stored_inputs(run, &before, error);
+    if (status == TN_OK && before)
+        tn_inputs_difference(before, now, name, sizeof name);
+    free(before);
+    if (status != TN_OK || !name[0])
+        return status;
+    if (may_rescore && run->generations > 0) {
+        status = remember_change(run, run->generations, "inputs", now, error);
+        return status == TN_OK ? rescore(run, error) : status;
+    }
+    tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the scores in %.100s are of another file: `%.160s` has changed since",
+            run->dir, name);
+    tn_error_help(error, "-o DIR starts another run; --resume --rescore scores all members again and goes on");
+    return TN_INVALID;
 }
 
 static tn_status begin_new(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
@@ -269,7 +313,9 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
         status = same_study(run, error);
     if (status == TN_OK)
         status = same_grammar(run, texts->grammar_text, error);
-    return status == TN_OK ? repeat(run, UINT64_MAX, error) : status;
+    if (status == TN_OK)
+        status = repeat(run, UINT64_MAX, error);
+    return status == TN_OK ? same_inputs(run, options->rescore, error) : status;
 }
 
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,

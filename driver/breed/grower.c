@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "driver/open/open.h"
+#include "driver/breed/inputs.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/study.h"
 #include "runtime/mesh/openmesh.h"
@@ -74,6 +74,15 @@ tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn
         *grower = NULL;
     }
     return status;
+}
+
+tn_status tn_grower_inputs(const tn_grower *g, char **inputs, tn_error *error)
+{
+    tn_status status = tn_inputs_add_sources(inputs, "grow", g->opened.module, UINT32_MAX, error);
+    uint64_t meshes = tn_study_meshes_hash(&g->study);
+    return status == TN_OK && meshes
+               ? tn_inputs_add(inputs, "grow", "its boundary meshes", &meshes, sizeof meshes, error)
+               : status;
 }
 
 /* ---- one growth */

@@ -25,4 +25,7 @@ const char *tn_grower_objective(const tn_grower *grower, size_t i);
 tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, const char *const *labels, size_t count,
                          const char *title, const char *path, tn_error *error);
 
+/* Adds what its scores depend on to the text (inputs.h): the study, its rules and meshes. */
+tn_status tn_grower_inputs(const tn_grower *grower, char **inputs, tn_error *error);
+
 #endif

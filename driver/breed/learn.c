@@ -6,6 +6,7 @@
 
 #include "driver/open/files.h"
 #include "driver/open/open.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/picture/draw_rule.h"
 #include "runtime/plan/store/sqlite.h"
@@ -54,22 +55,9 @@ static tn_status add_example(tn_learner *l, const tn_plan *plan, bool drop, tn_e
 {
     if (l->count == EXAMPLES_MAX)
         return tn_fail(error, TN_LIMIT, E_EXAMPLES, "there are more than %u examples, the limit", EXAMPLES_MAX);
-    if (l->count == l->capacity) {
-        size_t capacity = l->capacity ? l->capacity * 2 : 256;
-        example *grown = realloc(l->examples, capacity * sizeof *grown);
-        if (!grown)
-            return tn_fail_memory(error);
-        l->examples = grown;
-        l->capacity = capacity;
-    }
-    if (l->tray_count + plan->length > l->tray_capacity) {
-        size_t capacity = (l->tray_count + plan->length) * 2;
-        tn_tray *grown = realloc(l->trays, capacity * sizeof *grown);
-        if (!grown)
-            return tn_fail_memory(error);
-        l->trays = grown;
-        l->tray_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&l->examples, &l->capacity, 256, l->count, 1, sizeof *l->examples) ||
+        !tn_array_reserve(&l->trays, &l->tray_capacity, l->tray_count, plan->length, sizeof *l->trays))
+        return tn_fail_memory(error);
     l->examples[l->count++] = (example){l->tray_count, plan->length, drop};
     if (plan->length)
         memcpy(l->trays + l->tray_count, plan->trays, plan->length * sizeof *plan->trays);
@@ -116,6 +104,11 @@ static tn_status find_schema(tn_learner *l, const char *name, const char *user, 
         status = tn_schema_new(module, module->RULE_records[module->RULE_count - 1].schema, 0, &l->schema, error);
     }
     return status;
+}
+
+const tn_module *tn_learner_schema(const tn_learner *l)
+{
+    return l->opened.module;
 }
 
 tn_status tn_learner_new(const char *schema, const char *user, double length_weight, bool separately,

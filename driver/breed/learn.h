@@ -3,6 +3,7 @@
 #ifndef TARTAN_DRIVER_BREED_LEARN_H
 #define TARTAN_DRIVER_BREED_LEARN_H
 
+#include "driver/open/open.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_learner tn_learner;
@@ -23,5 +24,8 @@ tn_evaluator tn_learner_evaluator(tn_learner *learner);
 
 /* Draws the rule of a sentence that could be scored (runtime/plan/picture/draw_rule.h). */
 tn_status tn_learner_draw(tn_learner *learner, const char *sentence, const char *path, tn_error *error);
+
+/* The module that declares the examples' schema; the learner's. */
+const tn_module *tn_learner_schema(const tn_learner *learner);
 
 #endif

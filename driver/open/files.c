@@ -3,9 +3,11 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "compiler/common/source.h"
+#include "compiler/notation.h"
 #include "driver/open/missing.h"
 #include "runtime/base/file.h"
 
@@ -90,6 +92,18 @@ static tn_status read_text(const tn_files *files, tn_file *file, tn_error *error
     return status;
 }
 
+/* A file is a rule file by its name, of whatever notation: of any other not even a line is quoted. */
+static tn_status check_name(const tn_file *file, const tn_request *request, tn_error *error)
+{
+    struct stat known;
+    bool folder = stat(file->path, &known) == 0 && S_ISDIR(known.st_mode); /* reading says that */
+    if (file->is_stdlib || folder || tn_notation_of(file->path, "", 0))
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "cannot use %.300s: it is not a rule file", file->path);
+    tn_error_help(error, "a file that can be used here has a name that ends in %s", request->extension);
+    return TN_INVALID;
+}
+
 /* Finds and reads what `asked` names, which becomes the file's. */
 static tn_status get(tn_files *files, const tn_request *request, char *asked, char *meant, tn_error *error)
 {
@@ -101,6 +115,8 @@ static tn_status get(tn_files *files, const tn_request *request, char *asked, ch
     file->asked = asked;
     file->is_stdlib = tn_path_is_bare(request->path);
     tn_status status = find(files, request, file, error);
+    if (status == TN_OK && file->path)
+        status = check_name(file, request, error);
     if (status == TN_OK)
         status = file->path ? read_text(files, file, error) : tn_missing(files->dirs, request, meant, error);
     if (status != TN_OK) {

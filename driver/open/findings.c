@@ -2,7 +2,7 @@
 
 bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)
 {
-    const tn_map_record *map =
+    const tn_source_map_record *map =
         opened->module && offset != TN_NO_OFFSET ? tn_module_place(opened->module, offset) : NULL;
     if (!map || map->file >= opened->compilation.sources.count)
         return false;

@@ -38,9 +38,16 @@ static tn_status compile(const tn_notation *notation, const tn_input *input, con
     return status == TN_OK ? TN_OK : refuse(opened, &error);
 }
 
+/* What is compiled beside a file's text, and how. */
+typedef struct asked {
+    bool warnings_are_errors;
+    const tn_questions *questions; /* NULL: none */
+    const tn_input *more;          /* further texts of the same compilation */
+    size_t more_count;
+} asked;
+
 /* Compiles what lies in a file, or would: that it uses files itself is to be expected. */
-static tn_status compile_file(tn_opened *opened, const char *text, size_t size, bool warnings_are_errors,
-                              const tn_questions *questions)
+static tn_status compile_file(tn_opened *opened, const char *text, size_t size, const asked *how)
 {
     tn_stdlib_dirs dirs;
     tn_files files;
@@ -50,7 +57,11 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     tn_files_begin(&files, &dirs);
     if (status == TN_OK && identity) {
         tn_input input = {text, size, opened->path, identity, NULL};
-        tn_compile_options options = {tn_files_resolver(&files), warnings_are_errors, questions};
+        tn_compile_options options = {.resolver = tn_files_resolver(&files),
+                                      .warnings_are_errors = how->warnings_are_errors,
+                                      .questions = how->questions,
+                                      .more = how->more,
+                                      .more_count = how->more_count};
         status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
     } else {
         tn_fail_memory(&error);
@@ -100,7 +111,7 @@ static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size,
 {
     start(path, opened);
     if (!tn_module_has_magic(bytes, size))
-        return compile_file(opened, (const char *)bytes, size, warnings_are_errors, questions);
+        return compile_file(opened, (const char *)bytes, size, &(asked){warnings_are_errors, questions, NULL, 0});
     return questions ? refuse_questions(opened) : load(opened, bytes, size);
 }
 
@@ -109,6 +120,8 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
 {
     return open_bytes(path, bytes, size, warnings_are_errors, NULL, opened);
 }
+
+/* ---- files */
 
 /* Reads the file that the path names, or the one of the standard library. */
 static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **bytes, size_t *size, tn_error *error)
@@ -145,6 +158,79 @@ tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_qu
     }
     tn_stdlib_file_clear(&found);
     free(bytes);
+    return status;
+}
+
+/* ---- several files */
+
+/* A file that is one of several. */
+typedef struct joined_file {
+    tn_stdlib_file found;
+    uint8_t *bytes;
+    size_t size;
+} joined_file;
+
+bool tn_path_joins(const char *path)
+{
+    const tn_notation *notation = tn_notation_of(path, "", 0);
+    return notation && notation->front->joins;
+}
+
+static tn_status read_joined(const char *path, joined_file *file, tn_error *error)
+{
+    tn_status status = read_named(path, &file->found, &file->bytes, &file->size, error);
+    if (status != TN_OK)
+        return status;
+    const char *name = file->found.path ? file->found.recorded : path;
+    if (tn_path_joins(name) && !tn_module_has_magic(file->bytes, file->size))
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_NOT_PLACING, "%.200s is no connection grammar, and cannot be one with other files",
+            path);
+    tn_error_help(error, "name .pcfg files, or one file alone");
+    return TN_INVALID;
+}
+
+/* Compiles files that have been read. */
+static tn_status compile_joined(const char *const *paths, const joined_file *files, size_t count,
+                                bool warnings_are_errors, tn_opened *opened)
+{
+    tn_input *more = calloc(count, sizeof *more);
+    tn_error error;
+    if (!more) {
+        tn_fail_memory(&error);
+        return refuse(opened, &error);
+    }
+    for (size_t i = 0; i < count; i++)
+        more[i] = (tn_input){.text = (const char *)files[i].bytes,
+                             .size = files[i].size,
+                             .name = files[i].found.path ? files[i].found.recorded : paths[i]};
+    opened->path = more[0].name;
+    tn_status status =
+        compile_file(opened, more[0].text, more[0].size, &(asked){warnings_are_errors, NULL, more + 1, count - 1});
+    opened->path = paths[0];
+    free(more);
+    return status;
+}
+
+tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened)
+{
+    if (count == 1)
+        return tn_open(paths[0], warnings_are_errors, opened);
+    start(paths[0], opened);
+    tn_error error;
+    tn_status status = TN_OK;
+    joined_file *files = calloc(count, sizeof *files);
+    if (!files)
+        status = tn_fail_memory(&error);
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        status = read_joined(paths[i], &files[i], &error);
+    status =
+        status == TN_OK ? compile_joined(paths, files, count, warnings_are_errors, opened) : refuse(opened, &error);
+    for (size_t i = 0; files && i < count; i++) {
+        tn_stdlib_file_clear(&files[i].found);
+        free(files[i].bytes);
+    }
+    free(files);
     return status;
 }
 

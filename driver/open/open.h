@@ -24,6 +24,12 @@ tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 
 /* The same, with what the command line asks of a .plan file. A module takes no such questions. */
 tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened);
+/* Opens files that are one text together, in this order (tn_front.joins); one alone is opened by tn_open. Otherwise as
+ * there. */
+tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened);
+
+/* Is a file of this name one of those that may be several? */
+bool tn_path_joins(const char *path);
 
 /* The same from bytes in memory, which would lie at `path`: that says the notation, and where relative imports start.
  */

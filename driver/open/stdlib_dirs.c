@@ -6,12 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
+
 static bool add(tn_stdlib_dirs *found, const char *dir, size_t length, const char *below)
 {
-    char **dirs = realloc(found->dirs, sizeof *dirs * (found->count + 1));
-    if (!dirs)
+    if (!tn_array_resize(&found->dirs, found->count + 1, sizeof *found->dirs))
         return false;
-    found->dirs = dirs;
     size_t size = length + strlen(below) + 1;
     char *text = malloc(size);
     if (!text)

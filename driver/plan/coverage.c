@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/plan/library.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/analysis/coverage.h"
 #include "runtime/plan/match/parts.h"
 
@@ -195,12 +196,12 @@ static tn_status tests_notice(const measuring *m, bool *notice, tn_error *error)
 /* The same part in the other judgement of the rule, and what else was compiled from that place: their instructions. */
 static size_t find_offsets(const tn_parts *trees, const tn_part *part, uint32_t *offsets)
 {
-    const tn_map_record *place = tn_module_place(trees[0].module, part->root);
+    const tn_source_map_record *place = tn_module_place(trees[0].module, part->root);
     size_t count = 0;
     for (int t = 0; t < 2; t++)
         for (uint32_t i = 0; i < trees[t].count; i++) {
             const tn_part *other = &trees[t].parts[i];
-            const tn_map_record *its = tn_module_place(trees[t].module, other->root);
+            const tn_source_map_record *its = tn_module_place(trees[t].module, other->root);
             bool same =
                 other->root == part->root || (place && its && other->kind == part->kind && place->file == its->file &&
                                               place->begin == its->begin && place->end == its->end);
@@ -220,14 +221,8 @@ typedef struct subject {
 
 static tn_covered_part *add_part(tn_covered *covered)
 {
-    if (covered->count == covered->capacity) {
-        size_t capacity = covered->capacity * 2 + 64;
-        tn_covered_part *larger = realloc(covered->parts, capacity * sizeof *larger);
-        if (!larger)
-            return NULL;
-        covered->parts = larger;
-        covered->capacity = capacity;
-    }
+    if (!tn_array_reserve(&covered->parts, &covered->capacity, covered->count, 1, sizeof *covered->parts))
+        return NULL;
     tn_covered_part *part = &covered->parts[covered->count++];
     *part = (tn_covered_part){0};
     mpz_init(part->flips);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "driver/plan/explain.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/picture/draw_explain.h"
 
 typedef struct gathering {
@@ -13,16 +14,10 @@ typedef struct gathering {
 /* Takes over its texts. */
 static bool add(gathering *g, tn_drawn_reason reason)
 {
-    if (g->count == g->capacity) {
-        size_t capacity = g->capacity * 2 + 32;
-        tn_drawn_reason *larger = realloc(g->reasons, capacity * sizeof *larger);
-        if (!larger) {
-            free((char *)(uintptr_t)reason.text);
-            free((char *)(uintptr_t)reason.evidence);
-            return false;
-        }
-        g->reasons = larger;
-        g->capacity = capacity;
+    if (!tn_array_reserve(&g->reasons, &g->capacity, g->count, 1, sizeof *g->reasons)) {
+        free((char *)(uintptr_t)reason.text);
+        free((char *)(uintptr_t)reason.evidence);
+        return false;
     }
     g->reasons[g->count++] = reason;
     return reason.text != NULL;
@@ -39,7 +34,7 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
                               .evidence = evidence.data,
                               .depth = depth + 1,
                               .matched = node->matched,
-                              .marks = why->stretches + node->stretch_first,
+                              .marks = node->stretch_count ? why->stretches + node->stretch_first : NULL,
                               .mark_count = tn_words_places(why, node) ? node->stretch_count : 0,
                               .region = node->region};
     if (!node->matched && node->run_count > 0)

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* A batch ends at so many plans or so many trays, whichever comes first. */
 enum { BATCH_PLANS = 8192, BATCH_TRAYS = 1 << 20 };
 
@@ -88,14 +90,8 @@ static tn_status worker_start(worker *w, sift *s, tn_error *error)
 
 static bool append(worker *w, const tn_plan *plan, uint64_t number)
 {
-    if (w->tray_room - w->tray_count < plan->length || !w->trays) {
-        size_t room = (w->tray_count + plan->length + 1024) * 2;
-        tn_tray *trays = realloc(w->trays, sizeof *trays * room);
-        if (!trays)
-            return false;
-        w->trays = trays;
-        w->tray_room = room;
-    }
+    if (!tn_array_reserve_from(&w->trays, &w->tray_room, 2048, w->tray_count, plan->length + 1, sizeof *w->trays))
+        return false;
     if (plan->length)
         memcpy(w->trays + w->tray_count, plan->trays, sizeof *w->trays * plan->length);
     w->tray_count += plan->length;
@@ -348,6 +344,8 @@ static tn_status start_and_run(sift *s, worker *workers, size_t count, tn_error 
     if (status == TN_OK) {
         run(s, workers, count);
         status = s->status;
+        if (status == TN_OK)
+            status = tn_plan_reader_unchanged(s->reader, error);
     }
     for (size_t i = 0; i < made; i++)
         worker_clear(&workers[i]);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"

@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_PLAN_VALUE_TESTS_H
 #define TARTAN_DRIVER_PLAN_VALUE_TESTS_H
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/open/findings.h"
 #include "runtime/plan/match/vm.h"
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "driver/open/digits.h"
+#include "runtime/base/utf8.h"
 
 const char tn_report_head[] =
     "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<style>\n"
@@ -70,13 +71,19 @@ bool tn_report_html(const tn_reporting *r, const char *html)
 bool tn_report_text_part(const tn_reporting *r, const char *text, size_t size)
 {
     bool written = true;
-    for (size_t i = 0; written && i < size; i++) {
+    for (size_t i = 0, step; written && i < size; i += step) {
+        char escape[8];
+        uint32_t character = tn_utf8_read(text + i, size - i, &step);
         const char *entity = text[i] == '&'   ? "&amp;"
                              : text[i] == '<' ? "&lt;"
                              : text[i] == '>' ? "&gt;"
                              : text[i] == '"' ? "&quot;"
                                               : NULL;
-        written = entity ? tn_report_html(r, entity) : tn_buffer_append(r->page, text + i, 1);
+        if (!entity && tn_character_hidden(character) && character != '\n' && character != '\t') {
+            tn_character_escape(character, escape);
+            entity = escape;
+        }
+        written = entity ? tn_report_html(r, entity) : tn_buffer_append(r->page, text + i, step);
     }
     return written;
 }

@@ -1,29 +1,36 @@
-/* Arrays that grow by doubling. */
+/* Arrays that grow: the one place that asks for more memory for them. The caller owns the array and frees it. `items`
+ * points to the array's pointer, of any type, and `size` is an item's in bytes. */
 #ifndef TARTAN_BASE_ARRAY_H
 #define TARTAN_BASE_ARRAY_H
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdlib.h> /* free, which is the caller's part */
 
-/* Room for `more` items of `size` bytes behind the first `used`. `items` points to the array's pointer, of any type.
- * False: out of memory, and nothing changed. */
+enum { TN_ARRAY_FIRST = 64 }; /* items that an array begins with */
+
+/* The next capacity of an array that needs `needed` items: twice as many, and at least `first`. */
+size_t tn_array_larger(size_t capacity, size_t needed, size_t first);
+
+/* Makes the array `count` items large, more or fewer. False: out of memory, or too many bytes to count; nothing
+ * changed. For arrays that share a capacity, and for those that are as large as what they hold. */
+bool tn_array_resize(void *items, size_t count, size_t size);
+
+/* Resizes the array to its next capacity with room for `more` items behind the first `used`. */
+bool tn_array_grow(void *items, size_t *capacity, size_t first, size_t used, size_t more, size_t size);
+
+/* Room for `more` items behind the first `used`, in an array that begins with `first`. False: out of memory, and
+ * nothing changed. */
+static inline bool tn_array_reserve_from(void *items, size_t *capacity, size_t first, size_t used, size_t more,
+                                         size_t size)
+{
+    return (used <= *capacity && more <= *capacity - used) || tn_array_grow(items, capacity, first, used, more, size);
+}
+
+/* The same, where the first size does not matter. */
 static inline bool tn_array_reserve(void *items, size_t *capacity, size_t used, size_t more, size_t size)
 {
-    if (used + more <= *capacity)
-        return true;
-    size_t wanted = *capacity ? *capacity * 2 : 64;
-    while (wanted < used + more)
-        wanted *= 2;
-    void *memory;
-    memcpy(&memory, items, sizeof memory);
-    memory = realloc(memory, wanted * size);
-    if (!memory)
-        return false;
-    memcpy(items, &memory, sizeof memory);
-    *capacity = wanted;
-    return true;
+    return tn_array_reserve_from(items, capacity, TN_ARRAY_FIRST, used, more, size);
 }
 
 #endif

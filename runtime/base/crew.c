@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "runtime/base/watch.h"
+
 struct tn_crew {
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
@@ -15,6 +17,7 @@ struct tn_crew {
     bool open;       /* may helpers join it? */
     bool leaving;    /* no more jobs */
     unsigned active; /* helpers at work on it */
+    tn_watch *watch;
     /* the job */
     tn_crew_work *work;
     void *context;
@@ -50,7 +53,8 @@ static void take_part(tn_crew *crew, unsigned thread)
         size_t to = crew->count - from < crew->chunk ? crew->count : from + crew->chunk;
         for (size_t item = from; item < to; item++) {
             tn_error error;
-            tn_status status = crew->work(crew->context, thread, item, &error);
+            tn_status status = tn_watch_stopped(crew->watch) ? tn_fail_stopped(&error)
+                                                             : crew->work(crew->context, thread, item, &error);
             if (status != TN_OK)
                 keep_failure(crew, item, status, &error);
         }
@@ -95,7 +99,7 @@ static bool add_helper(tn_crew *crew)
     return true;
 }
 
-tn_crew *tn_crew_new(unsigned threads)
+tn_crew *tn_crew_new(unsigned threads, tn_watch *watch)
 {
     tn_crew *crew = calloc(1, sizeof *crew);
     if (!crew)
@@ -105,6 +109,7 @@ tn_crew *tn_crew_new(unsigned threads)
         free(crew);
         return NULL;
     }
+    crew->watch = watch;
     pthread_mutex_init(&crew->lock, NULL);
     pthread_cond_init(&crew->wake, NULL);
     pthread_cond_init(&crew->done, NULL);

@@ -6,20 +6,20 @@
 #ifndef TARTAN_BASE_CREW_H
 #define TARTAN_BASE_CREW_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 
 typedef struct tn_crew tn_crew;
 
-/* A crew of `threads` in all, the asking one counted (at least 1). Where threads cannot be had, it is smaller. NULL
- * where out of memory. */
-tn_crew *tn_crew_new(unsigned threads);
+/* A crew of `threads` in all, the asking one counted (at least 1). Where threads cannot be had, it is smaller. Work
+ * ends early once `watch` (borrowed, or NULL) says so. NULL where out of memory. */
+tn_crew *tn_crew_new(unsigned threads, tn_watch *watch);
 void tn_crew_free(tn_crew *crew);
 
 /* One item of the work; `thread` is below the crew's number, and no two items are done at once under the same. */
 typedef tn_status tn_crew_work(void *context, unsigned thread, size_t item, tn_error *error);
 
 /* Does items 0 to count - 1, `chunk` of them at a time. The error is that of the lowest item that failed; all items are
- * done in any case. */
+ * done in any case, but for TN_STOPPED: then some are not. */
 tn_status tn_crew_run(tn_crew *crew, size_t count, size_t chunk, tn_crew_work *work, void *context, tn_error *error);
 
 /* As many as there are processors to run on. */

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
 
 /* ---- reading */
@@ -21,16 +22,20 @@ static tn_status too_large(const char *path, size_t limit, tn_error *error)
  * pipes and devices. */
 static tn_status read_all(int file, const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)
 {
-    size_t capacity = 65536;
-    uint8_t *memory = malloc(capacity);
-    size_t used = 0;
-    while (memory) {
+    size_t capacity = 0, used = 0;
+    uint8_t *memory = NULL;
+    tn_file_state before = tn_file_state_of(file);
+    while (tn_array_reserve_from(&memory, &capacity, 65536, used, 2, 1)) {
         ssize_t got = read(file, memory + used, capacity - used - 1);
         if (got < 0 && errno == EINTR)
             continue;
-        if (got <= 0) {
-            if (got == 0)
-                break;
+        if (got == 0) {
+            memory[used] = 0;
+            *bytes = memory;
+            *size = used;
+            break;
+        }
+        if (got < 0) {
             int reason = errno;
             free(memory);
             return tn_cannot_read(path, reason, error);
@@ -40,20 +45,14 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
             free(memory);
             return too_large(path, limit, error);
         }
-        if (capacity - used > 1)
-            continue;
-        uint8_t *larger = capacity <= SIZE_MAX / 2 ? realloc(memory, capacity * 2) : NULL;
-        if (!larger)
-            free(memory);
-        memory = larger;
-        capacity *= 2;
     }
-    if (!memory)
-        return tn_fail_memory(error);
-    memory[used] = 0;
-    *bytes = memory;
-    *size = used;
-    return TN_OK;
+    tn_status status = *bytes ? tn_file_state_same(&before, file, path, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        return TN_OK;
+    free(memory);
+    *bytes = NULL;
+    *size = 0;
+    return status;
 }
 
 tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)
@@ -227,7 +226,7 @@ static int probe(int file)
 static int flush(tn_output *output)
 {
     if (ferror(output->stream))
-        return probe(fileno(output->stream));
+        return probe(output->stream == stdout ? STDOUT_FILENO : fileno(output->stream));
     errno = 0;
     if (fflush(output->stream) != 0)
         return errno ? errno : EIO;

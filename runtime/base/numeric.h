@@ -15,6 +15,7 @@ double tn_exp(double x);
 double tn_log(double x);
 double tn_pow(double x, double y);
 double tn_tanh(double x);
+double tn_atan2(double y, double x); /* the angle of the point x, y, from -pi to pi */
 
 /* Sine and cosine of an angle in degrees; exact at multiples of 90, and of 30 where the value is a half. */
 double tn_sin_degrees(double degrees);

@@ -38,18 +38,21 @@ int tn_thread_number(void)
 /* One thread works in a plain loop. OpenMP would make a team of one for each region, with memory of its own and a call
  * to the kernel that wakes nobody: together some microseconds, which is as long as a pass over a small surface takes.
  */
-void tn_share(int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context)
+bool tn_share(tn_watch *watch, int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context)
 {
     if (threads <= 1 || count <= 1) {
-        for (uint32_t i = 0; i < count; i++)
+        for (uint32_t i = 0; i < count && !tn_watch_stopped(watch); i++)
             work(context, i);
     } else if (how == TN_SHARE_EVENLY) {
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
         for (uint32_t i = 0; i < count; i++)
-            work(context, i);
+            if (!tn_watch_stopped(watch))
+                work(context, i);
     } else {
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (uint32_t i = 0; i < count; i++)
-            work(context, i);
+            if (!tn_watch_stopped(watch))
+                work(context, i);
     }
+    return !tn_watch_stopped(watch);
 }

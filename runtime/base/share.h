@@ -2,7 +2,7 @@
 #ifndef TARTAN_BASE_SHARE_H
 #define TARTAN_BASE_SHARE_H
 
-#include <stdint.h>
+#include "runtime/base/watch.h"
 
 typedef enum tn_share_how {
     TN_SHARE_EVENLY, /* pieces in turn: a thread meets the same pieces again where the same number is shared again */
@@ -11,8 +11,9 @@ typedef enum tn_share_how {
 
 typedef void tn_share_work(void *context, uint32_t piece);
 
-/* Does pieces 0 to count - 1 with up to `threads` threads. */
-void tn_share(int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context);
+/* Does pieces 0 to count - 1 with up to `threads` threads, fewer where they cannot be had. False where `watch` (or
+ * NULL) said so before the end: then some pieces are not done. */
+bool tn_share(tn_watch *watch, int threads, uint32_t count, tn_share_how how, tn_share_work *work, void *context);
 
 /* How many threads there are to use, and how many are to be from now on. Without OpenMP it is one. */
 int tn_thread_count(void);

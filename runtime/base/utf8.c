@@ -90,16 +90,43 @@ bool tn_character_hidden(uint32_t character)
     return in_ranges(hidden, COUNT(hidden), character);
 }
 
+void tn_character_escape(uint32_t character, char text[8])
+{
+    snprintf(text, 8, character < 0x80 ? "\\x%02x" : "\\u%04x", character & 0xFFFF);
+}
+
+static void write_character(FILE *out, uint32_t character, const char *bytes, size_t size)
+{
+    char escape[8];
+    if (character == TN_REPLACEMENT) {
+        fputs("\xEF\xBF\xBD", out);
+    } else if (tn_character_hidden(character)) {
+        tn_character_escape(character, escape);
+        fputs(escape, out);
+    } else {
+        fwrite(bytes, 1, size, out);
+    }
+}
+
 void tn_write_clean(FILE *out, const char *text, size_t size)
 {
     for (size_t i = 0, step; i < size; i += step) {
         uint32_t character = tn_utf8_read(text + i, size - i, &step);
         if (character == '\t' || character == '\n' || character == '\r')
             fputc(' ', out);
-        else if (character == TN_REPLACEMENT || tn_character_hidden(character))
-            fputs("\xEF\xBF\xBD", out);
         else
-            fwrite(text + i, 1, step, out);
+            write_character(out, character, text + i, step);
+    }
+}
+
+void tn_write_shown(FILE *out, const char *text, size_t size)
+{
+    for (size_t i = 0, step; i < size; i += step) {
+        uint32_t character = tn_utf8_read(text + i, size - i, &step);
+        if (character == '\t' || character == '\n')
+            fputc((char)character, out);
+        else
+            write_character(out, character, text + i, step);
     }
 }
 

@@ -19,12 +19,17 @@ bool tn_is_utf8(const char *text, size_t size);
  */
 unsigned tn_character_width(uint32_t character);
 
-/* Must it be shown as TN_REPLACEMENT? Control characters would change the terminal's state, direction overrides the
+/* Must it be shown as an escape? Control characters would change the terminal's state, direction overrides the
  * order of what is read. */
 bool tn_character_hidden(uint32_t character);
 
-/* Writes text with hidden characters replaced; line ends and tabs become blanks. */
+/* What a hidden character is shown as: "\x1b" or "\u202e". */
+void tn_character_escape(uint32_t character, char text[8]);
+
+/* Writes text for people: hidden characters as escapes, broken UTF-8 as TN_REPLACEMENT. The first makes blanks of line
+ * ends and tabs, for text within a line; the second leaves them. */
 void tn_write_clean(FILE *out, const char *text, size_t size);
+void tn_write_shown(FILE *out, const char *text, size_t size);
 
 /* Writes a JSON string with its quotes; NULL is null. */
 void tn_write_json(FILE *out, const char *text);

@@ -36,9 +36,14 @@ bool tn_watch_stopped(tn_watch *watch)
     return watch->stop;
 }
 
+tn_status tn_fail_stopped(tn_error *error)
+{
+    return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped before it was done");
+}
+
 tn_status tn_watch_check(tn_watch *watch, tn_error *error)
 {
-    return tn_watch_stopped(watch) ? tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped before it was done") : TN_OK;
+    return tn_watch_stopped(watch) ? tn_fail_stopped(error) : TN_OK;
 }
 
 void tn_watch_tell(tn_watch *watch, double done, double total)

@@ -31,6 +31,9 @@ bool tn_watch_stopped(tn_watch *watch);
 /* The same as a status: TN_OK, or TN_STOPPED with a sentence. */
 tn_status tn_watch_check(tn_watch *watch, tn_error *error);
 
+/* TN_STOPPED with that sentence. */
+tn_status tn_fail_stopped(tn_error *error);
+
 /* Says how far the work is, on the watch's own thread. NULL is fine. */
 void tn_watch_tell(tn_watch *watch, double done, double total);
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/draw/svg_ids.h"
 #include "runtime/draw/svg_page.h"
@@ -42,15 +43,9 @@ static cairo_status_t write_stream(void *closure, const unsigned char *data, uns
 static cairo_status_t write_text(void *closure, const unsigned char *data, unsigned int length)
 {
     tn_canvas *canvas = closure;
-    if (canvas->text_room - canvas->text_size < length) {
-        size_t room = (canvas->text_size + length) * 2;
-        char *text = realloc(canvas->text, room);
-        if (!text) {
-            canvas->out_of_memory = true;
-            return CAIRO_STATUS_NO_MEMORY;
-        }
-        canvas->text = text;
-        canvas->text_room = room;
+    if (!tn_array_reserve(&canvas->text, &canvas->text_room, canvas->text_size, length, 1)) {
+        canvas->out_of_memory = true;
+        return CAIRO_STATUS_NO_MEMORY;
     }
     memcpy(canvas->text + canvas->text_size, data, length);
     canvas->text_size += length;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* An id as it was: a stretch of the text. Its index is its new number. */
 typedef struct id_name {
     const char *text;
@@ -41,11 +43,9 @@ static size_t *slot_of(const renumbering *r, const char *text, size_t size)
 
 static bool grow_names(renumbering *r)
 {
-    size_t capacity = r->capacity ? r->capacity * 2 : 64;
-    id_name *names = realloc(r->names, sizeof *names * capacity);
-    if (!names)
+    size_t capacity = tn_array_larger(r->capacity, 0, 64); /* a power of two */
+    if (!tn_array_resize(&r->names, capacity, sizeof *r->names))
         return false;
-    r->names = names;
     size_t *slots = calloc(capacity * 2, sizeof *slots);
     if (!slots)
         return false;
@@ -54,7 +54,7 @@ static bool grow_names(renumbering *r)
     r->slot_count = capacity * 2;
     r->capacity = capacity;
     for (size_t i = 0; i < r->count; i++)
-        *slot_of(r, names[i].text, names[i].size) = i + 1;
+        *slot_of(r, r->names[i].text, r->names[i].size) = i + 1;
     return true;
 }
 
@@ -73,14 +73,8 @@ static bool number_of(renumbering *r, const char *text, size_t size, size_t *num
 
 static bool append(renumbering *r, const char *text, size_t size)
 {
-    if (r->room - r->size <= size) {
-        size_t room = (r->size + size + 1) * 2;
-        char *out = realloc(r->out, room);
-        if (!out)
-            return false;
-        r->out = out;
-        r->room = room;
-    }
+    if (!tn_array_reserve(&r->out, &r->room, r->size, size + 1, 1))
+        return false;
     memcpy(r->out + r->size, text, size);
     r->size += size;
     r->out[r->size] = '\0';

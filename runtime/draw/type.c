@@ -6,42 +6,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/utf8.h"
+
 enum { TEXT_ROOM = 1024 };
 
 #define ELLIPSIS "\xe2\x80\xa6"
 
-/* How many bytes the UTF-8 character at `text` has, or 0 where there is none. Overlong forms and surrogates are none.
- */
-static size_t utf8_size(const unsigned char *text)
-{
-    static const unsigned smallest[5] = {0, 0, 0x80, 0x800, 0x10000};
-    if (text[0] < 0x80)
-        return 1;
-    size_t size = text[0] >= 0xf0 && text[0] < 0xf5 ? 4 : text[0] >= 0xe0 ? 3 : text[0] >= 0xc2 ? 2 : 0;
-    if (!size || text[0] >= 0xf5)
-        return 0;
-    unsigned code = text[0] & (0xffu >> (size + 1));
-    for (size_t i = 1; i < size; i++) {
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-        code = code << 6 | (text[i] & 0x3fu);
-    }
-    return code < smallest[size] || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff ? 0 : size;
-}
-
-/* Copies what can be shown: cairo stops drawing for good at a text that is not UTF-8. */
+/* Copies what can be shown, what is hidden as escapes: cairo stops drawing for good at a text that is not UTF-8. */
 static void clean(const char *text, char out[TEXT_ROOM])
 {
-    const unsigned char *at = (const unsigned char *)text;
-    size_t used = 0;
-    while (*at && used + 5 < TEXT_ROOM) {
-        size_t size = utf8_size(at);
-        if (size && *at >= ' ')
-            memcpy(out + used, at, size);
-        else
-            out[used] = *at < ' ' ? ' ' : '?';
-        used += size ? size : 1;
-        at += size ? size : 1;
+    size_t used = 0, left = strlen(text);
+    for (size_t size; left > 0 && used + 8 < TEXT_ROOM; text += size, left -= size) {
+        uint32_t character = tn_utf8_read(text, left, &size);
+        if (character == '\t' || character == '\n' || character == '\r') {
+            out[used++] = ' ';
+        } else if (tn_character_hidden(character)) {
+            tn_character_escape(character, out + used);
+            used += strlen(out + used);
+        } else if (character == TN_REPLACEMENT && size == 1) {
+            out[used++] = '?';
+        } else {
+            memcpy(out + used, text, size);
+            used += size;
+        }
     }
     out[used] = '\0';
 }

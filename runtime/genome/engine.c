@@ -35,6 +35,8 @@ static tn_status verify(const tn_checker *checker)
         return tn_refuse(checker, "%s", faults[0].message);
     if (module->GRAMMAR_count != 1)
         return tn_refuse(checker, "an evolution needs one grammar, not %zu", module->GRAMMAR_count);
+    if (module->GRAMMAR_records[0].dialect == TN_DIALECT_PLACE)
+        return tn_refuse(checker, "an evolution needs a grammar that genomes are mapped through");
     return TN_OK;
 }
 

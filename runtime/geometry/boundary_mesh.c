@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "runtime/base/select_nth.h"
 
@@ -432,4 +433,9 @@ bool tn_boundary_mesh_hit(const tn_boundary_mesh *mesh, bool inside, tn_vector x
         }
     }
     return found;
+}
+
+uint64_t tn_boundary_mesh_hash(const tn_boundary_mesh *mesh, uint64_t seed)
+{
+    return XXH3_64bits_withSeed(mesh->corner, 3 * (size_t)mesh->count * sizeof *mesh->corner, seed);
 }

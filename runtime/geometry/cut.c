@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/geometry/hidden_parts.h"
 
 #define FLAT 1e-9       /* as near to a plane is on it; the whole scene is about 1 large */
@@ -40,10 +41,9 @@ typedef struct cutting {
 
 static bool add_corner(tn_painting *painting, const double *p, uint32_t side)
 {
-    size_t room = painting->corner_room;
-    if (!tn_room_for_one((void **)&painting->points, sizeof *painting->points, painting->corner_count, &room) ||
-        !tn_room_for_one((void **)&painting->sides, sizeof *painting->sides, painting->corner_count,
-                         &painting->corner_room))
+    size_t room = painting->corner_room, count = painting->corner_count;
+    if (!tn_array_reserve(&painting->points, &room, count, 1, sizeof *painting->points) ||
+        !tn_array_reserve(&painting->sides, &painting->corner_room, count, 1, sizeof *painting->sides))
         return false;
     for (int k = 0; k < 3; k++)
         painting->points[painting->corner_count][k] = p[k];
@@ -100,7 +100,7 @@ static bool take_triangle(cutting *c, const tn_scene *scene, const tn_seen_trian
     piece made = {.first = (uint32_t)c->painting->corner_count, .count = 3, .face = t->face};
     if (!plane_of(scene, t, made.plane))
         return true;
-    if (!tn_room_for_one((void **)&c->pieces, sizeof *c->pieces, c->piece_count, &c->piece_room))
+    if (!tn_array_reserve(&c->pieces, &c->piece_room, c->piece_count, 1, sizeof *c->pieces))
         return false;
     for (int k = 0; k < 3; k++) {
         uint32_t from = t->corner[k], to = t->corner[(k + 1) % 3];
@@ -137,7 +137,7 @@ static void sides_of(const cutting *c, const piece *p, const double plane[4], bo
 static uint32_t part_of(cutting *c, uint32_t number, const double plane[4], double sign)
 {
     tn_painting *painting = c->painting;
-    if (!tn_room_for_one((void **)&c->pieces, sizeof *c->pieces, c->piece_count, &c->piece_room))
+    if (!tn_array_reserve(&c->pieces, &c->piece_room, c->piece_count, 1, sizeof *c->pieces))
         return LAST;
     piece old = c->pieces[number], part = old;
     part.first = (uint32_t)painting->corner_count;
@@ -167,7 +167,7 @@ static bool push(cutting *c, piece_list list, bool paint)
 {
     if (list.count == 0)
         return true;
-    if (!tn_room_for_one((void **)&c->tasks, sizeof *c->tasks, c->task_count, &c->task_room))
+    if (!tn_array_reserve(&c->tasks, &c->task_room, c->task_count, 1, sizeof *c->tasks))
         return false;
     c->tasks[c->task_count++] = (task){list, paint};
     return true;

@@ -4,23 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/hidden_parts.h"
 #include "runtime/geometry/mesh.h"
 
 #define EDGE_ON 1e-7 /* of the square of its longest side: a triangle with less area in the picture is a line */
-
-bool tn_room_for_one(void **items, size_t size, size_t count, size_t *room)
-{
-    if (count < *room)
-        return true;
-    size_t more = 2 * *room + 64;
-    void *grown = realloc(*items, more * size);
-    if (!grown)
-        return false;
-    *items = grown;
-    *room = more;
-    return true;
-}
 
 void tn_painting_clear(tn_painting *painting)
 {
@@ -32,8 +21,8 @@ void tn_painting_clear(tn_painting *painting)
 
 tn_status tn_painting_add(tn_painting *painting, tn_patch patch, tn_error *error)
 {
-    if (!tn_room_for_one((void **)&painting->patches, sizeof *painting->patches, painting->patch_count,
-                         &painting->patch_room))
+    if (!tn_array_reserve(&painting->patches, &painting->patch_room, painting->patch_count, 1,
+                          sizeof *painting->patches))
         return tn_fail_memory(error);
     painting->patches[painting->patch_count++] = patch;
     return TN_OK;
@@ -159,6 +148,8 @@ static tn_status paint_knot(void *user, uint32_t knot, tn_error *error)
 {
     work *w = user;
     const tn_order *o = &w->order;
+    if (tn_watch_stopped(w->scene->watch))
+        return tn_fail_stopped(error);
     const uint32_t *faces = o->members + o->knot_first[knot];
     uint32_t count = o->knot_first[knot + 1] - o->knot_first[knot];
     return count == 1 ? paint_face(w, faces[0], error) : cut_knot(w, faces, count, error);

@@ -11,14 +11,15 @@
 #ifndef TARTAN_GEOMETRY_HIDDEN_H
 #define TARTAN_GEOMETRY_HIDDEN_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 
 /* What is seen, from infinitely far away. The arrays belong to whoever made the scene. */
 typedef struct tn_scene {
     double (*points)[3]; /* [corner] to the right, up, and towards the eye; the whole not much larger than 1 */
     uint32_t *first;     /* [face_count + 1] each face's first corner; faces have three or more */
     uint32_t face_count;
-    int threads; /* that may work on it, which changes nothing; 0 counts as 1 */
+    int threads;     /* that may work on it, which changes nothing; 0 counts as 1 */
+    tn_watch *watch; /* or NULL: the work is given up (TN_STOPPED) once this says so */
 } tn_scene;
 
 #define TN_CUT UINT32_MAX

@@ -4,9 +4,6 @@
 
 #include "runtime/geometry/hidden.h"
 
-/* Makes room for one more in an array of `count`; false without memory. */
-bool tn_room_for_one(void **items, size_t size, size_t count, size_t *room);
-
 /* Adds what is painted next. */
 tn_status tn_painting_add(tn_painting *painting, tn_patch patch, tn_error *error);
 

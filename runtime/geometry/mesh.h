@@ -8,6 +8,8 @@
 
 #include "runtime/base/error.h"
 
+struct tn_watch; /* base/watch.h, which is no C++ */
+
 typedef struct tn_mesh {
     double *positions; /* [vertex_count][3] */
     size_t vertex_count;
@@ -20,6 +22,7 @@ typedef struct tn_mesh {
     uint32_t *lines;      /* [line_count][2] vertices, where edges are wanted too; otherwise NULL */
     uint32_t *line_group; /* [line_count] */
     size_t line_count;
+    struct tn_watch *watch; /* borrowed, or NULL: long work on it gives up (TN_STOPPED) once this says so */
 } tn_mesh;
 
 void tn_mesh_clear(tn_mesh *mesh);

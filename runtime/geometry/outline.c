@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+#include "runtime/base/watch.h"
+
 #define FEW 40u    /* corners: up to here every side is compared with every other */
 #define TOUCH 1e-9 /* of the sides' lengths: what crosses by less only touches */
 #define NONE UINT32_MAX
@@ -20,14 +23,7 @@ void tn_outline_clear(tn_outline *outline)
 bool tn_outline_reserve(tn_outline *outline, uint32_t count)
 {
     outline->count = count;
-    if (count <= outline->point_room)
-        return true;
-    void *grown = realloc(outline->points, 2 * (size_t)count * sizeof *outline->points);
-    if (!grown)
-        return false;
-    outline->points = grown;
-    outline->point_room = 2 * (size_t)count;
-    return true;
+    return tn_array_reserve(&outline->points, &outline->point_room, 0, count, sizeof *outline->points);
 }
 
 /* On which side of the line from a to b is p: 1 left, -1 right, 0 on it. */
@@ -117,16 +113,10 @@ static bool enter_cell(tn_outline *o, grid *g, size_t place, uint32_t side, bool
 {
     for (uint32_t link = o->cells[place]; link != NONE; link = o->next[link])
         *crossed |= o->side[link] + 1 < side && sides_cross(o, o->side[link], side);
-    if (g->links == o->link_room) {
-        size_t room = 2 * o->link_room + 1024;
-        uint32_t *next = realloc(o->next, room * sizeof *next), *sides;
-        o->next = next ? next : o->next;
-        sides = next ? realloc(o->side, room * sizeof *sides) : NULL;
-        if (!sides)
-            return false;
-        o->side = sides;
-        o->link_room = room;
-    }
+    size_t next_room = o->link_room;
+    if (!tn_array_reserve_from(&o->next, &next_room, 1024, g->links, 1, sizeof *o->next) ||
+        !tn_array_reserve_from(&o->side, &o->link_room, 1024, g->links, 1, sizeof *o->side))
+        return false;
     o->next[g->links] = o->cells[place];
     o->side[g->links] = side;
     o->cells[place] = (uint32_t)g->links++;
@@ -169,7 +159,7 @@ bool tn_outline_crosses(tn_outline *o, bool *crossed)
     }
     if (!lay_grid(o, &g))
         return false;
-    for (uint32_t side = 0; side < o->count && !*crossed; side++)
+    for (uint32_t side = 0; side < o->count && !*crossed && !tn_watch_stopped(o->watch); side++)
         if (!enter_side(o, &g, side, crossed))
             return false;
     return true;

@@ -2,7 +2,7 @@
 #ifndef TARTAN_GROWTH_OUTLINE_H
 #define TARTAN_GROWTH_OUTLINE_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 
 /* An outline's corners and the memory to look at it, which a thread uses again and again. Starts all zero. */
 typedef struct tn_outline {
@@ -10,6 +10,7 @@ typedef struct tn_outline {
     uint32_t count;
     uint32_t *cells, *next, *side; /* sides by cell of a grid, as linked lists */
     size_t point_room, cell_room, link_room;
+    tn_watch *watch; /* borrowed, or NULL: what is found means nothing once this says so */
 } tn_outline;
 
 /* Room for the points of an outline; false without memory. */

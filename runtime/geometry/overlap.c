@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/hidden_parts.h"
 #include "runtime/geometry/vector.h"
 
@@ -108,7 +110,7 @@ static void compare(const tn_scene *scene, const tn_seen_triangle *a, const tn_s
 static void add(search *s, uint32_t far, uint32_t near)
 {
     tn_face_pairs *list = &s->befores;
-    if (!tn_room_for_one((void **)&list->items, sizeof *list->items, list->count, &list->room)) {
+    if (!tn_array_reserve(&list->items, &list->room, list->count, 1, sizeof *list->items)) {
         s->out_of_memory = true;
         return;
     }
@@ -159,17 +161,10 @@ static void compare_all(search *s, const uint32_t *list, size_t count, const box
 
 static bool reserve(search *s, size_t more)
 {
-    if (s->room - s->used < more) {
-        size_t room = 2 * (s->used + more);
-        uint32_t *grown = realloc(s->stack, room * sizeof *grown);
-        if (!grown) {
-            s->out_of_memory = true;
-            return false;
-        }
-        s->stack = grown;
-        s->room = room;
-    }
-    return true;
+    if (tn_array_reserve(&s->stack, &s->room, s->used, more, sizeof *s->stack))
+        return true;
+    s->out_of_memory = true;
+    return false;
 }
 
 /* Of the list of `count` at `at`, those that reach into a part, put on top of the stack. */
@@ -244,7 +239,7 @@ static void add_jobs(jobs *j, size_t at, size_t count, const box *part, int dept
             add_jobs(j, starts[h], counts[h], &halves[h], depth + 1);
         return;
     }
-    if (tn_room_for_one((void **)&j->items, sizeof *j->items, j->count, &j->room))
+    if (tn_array_reserve(&j->items, &j->room, j->count, 1, sizeof *j->items))
         j->items[j->count++] = (job){.at = at, .count = count, .part = *part, .depth = depth};
     else
         j->all.out_of_memory = true;
@@ -309,6 +304,7 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
 {
     jobs j = {.all = {.scene = scene, .triangles = triangles}};
     search *s = &j.all;
+    bool complete = true;
     *befores = (tn_face_pairs){0};
     s->boxes = malloc((count + 1) * sizeof *s->boxes);
     s->out_of_memory = !s->boxes;
@@ -319,11 +315,13 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
         s->used = count;
         add_jobs(&j, 0, count, &all, 0);
         if (!s->out_of_memory)
-            tn_share(scene->threads, (uint32_t)j.count, TN_SHARE_UNEVEN, do_job, &j);
+            complete = tn_share(scene->watch, scene->threads, (uint32_t)j.count, TN_SHARE_UNEVEN, do_job, &j);
     }
     bool fine = gather(&j, befores);
     free(j.items);
     free(s->boxes);
     free(s->stack);
+    if (!complete)
+        return tn_fail_stopped(error);
     return fine ? TN_OK : tn_fail_memory(error);
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/bit_tree.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
 
@@ -21,9 +22,9 @@ typedef struct ring {
     double (*points)[2];
     uint32_t *before, *after; /* the corners that are left */
     bool *outward;            /* turns outwards, so that it may lie in an ear; never set for one that is cut */
-    tn_corner_tree tree;  /* of the outward corners, where they are many */
-    tn_bit_tree maybe;    /* the corners that may be ears */
-    uint32_t looked_left; /* corners that were left when all were last looked at */
+    tn_corner_tree tree;      /* of the outward corners, where they are many */
+    tn_bit_tree maybe;        /* the corners that may be ears */
+    uint32_t looked_left;     /* corners that were left when all were last looked at */
 } ring;
 
 static void clear_ring(ring *r)
@@ -161,7 +162,8 @@ static void cut_off(ring *r, uint32_t corner)
     look_again(r, c);
 }
 
-static void cut_face(ring *r, const uint32_t *corners, uint32_t *out)
+/* False where the work is to end before it is done. */
+static bool cut_face(ring *r, const uint32_t *corners, uint32_t *out, tn_watch *watch)
 {
     uint32_t at = 0;
     find_outward(r);
@@ -170,6 +172,8 @@ static void cut_face(ring *r, const uint32_t *corners, uint32_t *out)
         tn_bit_tree_add(&r->maybe, i);
     r->looked_left = r->count;
     for (uint32_t left = r->count; left > 3; left--) {
+        if (tn_watch_stopped(watch))
+            return false;
         uint32_t ear = find_ear(r, at, left), c = r->after[ear];
         *out++ = corners[r->before[ear]];
         *out++ = corners[ear];
@@ -180,6 +184,7 @@ static void cut_face(ring *r, const uint32_t *corners, uint32_t *out)
     *out++ = corners[r->before[at]];
     *out++ = corners[at];
     *out++ = corners[r->after[at]];
+    return true;
 }
 
 static tn_status cut_all(const tn_mesh *mesh, uint32_t largest, uint32_t *out, tn_error *error)
@@ -189,7 +194,8 @@ static tn_status cut_all(const tn_mesh *mesh, uint32_t largest, uint32_t *out, t
     for (size_t f = 0; f < mesh->face_count && status == TN_OK; f++) {
         uint32_t count = mesh->face_first[f + 1] - mesh->face_first[f];
         lay_out(&r, mesh, mesh->corners + mesh->face_first[f], count);
-        cut_face(&r, mesh->corners + mesh->face_first[f], out);
+        if (!cut_face(&r, mesh->corners + mesh->face_first[f], out, mesh->watch))
+            status = tn_fail_stopped(error);
         out += 3 * (size_t)(count - 2);
     }
     clear_ring(&r);

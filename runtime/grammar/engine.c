@@ -1,5 +1,6 @@
-/* Verifies and lists the grammars that genomes are mapped through: their tables and their productions' code. */
+/* Verifies and lists grammars: their tables, and their productions' code, whatever that does. */
 #include "runtime/module/engine.h"
+#include "runtime/grammar/ends.h"
 
 /* ---- tables */
 
@@ -14,12 +15,22 @@ static bool is_special(const tn_grammar_record *grammar, uint32_t symbol)
     return symbol == TN_NO_RECORD ? !needed : is_symbol(grammar, symbol);
 }
 
+/* A connection grammar has none of what mapping genomes needs, and is alone in its module. */
+static bool has_settings(const tn_grammar_record *grammar)
+{
+    return grammar->repair != TN_REPAIR_OFF || grammar->flags || grammar->max_depth || grammar->wraps ||
+           grammar->rewrite_rule != TN_NO_RECORD || grammar->predecessor != TN_NO_RECORD ||
+           grammar->successor != TN_NO_RECORD;
+}
+
 /* Repair and flags are of the grammar's dialect, and what repair needs are non-terminals of its own. */
 static tn_status verify(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
     for (size_t i = 0; i < module->GRAMMAR_count; i++) {
         const tn_grammar_record *grammar = &module->GRAMMAR_records[i];
+        if (grammar->dialect == TN_DIALECT_PLACE && (has_settings(grammar) || module->GRAMMAR_count > 1))
+            return tn_refuse(checker, "a connection grammar with settings of another, or not alone");
         if (grammar->dialect == TN_DIALECT_GE ? grammar->repair != TN_REPAIR_OFF : grammar->flags != 0)
             return tn_refuse(checker, "grammar %zu has a repair or flags that are not of its dialect", i);
         if (!is_special(grammar, grammar->rewrite_rule) || !is_special(grammar, grammar->predecessor) ||
@@ -62,6 +73,24 @@ static tn_status check_instruction(const tn_checker *checker, const tn_grammar_r
     return TN_OK;
 }
 
+/* Steps of a connection grammar: they are flat. */
+static tn_status check_steps(tn_checker *checker, const tn_grammar_record *grammar)
+{
+    tn_status status = TN_OK;
+    while (status == TN_OK && checker->offset < checker->end) {
+        tn_instruction instruction;
+        status = tn_code_next(checker, TN_CODE_PLACE, &instruction);
+        if (status != TN_OK)
+            return status;
+        if ((instruction.opcode == TN_OP_PLACED) != (checker->offset + 1 == checker->end))
+            return tn_refuse(checker, "a production ends with its one PLACED");
+        if (instruction.opcode == TN_OP_DERIVE && !is_symbol(grammar, instruction.first))
+            return tn_refuse(checker, "non-terminal %u is not of the grammar", (unsigned)instruction.first);
+        status = tn_code_pass(checker, &instruction);
+    }
+    return status;
+}
+
 static tn_status check_code(tn_checker *checker, const tn_grammar_record *grammar)
 {
     uint32_t ends[TN_GROUP_DEPTH + 1], depth = 0;
@@ -70,7 +99,7 @@ static tn_status check_code(tn_checker *checker, const tn_grammar_record *gramma
         while (depth && ends[depth] == checker->offset)
             depth--;
         tn_instruction instruction;
-        tn_status status = tn_code_next(checker, TN_CODE_MAP, &instruction);
+        tn_status status = tn_code_next(checker, TN_CODE_PRODUCTION, &instruction);
         if (status == TN_OK)
             status = check_instruction(checker, grammar, &instruction, ends[depth]);
         if (status == TN_OK)
@@ -91,7 +120,9 @@ static tn_status check_production(tn_checker *checker, const tn_grammar_record *
     const tn_production_record *production = &checker->module->PRODUCTION_records[index];
     tn_status status =
         tn_code_enter(checker, TN_SECTION_PRODUCTION, index, production->code_begin, production->code_end);
-    return status == TN_OK ? check_code(checker, grammar) : status;
+    if (status != TN_OK)
+        return status;
+    return grammar->dialect == TN_DIALECT_PLACE ? check_steps(checker, grammar) : check_code(checker, grammar);
 }
 
 /* A grammar's non-terminals and their productions are runs, so that these are all productions in their order. */
@@ -108,7 +139,8 @@ static tn_status check_grammar(tn_checker *checker, const tn_grammar_record *gra
     return TN_OK;
 }
 
-/* A production ends with its one DONE; bodies nest; instructions are of the grammar's dialect, and symbols its own. */
+/* A production ends with its one DONE; bodies nest; instructions are of the grammar's dialect, and symbols its own;
+ * every non-terminal has a sentence. */
 static tn_status verify_code(tn_checker *checker, tn_section section)
 {
     (void)section; /* the engine has code in one */
@@ -117,12 +149,13 @@ static tn_status verify_code(tn_checker *checker, tn_section section)
         if (status != TN_OK)
             return status;
     }
-    return TN_OK;
+    return tn_grammar_check_ends(checker);
 }
 
 /* ---- listing */
 
-static void list_nonterminal(tn_lister *lister, uint32_t index)
+/* places: the map says where each instruction is from. */
+static void list_nonterminal(tn_lister *lister, uint32_t index, bool places)
 {
     const tn_module *module = lister->module;
     const tn_nonterminal_record *rule = &module->NONTERMINAL_records[index];
@@ -133,23 +166,32 @@ static void list_nonterminal(tn_lister *lister, uint32_t index)
     lister->shown_line = 0;
     for (uint32_t i = 0; i < rule->production_count && !ferror(lister->out); i++) {
         const tn_production_record *production = &module->PRODUCTION_records[rule->production_first + i];
-        tn_map_record place = {production->code_begin, production->file, production->begin, production->end};
-        tn_list_code(lister, production->code_begin, production->code_end, &place);
+        tn_source_map_record place = {production->code_begin, production->file, production->begin, production->end};
+        if (production->weight > 0)
+            fprintf(lister->out, "  probability %.17g\n", production->weight);
+        tn_list_code(lister, production->code_begin, production->code_end, places ? NULL : &place);
     }
+}
+
+static void list_settings(tn_lister *lister, const tn_grammar_record *grammar)
+{
+    static const char *const repairs[] = {"genome", "identity", "off"};
+    fprintf(lister->out, ", depth %u, wraps %u, repair %s%s", grammar->max_depth, grammar->wraps,
+            repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
 }
 
 static void list_grammar(tn_lister *lister, size_t index)
 {
-    static const char *const dialects[] = {"ge", "genr8"}, *const repairs[] = {"genome", "identity", "off"};
+    static const char *const dialects[] = {"ge", "genr8", "place"};
     const tn_grammar_record *grammar = &lister->module->GRAMMAR_records[index];
     fprintf(lister->out, "\ngrammar %zu  ", index);
     tn_list_name(lister, grammar->name);
-    fprintf(lister->out, ": dialect %s, depth %u, wraps %u, repair %s%s", dialects[grammar->dialect],
-            grammar->max_depth, grammar->wraps, repairs[grammar->repair],
-            grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
+    fprintf(lister->out, ": dialect %s", dialects[grammar->dialect]);
+    if (grammar->dialect != TN_DIALECT_PLACE)
+        list_settings(lister, grammar);
     tn_list_place(lister, grammar->file, grammar->begin);
     for (uint32_t i = 0; i < grammar->rule_count && !ferror(lister->out); i++)
-        list_nonterminal(lister, grammar->rule_first + i);
+        list_nonterminal(lister, grammar->rule_first + i, grammar->dialect == TN_DIALECT_PLACE);
 }
 
 static void list_code(tn_lister *lister)
@@ -185,7 +227,7 @@ static const tn_operand_rules operands[] = {
 extern const tn_engine tn_engine_grammar;
 const tn_engine tn_engine_grammar = {.name = "grammar",
                                      .sections = sections,
-                                     .codes = 1u << TN_CODE_MAP,
+                                     .codes = 1u << TN_CODE_PRODUCTION,
                                      .operands = operands,
                                      .operand_count = sizeof operands / sizeof *operands,
                                      .verify = verify,

@@ -165,7 +165,7 @@ static tn_status allocate(decoder *d, size_t productions, size_t words, tn_error
 tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **grammar, tn_error *error)
 {
     *grammar = NULL;
-    if (index >= module->GRAMMAR_count)
+    if (index >= module->GRAMMAR_count || module->GRAMMAR_records[index].dialect == TN_DIALECT_PLACE)
         return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the module holds no grammar that genomes are mapped through");
     decoder d = {.module = module, .record = &module->GRAMMAR_records[index]};
     size_t productions, words;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/outline.h"
 #include "runtime/geometry/vector.h"
 
@@ -17,6 +18,7 @@ typedef struct search {
     uint32_t crossed, inverted;
     uint32_t first_crossed, first_inverted; /* each one's lowest edge side */
     bool out_of_memory;
+    tn_watch *watch; /* or NULL */
 } search;
 
 static tn_vector corner(const tn_map *map, uint32_t dart)
@@ -124,10 +126,10 @@ static void look_for_crossed(search *s, int threads)
     uint32_t count = 0, first = UINT32_MAX;
 #pragma omp parallel num_threads(threads) if (s->map->face_count > CHUNK)
     {
-        tn_outline outline = {0};
+        tn_outline outline = {.watch = s->watch};
 #pragma omp for schedule(static, CHUNK) reduction(+ : count) reduction(min : first)
         for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
-            if (!is_crossed(s, f, &outline))
+            if (tn_watch_stopped(s->watch) || !is_crossed(s, f, &outline))
                 continue;
             count++;
             uint32_t side = lowest_side(s->map, f);
@@ -145,7 +147,7 @@ static void look_for_inverted(search *s, int threads)
 #pragma omp parallel for num_threads(threads) schedule(static, CHUNK) reduction(+ : count) reduction(min : first)     \
     if (s->map->face_count > CHUNK)
     for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
-        if (!is_inverted(s, f))
+        if (tn_watch_stopped(s->watch) || !is_inverted(s, f))
             continue;
         count++;
         uint32_t side = lowest_side(s->map, f);
@@ -173,7 +175,8 @@ tn_status tn_faults_find(const tn_growth *growth, tn_faults *faults, tn_error *e
     const tn_map *map = tn_growth_map(growth);
     int wanted = tn_growth_settings(growth)->threads, threads = wanted > 0 ? wanted : tn_thread_count();
     uint32_t *face_of = NULL;
-    search s = {.map = map, .normals = calloc(map->face_count, sizeof *s.normals)};
+    tn_watch *watch = tn_growth_settings(growth)->watch;
+    search s = {.map = map, .watch = watch, .normals = calloc(map->face_count, sizeof *s.normals)};
     tn_status status = s.normals ? tn_map_twins(map, NULL, &face_of, error) : tn_fail_memory(error);
     if (status == TN_OK) {
         s.face_of = face_of;
@@ -183,6 +186,10 @@ tn_status tn_faults_find(const tn_growth *growth, tn_faults *faults, tn_error *e
     }
     if (status == TN_OK) {
         look_for_inverted(&s, threads);
+        if (tn_watch_stopped(watch))
+            status = tn_fail_stopped(error);
+    }
+    if (status == TN_OK) {
         faults->crossed = fault_at(&s, s.crossed, s.first_crossed);
         faults->inverted = fault_at(&s, s.inverted, s.first_inverted);
     }

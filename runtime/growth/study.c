@@ -1,8 +1,6 @@
 #include "runtime/growth/study.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 void tn_study_clear(tn_study *study)
 {
@@ -13,6 +11,15 @@ void tn_study_clear(tn_study *study)
     free(study->boundaries);
     free(study->goal.named);
     *study = (tn_study){0};
+}
+
+uint64_t tn_study_meshes_hash(const tn_study *study)
+{
+    uint64_t hash = 0;
+    for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
+        if (study->meshes[i])
+            hash = tn_boundary_mesh_hash(study->meshes[i], hash);
+    return hash;
 }
 
 static void read_settings(const tn_study_record *record, tn_study *study)
@@ -37,54 +44,13 @@ static void read_settings(const tn_study_record *record, tn_study *study)
     study->goal.raw = record->flags & TN_STUDY_RAW_FITNESS;
 }
 
-/* name, told from the folder of a file; the caller frees it. */
-static char *beside(const char *file, const char *name)
-{
-    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
-    size_t folder = slash ? (size_t)(slash - file) + 1 : 0, size = strlen(name) + 1;
-    char *path = malloc(folder + size);
-    if (path) {
-        memcpy(path, file, folder);
-        memcpy(path + folder, name, size);
-    }
-    return path;
-}
-
-static tn_status read_mesh(tn_mesh_reader *reader, const char *path, tn_boundary_mesh **result, tn_error *error)
-{
-    tn_mesh mesh;
-    tn_status status = reader(path, &mesh, error);
-    if (status != TN_OK)
-        return status;
-    status = tn_mesh_triangulate(&mesh, error);
-    if (status == TN_OK)
-        status = tn_boundary_mesh_new(mesh.positions, mesh.vertex_count, mesh.corners, mesh.face_count, result, error);
-    tn_mesh_clear(&mesh);
-    return status;
-}
-
 /* Beside what was opened, or where the study lay when it was compiled. */
 static tn_status find_mesh(const tn_module *module, tn_mesh_reader *reader, const char *opened, const char *name,
                            tn_boundary_mesh **result, tn_error *error)
 {
     uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
     const char *study = source < module->SOURCE_count ? tn_text(module, module->SOURCE_records[source].path) : opened;
-    char *near = beside(opened, name), *once = beside(study, name);
-    tn_status status = near && once ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && access(near, F_OK) == 0) {
-        status = read_mesh(reader, near, result, error);
-    } else if (status == TN_OK && access(once, F_OK) == 0) {
-        status = read_mesh(reader, once, result, error);
-    } else if (status == TN_OK) {
-        status = tn_fail(error, TN_IO, E_CANNOT_READ, "there is no mesh %.200s", near);
-        if (strcmp(near, once) == 0)
-            tn_error_help(error, "a boundary's path starts at the folder of the study that names it");
-        else
-            tn_error_help(error, "put it there; where the study was compiled it was %.200s", once);
-    }
-    free(near);
-    free(once);
-    return status;
+    return tn_boundary_mesh_find(reader, opened, study, name, "boundary", "study", result, error);
 }
 
 static tn_status read_boundary(const tn_module *module, tn_mesh_reader *reader, const char *path, uint32_t index,

@@ -3,6 +3,7 @@
 #ifndef TARTAN_GROWTH_STUDY_H
 #define TARTAN_GROWTH_STUDY_H
 
+#include "runtime/geometry/boundary_file.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
@@ -20,9 +21,6 @@ typedef struct tn_study {
     tn_boundary_mesh **meshes; /* [boundary], NULL for other shapes */
 } tn_study;
 
-/* Reads a mesh file. The caller clears the mesh, unless reading failed. */
-typedef tn_status tn_mesh_reader(const char *path, tn_mesh *mesh, tn_error *error);
-
 /* Reads it, and the boundary meshes from their files by `reader` (tn_openmesh_read of runtime/mesh). A mesh's path
  * starts at the folder of `path`, the study or module that was opened; where there is none, at the folder in which the
  * study lay when it was compiled. Clear it in any case.
@@ -30,5 +28,8 @@ typedef tn_status tn_mesh_reader(const char *path, tn_mesh *mesh, tn_error *erro
 tn_status tn_study_read(const tn_module *module, const char *path, tn_mesh_reader *reader, tn_study *study,
                         tn_error *error);
 void tn_study_clear(tn_study *study);
+
+/* Of the shapes of its boundary meshes; 0 where it has none. */
+uint64_t tn_study_meshes_hash(const tn_study *study);
 
 #endif

@@ -128,6 +128,7 @@ tn_status tn_surface_mesh(const tn_growth *growth, const tn_surface_options *opt
         status = tn_mesh_new(map->vertex_count, map->face_count - 1, corners, mesh, error);
     if (status == TN_OK)
         status = fill(growth, options, &stats, mesh, error);
+    mesh->watch = tn_growth_settings(growth)->watch;
     tn_stats_clear(&stats);
     if (status != TN_OK)
         tn_mesh_clear(mesh);

@@ -5,6 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/module/code.h"
 #include "runtime/module/layout.h"
@@ -18,7 +19,7 @@ typedef struct tn_builder_run {
 
 struct tn_builder {
     tn_builder_run sections[TN_SECTION_COUNT]; /* strings and code hold bytes, the others their records' structs */
-    tn_string *interned;               /* hash table of offsets; 0 is a free place */
+    tn_string *interned;                       /* hash table of offsets; 0 is a free place */
     size_t interned_count, interned_capacity;
     bool out_of_memory;
     bool too_large; /* a section passed what its u32 indices can name */
@@ -32,17 +33,9 @@ static void *extend(tn_builder *builder, tn_section section, size_t item_size, s
         builder->too_large = true;
         return NULL;
     }
-    if (run->count + count > run->capacity) {
-        size_t capacity = run->capacity ? run->capacity : 64;
-        while (capacity < run->count + count)
-            capacity *= 2;
-        void *items = realloc(run->items, capacity * item_size);
-        if (!items) {
-            builder->out_of_memory = true;
-            return NULL;
-        }
-        run->items = items;
-        run->capacity = capacity;
+    if (!tn_array_reserve(&run->items, &run->capacity, run->count, count, item_size)) {
+        builder->out_of_memory = true;
+        return NULL;
     }
     void *first = (char *)run->items + run->count * item_size;
     run->count += count;
@@ -159,7 +152,7 @@ tn_string tn_builder_string(tn_builder *builder, const char *text)
     }                                                                                                                  \
     void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record)                                \
     {                                                                                                                  \
-        tn_builder_run *run = &builder->sections[TN_SECTION_##NAME];                                                           \
+        tn_builder_run *run = &builder->sections[TN_SECTION_##NAME];                                                   \
         if (index < run->count)                                                                                        \
             ((TYPE *)run->items)[index] = *record;                                                                     \
     }

@@ -165,7 +165,7 @@ void tn_list_record(tn_lister *lister, tn_section section, uint32_t index)
 /* ---- code */
 
 /* Shows the line that a place begins in, unless it was the last one shown. */
-static void show_source(tn_lister *lister, const tn_map_record *place)
+static void show_source(tn_lister *lister, const tn_source_map_record *place)
 {
     size_t line;
     if (!place || !find_line(lister, place->file, place->begin, &line))
@@ -237,7 +237,7 @@ static void list_instruction(tn_lister *lister, uint32_t offset, const tn_instru
     fputc('\n', lister->out);
 }
 
-void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_map_record *place)
+void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_source_map_record *place)
 {
     for (uint32_t offset = begin; offset < end;) {
         tn_instruction instruction = tn_code_read(lister->module->code, offset);

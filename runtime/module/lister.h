@@ -41,6 +41,6 @@ void tn_list_function(tn_lister *lister, uint32_t function);
 
 /* The instructions of a stretch of code, beside the source lines that they come from: those of the map, or that of the
  * one place of all. */
-void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_map_record *place);
+void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_source_map_record *place);
 
 #endif

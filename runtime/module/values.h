@@ -9,10 +9,11 @@
 #define TN_NO_RECORD UINT32_MAX
 
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
-#define TN_FIELDS_MAX 64u    /* fields of a schema */
-#define TN_VALUES_MAX 255u   /* values of a field: engines number them in a byte */
-#define TN_NAME_MAX 255u     /* bytes of a name */
-#define TN_SPELLING_MAX 511u /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
+#define TN_FIELDS_MAX 64u        /* fields of a schema */
+#define TN_VALUES_MAX 255u       /* values of a field: engines number them in a byte */
+#define TN_TRAYS_MAX 1000000000u /* of a library's plans; engines have their own, lower limits */
+#define TN_NAME_MAX 255u         /* bytes of a name */
+#define TN_SPELLING_MAX 511u     /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */
 
 /* ---- plans */
 
@@ -115,10 +116,94 @@ typedef enum tn_fitness_term {
     TN_FITNESS_TERM_COUNT
 } tn_fitness_term;
 
+/* ---- houses (docs/houses.md) */
+
+#define TN_HOUSE_LENGTH_MAX (INT64_C(1) << 40) /* nanometres, 1.1 km: so that exact products stay in 128 bits */
+#define TN_STOREYS_MAX 64u
+#define TN_CHOICES_MAX 64u
+#define TN_CELL_RULES_MAX 1000u
+#define TN_OPENINGS_MAX 200u
+#define TN_FACE_LINES_MAX 1000u
+#define TN_TILES_MAX 10000u
+#define TN_TILE_BOXES_MAX 1000u
+#define TN_SLOPE_MAX 1000u             /* either number of a slope */
+#define TN_AREA_MAX (INT64_C(1) << 62) /* square micrometres: about 4.6 square kilometres */
+
+typedef enum tn_choice_kind { TN_CHOICE_PLAIN, TN_CHOICE_STOREYS, TN_CHOICE_ROOF, TN_CHOICE_KIND_COUNT } tn_choice_kind;
+
+/* Which way a shed falls: it is low at the back, or at the front. */
+typedef enum tn_roof_kind {
+    TN_ROOF_NONE,
+    TN_ROOF_FLAT,
+    TN_ROOF_SHED_BACK,
+    TN_ROOF_SHED_FRONT,
+    TN_ROOF_GABLE,
+    TN_ROOF_VAULT,
+    TN_ROOF_KIND_COUNT
+} tn_roof_kind;
+
+typedef enum tn_cell_rule_kind {
+    TN_CELL_FUNCTION,
+    TN_CELL_VOID,
+    TN_CELL_NO,
+    TN_CELL_FORBID, /* of sections */
+    TN_CELL_RULE_KIND_COUNT
+} tn_cell_rule_kind;
+
+/* What is in a face; the openings of the form follow. */
+typedef enum tn_face_kind {
+    TN_FACE_WALL,
+    TN_FACE_PARTY,
+    TN_FACE_OPEN,
+    TN_FACE_FLOOR,
+    TN_FACE_STAIR,
+    TN_FACE_KIND_COUNT
+} tn_face_kind;
+
+/* Which faces a line is about: of neighbouring trays or one tray, one of the two, one over another, or the outside. */
+typedef enum tn_face_relation {
+    TN_FACE_BESIDE,
+    TN_FACE_ALONG,
+    TN_FACE_ACROSS,
+    TN_FACE_UNDER,
+    TN_FACE_OUTSIDE,
+    TN_FACE_RELATION_COUNT
+} tn_face_relation;
+
+typedef enum tn_house_side {
+    TN_HOUSE_ANY_SIDE,
+    TN_HOUSE_BACK,
+    TN_HOUSE_FRONT,
+    TN_HOUSE_LEFT,
+    TN_HOUSE_RIGHT,
+    TN_HOUSE_SIDE_COUNT
+} tn_house_side;
+
+/* How an area is compared. */
+typedef enum tn_area_test {
+    TN_AREA_LESS,
+    TN_AREA_AT_MOST,
+    TN_AREA_EQUAL,
+    TN_AREA_UNEQUAL,
+    TN_AREA_AT_LEAST,
+    TN_AREA_GREATER,
+    TN_AREA_TEST_COUNT
+} tn_area_test;
+
+/* Flags of openings and of the boxes of tiles. */
+#define TN_PASSAGE 1u
+#define TN_TILE_KEEP 1u
+#define TN_TILE_X_FROM_RIGHT 2u
+#define TN_TILE_X_TO_RIGHT 4u
+#define TN_TILE_Y_FROM_FRONT 8u
+#define TN_TILE_Y_TO_FRONT 16u
+#define TN_TILE_BOX_FLAGS 31u
+
 /* ---- grammars that genomes are mapped through */
 
-/* How a .bnf file is read and its genomes mapped (docs/genome-language.md). */
-typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_COUNT } tn_dialect;
+/* How a .bnf file is read and its genomes mapped (docs/genome-language.md); or a connection grammar (docs/placing.md).
+ */
+typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_PLACE, TN_DIALECT_COUNT } tn_dialect;
 
 /* What becomes of edge types that a genr8 sentence leaves without a rule. */
 typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN_REPAIR_COUNT } tn_repair;
@@ -126,7 +211,27 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_EDGE_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */
 #define TN_GROUP_DEPTH 64u /* how deep { } and [ ] may nest in a production */
 
+/* ---- connection grammars */
+
+#define TN_PLACE_FAR (1 << 26)      /* a head may not go farther from the origin, in cells */
+#define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
+#define TN_PLACE_COLOUR_MAX INT32_MAX
+
 /* Flags of grammars. */
 #define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
+
+/* ---- fields */
+
+#define TN_GRID_MAX 8192u /* samples on the longest side of a box */
+
+typedef enum tn_unit_word {
+    TN_UNIT_NONE,
+    TN_UNIT_MM,
+    TN_UNIT_CM,
+    TN_UNIT_M,
+    TN_UNIT_IN,
+    TN_UNIT_FT,
+    TN_UNIT_COUNT
+} tn_unit_word;
 
 #endif

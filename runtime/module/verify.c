@@ -56,7 +56,7 @@ tn_status tn_check_different(const tn_checker *checker, const tn_string *texts, 
 static bool is_common(tn_section section)
 {
     return section == TN_SECTION_STRINGS || section == TN_SECTION_CODE || section == TN_SECTION_FUNCTION ||
-           section == TN_SECTION_SOURCE || section == TN_SECTION_MAP || section == TN_SECTION_PRODUCER;
+           section == TN_SECTION_SOURCE || section == TN_SECTION_SOURCE_MAP || section == TN_SECTION_PRODUCER;
 }
 
 static tn_status check_owners(const tn_checker *checker)

@@ -75,11 +75,11 @@ tn_status tn_code_pass(tn_checker *checker, const tn_instruction *instruction)
 {
     const tn_module *module = checker->module;
     uint32_t next = checker->offset + instruction->length;
-    if (checker->map < module->MAP_count && module->MAP_records[checker->map].offset < next) {
-        if (module->MAP_records[checker->map].offset != checker->offset)
+    if (checker->map < module->SOURCE_MAP_count && module->SOURCE_MAP_records[checker->map].offset < next) {
+        if (module->SOURCE_MAP_records[checker->map].offset != checker->offset)
             return tn_refuse(checker, "the source map's record %zu names no instruction", checker->map);
         checker->map++;
-        if (checker->map < module->MAP_count && module->MAP_records[checker->map].offset < next)
+        if (checker->map < module->SOURCE_MAP_count && module->SOURCE_MAP_records[checker->map].offset < next)
             return tn_refuse(checker, "the source map does not ascend at its record %zu", checker->map);
     }
     checker->offset = next;
@@ -184,7 +184,7 @@ tn_status tn_verify_code(tn_checker *checker)
     checker->section = TN_SECTION_STRINGS;
     if (checker->offset != module->code_size)
         return tn_refuse(checker, "it has code that belongs to no function or production");
-    if (checker->map != module->MAP_count)
+    if (checker->map != module->SOURCE_MAP_count)
         return tn_refuse(checker, "the source map names places past the code");
     for (size_t i = 0; i < checker->engines->count && status == TN_OK; i++)
         if (checker->engines->items[i]->verify_after)

@@ -6,7 +6,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 
-enum { NUMBER_SIZE = 9, TERM_SIZE = 5, PLAIN_SIZE = 1 }; /* bytes of an instruction: opcodes.def */
+enum { NUMBER_SIZE = 9, INDEX_SIZE = 5, PLAIN_SIZE = 1 }; /* bytes of an instruction: opcodes.def */
 
 void tn_formula_clear(tn_formula *formula)
 {
@@ -47,14 +47,45 @@ void tn_formula_number(tn_formula *formula, double number)
     push(formula);
 }
 
+/* An instruction with one small operand, which is no number. */
+static bool append_index(tn_formula *formula, tn_opcode opcode, uint32_t index)
+{
+    uint8_t *operand = append(formula, opcode, INDEX_SIZE);
+    if (!operand)
+        return false;
+    tn_put_u32(operand, index);
+    formula->numbers = 0;
+    return true;
+}
+
 void tn_formula_term(tn_formula *formula, uint32_t term)
 {
-    uint8_t *operand = append(formula, TN_OP_TERM, TERM_SIZE);
-    if (!operand)
-        return;
-    tn_put_u32(operand, term);
-    formula->numbers = 0;
-    push(formula);
+    if (append_index(formula, TN_OP_TERM, term))
+        push(formula);
+}
+
+void tn_formula_coordinate(tn_formula *formula, uint32_t axis)
+{
+    if (append_index(formula, TN_OP_COORDINATE, axis))
+        push(formula);
+}
+
+void tn_formula_keep(tn_formula *formula, uint32_t local)
+{
+    if (append_index(formula, TN_OP_KEEP, local))
+        formula->height--;
+}
+
+void tn_formula_kept(tn_formula *formula, uint32_t local)
+{
+    if (append_index(formula, TN_OP_KEPT, local))
+        push(formula);
+}
+
+void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh)
+{
+    if (append_index(formula, TN_OP_MESH_DISTANCE, mesh))
+        formula->height -= 2;
 }
 
 /* Puts the operation's value in the place of its operands, the last numbers of the code. False where it has none. */

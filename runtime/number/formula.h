@@ -30,6 +30,13 @@ void tn_formula_number(tn_formula *formula, double number); /* finite */
 void tn_formula_term(tn_formula *formula, uint32_t term);   /* what whoever runs the code gives under this number */
 void tn_formula_operation(tn_formula *formula, tn_opcode opcode, uint32_t arity);
 
+/* Of fields: a coordinate; a number that is kept under the next local, instead of on the stack; one that was kept; the
+ * distance of the place on the stack from a mesh. */
+void tn_formula_coordinate(tn_formula *formula, uint32_t axis);
+void tn_formula_keep(tn_formula *formula, uint32_t local);
+void tn_formula_kept(tn_formula *formula, uint32_t local);
+void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh);
+
 /* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
 tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 

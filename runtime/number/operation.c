@@ -5,22 +5,34 @@
  */
 #include "runtime/number/operation.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "runtime/base/any_width.h"
 #include "runtime/base/numeric.h"
+#include "runtime/number/noise.h"
 
 /* The least violation of a condition that excludes its bound. */
 #define STRICT 1e-9
 
+/* Exact but for the last addition: fmod is. */
+static double floored_remainder(double a, double b)
+{
+    double rest = fmod(a, b);
+    return rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest;
+}
+
 /* What the table's rows are made of. No operand has a side effect. */
 #define SMALLER(X, Y) ((X) != (X) || (X) < (Y) ? (X) : (Y))
+#define LARGER(X, Y) ((X) != (X) || (X) > (Y) ? (X) : (Y))
+#define OVERLAP(X, Y, K) LARGER((K)-__builtin_fabs((X) - (Y)), 0.0)
 #define JUDGED(TEST) ((a != a) | (b != b) ? a + b : (TEST) ? 1.0 : 0.0)
 #define SHORT_AT_MOST(X, Y) ((X) <= (Y) ? 0 : (X) - (Y))
 #define SHORT_BELOW(X, Y) ((X) < (Y) ? 0 : (X) == (Y) || (X) - (Y) < STRICT ? STRICT : (X) - (Y))
 
 const tn_operation tn_operations[TN_OPERATION_COUNT] = {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) {TN_OP_##NAME, WORD, TN_WORDS_##WORDS, ARITY, DOC},
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+    {TN_OP_##NAME, WORD, TN_WORDS_##WORDS, ARITY, DOC},
 #include "runtime/module/operations.def"
 #undef OPERATION
 };
@@ -55,7 +67,7 @@ size_t tn_function_names(tn_words words, const char *names[TN_OPERATION_COUNT])
 double tn_operation_apply(tn_opcode opcode, const double *operands)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC)                                                          \
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
     case TN_OP_##NAME: {                                                                                               \
         TAKE_##ARITY return VALUE;                                                                                     \
     }
@@ -65,6 +77,45 @@ double tn_operation_apply(tn_opcode opcode, const double *operands)
         return 0;
     }
 }
+
+/* ---- derivatives */
+
+#define SLOPELESS __builtin_nan("")
+#define SLOPES_1 double da = slopes[0];
+#define SLOPES_2 SLOPES_1 double db = slopes[1];
+#define SLOPES_3 SLOPES_2 double dc = slopes[2];
+
+static double slope_blend(double a, double b, double c, double da, double db, double dc)
+{
+    double overlap = OVERLAP(a, b, c), least = a < b ? da : db;
+    if (!(overlap > 0))
+        return least;
+    double slope = dc - (a < b ? db - da : da - db); /* of the overlap */
+    return least - overlap * slope / (2 * c) + overlap * overlap * dc / (4 * c * c);
+}
+
+/* Of the sum, the product and so on, not all the operands' values matter. */
+#define UNUSED_1 (void)a, (void)da;
+#define UNUSED_2 UNUSED_1(void) b, (void)db;
+#define UNUSED_3 UNUSED_2(void) c, (void)dc;
+
+double tn_operation_slope(tn_opcode opcode, const double *operands, const double *slopes)
+{
+    switch (opcode) {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+    case TN_OP_##NAME: {                                                                                               \
+        TAKE_##ARITY SLOPES_##ARITY double v = operands[ARITY];                                                        \
+        (void)v;                                                                                                       \
+        UNUSED_##ARITY return SLOPE;                                                                                   \
+    }
+#include "runtime/module/operations.def"
+#undef OPERATION
+    default:
+        return 0;
+    }
+}
+
+/* ---- rows */
 
 #define ROWS_1 const double *x = operands[0];
 #define ROWS_2 ROWS_1 const double *y = operands[1];
@@ -91,7 +142,8 @@ double tn_operation_apply(tn_opcode opcode, const double *operands)
 static void compute_calls(tn_opcode opcode, const double *const *operands, double *restrict out)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_CALL_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+    IF_CALL_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
 #include "runtime/module/operations.def"
 #undef OPERATION
     default:
@@ -102,7 +154,8 @@ static void compute_calls(tn_opcode opcode, const double *const *operands, doubl
 TN_ANY_WIDTH static void compute(tn_opcode opcode, const double *const *operands, double *restrict out)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, DOC) IF_SIMPLE_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+    IF_SIMPLE_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
 #include "runtime/module/operations.def"
 #undef OPERATION
     default:

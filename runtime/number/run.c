@@ -7,29 +7,81 @@
 #include "runtime/module/code.h"
 #include "runtime/number/operation.h"
 
-double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms)
+/* What the code of a function can speak of. */
+typedef struct scope {
+    const double *terms; /* or coordinates */
+    const tn_distances *distances;
+    double *kept;
+} scope;
+
+/* Runs one instruction that is no operation; returns the stack's new height. */
+static size_t run_other(const scope *given, const tn_instruction *i, double *stack, size_t height)
+{
+    switch (i->opcode) {
+    case TN_OP_NUMBER:
+        stack[height] = tn_double_of((uint64_t)i->first);
+        return height + 1;
+    case TN_OP_TERM:
+    case TN_OP_COORDINATE:
+        stack[height] = given->terms[i->first];
+        return height + 1;
+    case TN_OP_KEPT:
+        stack[height] = given->kept[i->first];
+        return height + 1;
+    case TN_OP_KEEP:
+        given->kept[i->first] = stack[height - 1];
+        return height - 1;
+    default: /* TN_OP_MESH_DISTANCE */
+        height -= 3;
+        stack[height] = given->distances->measure(given->distances->meshes, (uint32_t)i->first, stack + height, NULL);
+        return height + 1;
+    }
+}
+
+static bool is_operation(tn_opcode opcode)
+{
+    return opcode != TN_OP_NUMBER && opcode != TN_OP_TERM && opcode != TN_OP_COORDINATE && opcode != TN_OP_KEEP &&
+           opcode != TN_OP_KEPT && opcode != TN_OP_MESH_DISTANCE;
+}
+
+static double run(const uint8_t *code, uint32_t offset, const scope *given)
 {
     double stack[TN_MEASURE_STACK_MAX];
     size_t height = 0;
     for (;;) {
         tn_instruction i = tn_code_read(code, offset);
         offset += i.length;
-        switch (i.opcode) {
-        case TN_OP_VALUE:
+        if (i.opcode == TN_OP_VALUE)
             return stack[0];
-        case TN_OP_NUMBER:
-            stack[height++] = tn_double_of((uint64_t)i.first);
-            break;
-        case TN_OP_TERM:
-            stack[height++] = terms[i.first];
-            break;
-        default:
-            height -= tn_code_effect((uint8_t)i.opcode).pops;
-            stack[height] = tn_operation_apply(i.opcode, stack + height);
-            height++;
-            break;
+        if (!is_operation(i.opcode)) {
+            height = run_other(given, &i, stack, height);
+            continue;
         }
+        height -= tn_code_effect((uint8_t)i.opcode).pops;
+        stack[height] = tn_operation_apply(i.opcode, stack + height);
+        height++;
     }
+}
+
+double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms)
+{
+    return run(code, offset, &(scope){.terms = terms});
+}
+
+double tn_number_run_at(const uint8_t *code, uint32_t offset, const double point[3], const tn_distances *distances,
+                        double *kept)
+{
+    return run(code, offset, &(scope){.terms = point, .distances = distances, .kept = kept});
+}
+
+uint32_t tn_number_kept(const uint8_t *code, uint32_t offset)
+{
+    uint32_t kept = 0;
+    for (tn_instruction i = tn_code_read(code, offset); i.opcode != TN_OP_VALUE; i = tn_code_read(code, offset)) {
+        kept += i.opcode == TN_OP_KEEP;
+        offset += i.length;
+    }
+    return kept;
 }
 
 /* ---- by rows */

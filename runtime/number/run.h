@@ -13,6 +13,20 @@
  * what stands under each number of TERM. */
 double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms);
 
+/* The meshes that a field measures distances from: how far a place is from mesh number `mesh`, below 0 inside of a
+ * closed one, and (where it is not NULL) the gradient of that. */
+typedef struct tn_distances {
+    double (*measure)(const void *meshes, uint32_t mesh, const double place[3], double gradient[3]);
+    const void *meshes;
+} tn_distances;
+
+/* The value of a FIELD function's code at a point. `kept`: room for as many numbers as it keeps (tn_number_kept). */
+double tn_number_run_at(const uint8_t *code, uint32_t offset, const double point[3], const tn_distances *distances,
+                        double *kept);
+
+/* How many numbers the code keeps. */
+uint32_t tn_number_kept(const uint8_t *code, uint32_t offset);
+
 /* Memory of running by rows. Zero it to begin with; it serves any code, one thread at a time. */
 typedef struct tn_number_rows {
     double *stack;           /* owned: two rows a level */

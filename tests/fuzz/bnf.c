@@ -37,8 +37,8 @@ static void write_all(const tn_grammar *grammar, const tn_mapping *mapping)
     free(text);
 }
 
-static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_options *options, const char *sentence,
-                   size_t size)
+static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_mapping_options *options,
+                   const char *sentence, size_t size)
 {
     tn_genome genome = {0};
     tn_error error;
@@ -48,11 +48,11 @@ static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_op
         fail("a mapped sentence is not derivable");
     if (status == TN_OK) {
         tn_mapping again;
-        tn_map_options once = *options;
+        tn_mapping_options once = *options;
         once.wraps = 0;
         once.repair = TN_REPAIR_OFF;
         once.max_steps = 0;
-        if (tn_map_genome(mapper, genome.codons, genome.count, &once, &again, NULL) != TN_OK || !again.valid ||
+        if (tn_mapper_derive(mapper, genome.codons, genome.count, &once, &again, NULL) != TN_OK || !again.valid ||
             again.phenotype_size != size || memcmp(again.phenotype, sentence, size) != 0)
             fail("a genome found for a sentence maps to another");
     }
@@ -62,7 +62,7 @@ static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_map_op
 static void map(const tn_grammar *grammar, uint64_t seed)
 {
     tn_mapper *mapper = tn_mapper_new(grammar);
-    tn_map_options options = tn_map_options_of(grammar);
+    tn_mapping_options options = tn_mapping_options_of(grammar);
     uint64_t codons[CODONS];
     options.max_steps = STEPS;
     for (uint64_t i = 0; i < CODONS; i++)
@@ -70,7 +70,7 @@ static void map(const tn_grammar *grammar, uint64_t seed)
     for (int recorded = 0; recorded < 2 && mapper; recorded++) {
         tn_mapping mapping;
         options.record = recorded;
-        if (tn_map_genome(mapper, codons, CODONS, &options, &mapping, NULL) != TN_OK)
+        if (tn_mapper_derive(mapper, codons, CODONS, &options, &mapping, NULL) != TN_OK)
             break;
         if (recorded)
             write_all(grammar, &mapping);

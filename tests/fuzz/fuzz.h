@@ -7,4 +7,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
+/* And, if it changes its inputs itself: makes another of one, in place, of at most max_size bytes. Returns its size. */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/geometry/write.h"
 #include "runtime/growth/faults.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/stats.h"
@@ -25,22 +26,53 @@ static inline bool is_modest(const tn_module *module)
            module->BOUNDARY_count <= GROW_EDGES;
 }
 
-/* What is done with a surface afterwards: faults are looked for, what is hidden in a picture is, a mesh is made. */
+/* Whatever the format, what comes out is thrown away. */
+static inline void write_mesh(const tn_mesh *mesh)
+{
+    typedef tn_status writer(const tn_mesh *, const tn_mesh_style *, FILE *, tn_error *);
+    static writer *const writers[] = {tn_mesh_write_obj, tn_mesh_write_ply, tn_mesh_write_glb, tn_mesh_write_dxf};
+    tn_mesh_style style = {.normals = true};
+    tn_error error;
+    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
+        char *bytes = NULL;
+        size_t size;
+        FILE *out = open_memstream(&bytes, &size);
+        if (!out)
+            return;
+        writers[i](mesh, &style, out, &error);
+        fclose(out);
+        free(bytes);
+    }
+}
+
+static inline void draw_view(const tn_growth *growth)
+{
+    tn_error error;
+    tn_camera camera = tn_camera_default();
+    tn_view *view;
+    tn_view_options options = {.title = "fuzz"};
+    tn_picture picture = {.format = TN_CANVAS_SVG};
+    if (tn_view_take(growth, &camera, &view, &error) == TN_OK)
+        tn_views_draw(&view, 1, &options, &picture, &error);
+    else if (error.code != E_PART_ABSENT)
+        abort();
+    tn_view_free(view);
+    free(picture.element);
+}
+
+/* What is done with a surface afterwards: faults are looked for, it is drawn, a mesh is made and written. */
 static inline void look_at(const tn_growth *growth)
 {
     tn_error error;
     tn_faults faults;
-    tn_camera camera = tn_camera_default();
-    tn_view *view;
     tn_mesh mesh;
     if (tn_faults_find(growth, &faults, &error) != TN_OK)
         abort();
-    if (tn_view_take(growth, &camera, &view, &error) != TN_OK && error.code != E_PART_ABSENT)
-        abort();
-    tn_view_free(view);
+    draw_view(growth);
     if (tn_surface_mesh(growth, &(tn_surface_options){.groups = true, .lines = true}, &mesh, &error) != TN_OK ||
         tn_mesh_triangulate(&mesh, &error) != TN_OK)
         abort();
+    write_mesh(&mesh);
     tn_mesh_clear(&mesh);
 }
 

@@ -1,14 +1,37 @@
-/* Runs a fuzz target on files: replay FOLDER|FILE... Folders are read one level deep; at least one file must be found.
- */
+/* Runs a fuzz target on files: replay [-changed=N] [-seed=S] FOLDER|FILE... Folders are read one level deep; at least
+ * one file must be found. A target that changes its inputs itself is also run on N changed ones for each file, which
+ * depend on N and S alone. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "runtime/base/file.h"
 #include "tests/fuzz/fuzz.h"
 
 static size_t replayed;
+
+static unsigned changed_count, first_seed;
+
+/* A target that has one. */
+__attribute__((weak)) size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+
+/* Every fourth is made of the file, the others of the one before. */
+static void replay_changed(const uint8_t *bytes, size_t size)
+{
+    size_t room = size * 2 + 4096, now = size;
+    uint8_t *changed = malloc(room);
+    for (unsigned i = 0; changed && i < changed_count; i++) {
+        if (i % 4 == 0) {
+            memcpy(changed, bytes, size);
+            now = size;
+        }
+        now = LLVMFuzzerCustomMutator(changed, now, room, first_seed + i);
+        LLVMFuzzerTestOneInput(changed, now);
+    }
+    free(changed);
+}
 
 static void replay_file(const char *path)
 {
@@ -26,6 +49,8 @@ static void replay_file(const char *path)
     for (size_t i = 0; i < size; i++)
         exact[i] = bytes[i];
     LLVMFuzzerTestOneInput(exact, size);
+    if (LLVMFuzzerCustomMutator)
+        replay_changed(exact, size);
     free(exact);
     free(bytes);
     replayed++;
@@ -53,7 +78,8 @@ static void replay(const char *path)
 int main(int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
-        replay(argv[i]);
+        if (sscanf(argv[i], "-changed=%u", &changed_count) != 1 && sscanf(argv[i], "-seed=%u", &first_seed) != 1)
+            replay(argv[i]);
     printf("%zu inputs\n", replayed);
     return replayed == 0;
 }

@@ -73,9 +73,9 @@ static inline uint32_t sample_spec(tn_builder *builder, uint64_t bits)
 static inline void sample_map(tn_builder *builder, const char *piece)
 {
     uint32_t begin = sample_begin(piece);
-    tn_builder_add_MAP(
-        builder,
-        &(tn_map_record){.offset = tn_builder_offset(builder), .begin = begin, .end = begin + (uint32_t)strlen(piece)});
+    tn_builder_add_SOURCE_MAP(builder, &(tn_source_map_record){.offset = tn_builder_offset(builder),
+                                                               .begin = begin,
+                                                               .end = begin + (uint32_t)strlen(piece)});
 }
 
 /* Ends the function whose code began at `begin`. */

@@ -40,7 +40,7 @@ static bool allocate(tn_evolution *e)
     e->todo = calloc(n, sizeof *e->todo);
     e->hashes = calloc(n, sizeof *e->hashes);
     e->breeders = calloc(e->threads, sizeof *e->breeders);
-    e->crew = tn_crew_new(e->threads);
+    e->crew = tn_crew_new(e->threads, e->settings.watch);
     if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->hashes ||
         !e->breeders || !e->crew)
         return false;

@@ -1,4 +1,4 @@
-/* Evolution: a population of genomes, mapped, evaluated and bred, generation after generation.
+/* Evolution: a population of genomes, turned into sentences, evaluated and bred, generation after generation.
  *
  * Every draw is keyed by what it is for, so that a run depends on its settings and seed alone and never on the number
  * of threads. A run is replayed by running it again with the evaluations recalled instead of done; that is also how it
@@ -7,6 +7,7 @@
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_H
 
+#include "runtime/base/watch.h"
 #include "runtime/genome/breeding/select.h"
 #include "runtime/genome/breeding/vary.h"
 
@@ -68,8 +69,9 @@ typedef struct tn_evolution_settings {
     tn_vary_options vary;
     uint32_t elites; /* with generational replacement */
     tn_replacement replacement;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     unsigned threads; /* 0: as many as there are */
+    tn_watch *watch;  /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u
@@ -88,7 +90,7 @@ typedef struct tn_individual {
     uint64_t hash[2]; /* of the sentence */
     uint64_t used;
     uint32_t depth;
-    tn_map_reason reason;
+    tn_mapping_reason reason;
     tn_score score;
     char message[200]; /* why it was not scored */
     bool member;

@@ -1,8 +1,9 @@
-/* Being born: first genomes, children of pairs, and the sentences that they map to. */
+/* Being born: first genomes, children of pairs, and their sentences. */
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
 #include "runtime/genome/breeding/evolve_state.h"
 
 void tn_evolution_take_places(tn_evolution *e, size_t count)
@@ -20,14 +21,8 @@ void tn_evolution_take_places(tn_evolution *e, size_t count)
 
 static bool keep_sentence(tn_individual *individual, const char *text, size_t size)
 {
-    if (size + 1 > individual->sentence_capacity) {
-        size_t capacity = (size + 1) * 2;
-        char *memory = realloc(individual->sentence, capacity);
-        if (!memory)
-            return false;
-        individual->sentence = memory;
-        individual->sentence_capacity = capacity;
-    }
+    if (!tn_array_reserve(&individual->sentence, &individual->sentence_capacity, 0, size + 1, 1))
+        return false;
     memcpy(individual->sentence, text, size);
     individual->sentence[size] = '\0';
     individual->sentence_size = size;
@@ -37,8 +32,8 @@ static bool keep_sentence(tn_individual *individual, const char *text, size_t si
 static tn_status map_individual(tn_evolution *e, unsigned thread, tn_individual *individual, tn_error *error)
 {
     tn_mapping mapping;
-    tn_status status = tn_map_genome(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons,
-                                     individual->genome.count, &e->settings.mapping, &mapping, error);
+    tn_status status = tn_mapper_derive(tn_breeder_mapper(e->breeders[thread]), individual->genome.codons,
+                                        individual->genome.count, &e->settings.mapping, &mapping, error);
     if (status != TN_OK)
         return status;
     size_t size = 0;

@@ -54,7 +54,7 @@ static tn_status list_unknown(tn_evolution *e, tn_individual **individuals, size
         tn_score_cache_clear(&e->cache);
     for (size_t i = 0; i < count; i++) {
         tn_individual *individual = individuals[i];
-        if (individual->reason != TN_MAP_VALID) {
+        if (individual->reason != TN_MAPPING_VALID) {
             worst_score(&individual->score, TN_SCORE_NO_SENTENCE);
             continue;
         }
@@ -133,7 +133,7 @@ tn_status tn_evolution_score(tn_evolution *e, tn_individual **individuals, size_
     for (size_t i = 0; i < todo; i++)
         tn_score_cache_put(&e->cache, individuals[e->todo[i]]->hash, &individuals[e->todo[i]]->score);
     for (size_t i = 0; i < count; i++)
-        if (individuals[i]->reason == TN_MAP_VALID)
+        if (individuals[i]->reason == TN_MAPPING_VALID)
             tn_score_cache_get(&e->cache, individuals[i]->hash, &individuals[i]->score);
     return TN_OK;
 }

@@ -1,7 +1,7 @@
 /* A run of evolution as its parts see it. Of no use elsewhere.
  *
  * evolve.c        moves it on, generation by generation
- * evolve_birth.c  makes genomes and maps them
+ * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
  * evolve_stats.c  looks at it
  */
@@ -39,13 +39,13 @@ struct tn_evolution {
 /* Takes places for the next `count` to be born. */
 void tn_evolution_take_places(tn_evolution *evolution, size_t count);
 
-/* Makes and maps all to be born, in pairs, by all threads. */
+/* Makes all to be born, with their sentences, in pairs, by all threads. */
 tn_status tn_evolution_make(tn_evolution *evolution, bool first, tn_error *error);
 
-/* Makes and maps the children of one pair. */
+/* Makes the children of one pair, with their sentences. */
 tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, tn_error *error);
 
-/* Gives scores to individuals that are mapped. */
+/* Gives scores to individuals that have a sentence. */
 tn_status tn_evolution_score(tn_evolution *evolution, tn_individual **individuals, size_t count, tn_error *error);
 
 #endif

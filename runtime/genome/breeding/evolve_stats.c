@@ -41,7 +41,7 @@ static uint32_t count_distinct(const tn_evolution *e)
     size_t count = 0;
     uint32_t distinct = 0;
     for (size_t i = 0; i < e->member_count; i++)
-        if (e->members[i]->reason == TN_MAP_VALID)
+        if (e->members[i]->reason == TN_MAPPING_VALID)
             hashes[count++] = e->members[i]->hash[0];
     qsort(hashes, count, sizeof *hashes, compare_hashes);
     for (size_t i = 0; i < count; i++)
@@ -60,7 +60,7 @@ tn_generation_stats tn_evolution_stats(const tn_evolution *e)
         s.no_sentence += m->score.state == TN_SCORE_NO_SENTENCE;
         s.failed += m->score.state == TN_SCORE_FAILED;
         s.limited += m->score.state == TN_SCORE_LIMIT;
-        if (m->reason == TN_MAP_VALID) {
+        if (m->reason == TN_MAPPING_VALID) {
             codons += (double)m->used;
             depths += m->depth;
         }

@@ -254,7 +254,8 @@ static bool add_tail(planter *p, tn_genome *genome)
         tail = p->options->max_codons - genome->count;
     if (!tn_genome_reserve(genome, genome->count + tail))
         return false;
-    tn_random_codons(p->chance, p->options->codon_limit, genome->codons + genome->count, tail);
+    if (tail > 0)
+        tn_random_codons(p->chance, p->options->codon_limit, genome->codons + genome->count, tail);
     genome->count += tail;
     return true;
 }

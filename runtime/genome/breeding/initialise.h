@@ -1,6 +1,6 @@
 /* First genomes: random codons, or codons of random derivation trees.
  *
- * A tree is made with its depth bounded, then written out in the order in which mapping reads, so that the genome maps
+ * A tree is made with its depth bounded, then written out in the order in which mapping reads, so that the genome leads
  * to the tree. Behind it random codons follow, for repair and for what crossover makes of it.
  */
 #ifndef TARTAN_GENOME_BREEDING_INITIALISE_H
@@ -23,7 +23,7 @@ typedef struct tn_tree_options {
     uint32_t max_depth;   /* of mapping */
     uint64_t codon_limit; /* codons are below it */
     double tail;          /* random codons behind the tree's, as a share of them */
-    size_t max_codons;    /* a tree that needs more is cut there, and does not map to itself */
+    size_t max_codons;    /* a tree that needs more is cut there, and does not lead to itself */
 } tn_tree_options;
 
 void tn_random_codons(tn_chance *chance, uint64_t codon_limit, uint64_t *codons, size_t count);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/genome/breeding/problem.h"
 
 #define COLUMNS_MAX 1000u
@@ -32,13 +33,10 @@ static tn_status bad_field(tn_error *error, size_t line, size_t begin, size_t en
 static bool keep_number(table *t, size_t column, double value)
 {
     if (column == 0 && t->points == t->capacity) {
-        size_t capacity = t->capacity ? t->capacity * 2 : 256;
-        for (size_t i = 0; i < t->width; i++) {
-            double *grown = realloc(t->columns[i], capacity * sizeof *grown);
-            if (!grown)
+        size_t capacity = tn_array_larger(t->capacity, 0, 256);
+        for (size_t i = 0; i < t->width; i++)
+            if (!tn_array_resize(&t->columns[i], capacity, sizeof *t->columns[i]))
                 return false;
-            t->columns[i] = grown;
-        }
         t->capacity = capacity;
     }
     t->columns[column][t->points] = value;

@@ -3,12 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define ATTEMPTS 8 /* at finding subtrees that can change places */
 
 struct tn_breeder {
     const tn_grammar *grammar;
     const tn_analysis *analysis;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     tn_mapper *mapper;
     tn_genome straight[2], part, tree;
     tn_spans spans[2];
@@ -16,7 +18,7 @@ struct tn_breeder {
     size_t event_capacity[2];
 };
 
-tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_map_options *mapping)
+tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_mapping_options *mapping)
 {
     tn_breeder *b = calloc(1, sizeof *b);
     if (!b)
@@ -54,14 +56,15 @@ tn_mapper *tn_breeder_mapper(tn_breeder *b)
 
 /* ---- putting genomes together */
 
-static bool append(tn_genome *genome, const uint64_t *codons, size_t count, size_t max_codons)
+/* Appends `count` codons of another genome, from its codon `first` on. A genome without codons has no array. */
+static bool append(tn_genome *genome, const tn_genome *from, size_t first, size_t count, size_t max_codons)
 {
     if (genome->count + count > max_codons)
         count = max_codons - genome->count;
     if (!tn_genome_reserve(genome, genome->count + count))
         return false;
     if (count)
-        memcpy(genome->codons + genome->count, codons, count * sizeof *codons);
+        memcpy(genome->codons + genome->count, from->codons + first, count * sizeof *from->codons);
     genome->count += count;
     return true;
 }
@@ -69,7 +72,7 @@ static bool append(tn_genome *genome, const uint64_t *codons, size_t count, size
 static bool copy(tn_genome *to, const tn_genome *from)
 {
     to->count = 0;
-    return append(to, from->codons, from->count, SIZE_MAX);
+    return append(to, from, 0, from->count, SIZE_MAX);
 }
 
 /* to = a[0, a0) b[b0, b1) a[a1, end) */
@@ -77,8 +80,8 @@ static bool splice(tn_genome *to, const tn_genome *a, size_t a0, size_t a1, cons
                    size_t max_codons)
 {
     to->count = 0;
-    return append(to, a->codons, a0, max_codons) && append(to, b->codons + b0, b1 - b0, max_codons) &&
-           append(to, a->codons + a1, a->count - a1, max_codons);
+    return append(to, a, 0, a0, max_codons) && append(to, b, b0, b1 - b0, max_codons) &&
+           append(to, a, a1, a->count - a1, max_codons);
 }
 
 /* ---- linear crossover */
@@ -126,26 +129,21 @@ static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_p
 
 /* ---- subtrees */
 
-/* Maps a genome and finds its subtrees; *valid says whether it has a sentence. */
+/* Derives a genome's sentence and finds its subtrees; *valid says whether it has a sentence. */
 static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome, bool *valid, tn_error *error)
 {
-    tn_map_options options = b->mapping;
+    tn_mapping_options options = b->mapping;
     tn_mapping mapping;
     options.record = true;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_mapper_derive(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     if (status != TN_OK)
         return status;
     *valid = mapping.valid;
     if (!mapping.valid)
         return TN_OK;
-    if (mapping.event_count > b->event_capacity[which]) {
-        tn_event *events = realloc(b->events[which], mapping.event_count * sizeof *events);
-        if (!events)
-            return tn_fail_memory(error);
-        b->events[which] = events;
-        b->event_capacity[which] = mapping.event_count;
-    }
+    if (!tn_array_reserve(&b->events[which], &b->event_capacity[which], 0, mapping.event_count, sizeof *mapping.events))
+        return tn_fail_memory(error);
     memcpy(b->events[which], mapping.events, mapping.event_count * sizeof *mapping.events);
     if (!tn_spans_find(&mapping, &b->spans[which]) ||
         !tn_genome_straighten(genome->codons, genome->count, &mapping, &b->straight[which]))
@@ -157,7 +155,7 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
 static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t depth, tn_genome *part, bool *well)
 {
     part->count = 0;
-    *well = append(part, b->straight[which].codons + span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
+    *well = append(part, &b->straight[which], span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
     if (!*well || b->grammar->dialect == TN_DIALECT_GE || depth == span->depth)
         return *well;
     size_t open = 0;
@@ -177,10 +175,10 @@ static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t dep
 /* Has the genome a sentence, before repair? */
 static tn_status is_valid(tn_breeder *b, const tn_genome *genome, bool *valid, tn_error *error)
 {
-    tn_map_options options = b->mapping;
+    tn_mapping_options options = b->mapping;
     tn_mapping mapping;
     options.repair = TN_REPAIR_OFF;
-    tn_status status = tn_map_genome(b->mapper, genome->codons, genome->count, &options, &mapping, error);
+    tn_status status = tn_mapper_derive(b->mapper, genome->codons, genome->count, &options, &mapping, error);
     *valid = status == TN_OK && mapping.valid;
     return status;
 }

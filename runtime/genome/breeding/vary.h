@@ -36,7 +36,7 @@ typedef struct tn_vary_options {
 /* One thread's means of varying: scratch memory. Borrows the grammar and its analysis. */
 typedef struct tn_breeder tn_breeder;
 
-tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_map_options *mapping);
+tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_mapping_options *mapping);
 void tn_breeder_free(tn_breeder *breeder);
 tn_mapper *tn_breeder_mapper(tn_breeder *breeder);
 

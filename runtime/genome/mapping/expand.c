@@ -149,7 +149,7 @@ PART keep_place(tn_mapper *m, place *at, uint32_t index, uint32_t mark, const bo
     if (at->top == m->frame_capacity &&
         !tn_array_reserve(&m->frames, &m->frame_capacity, at->top, 1, sizeof *m->frames))
         return TN_EXPAND_NO_MEMORY;
-    tn_map_frame *f = &m->frames[at->top++];
+    tn_mapping_frame *f = &m->frames[at->top++];
     f->ip = at->ip;
     f->depth = at->depth;
     f->mark = mark;
@@ -188,7 +188,7 @@ PART run_rule(tn_mapper *m, place *at, uint32_t index, const bool genr8, const b
 /* A production ends: back to what it was chosen in. */
 PART run_done(tn_mapper *m, place *at, const bool genr8, const bool recorded)
 {
-    const tn_map_frame *f = &m->frames[--at->top];
+    const tn_mapping_frame *f = &m->frames[--at->top];
     if (recorded && !tn_mapper_record(m, (tn_event){.kind = TN_EVENT_END,
                                                     .depth = at->depth,
                                                     .symbol = f->rule,
@@ -235,9 +235,9 @@ PART run_loop(tn_mapper *m, place *at, bool first, const bool recorded)
     if (first) {
         if (!tn_array_reserve(&m->frames, &m->frame_capacity, at->top, 1, sizeof *m->frames))
             return TN_EXPAND_NO_MEMORY;
-        m->frames[at->top++] = (tn_map_frame){.ip = at->ip - 1, .rule = 0};
+        m->frames[at->top++] = (tn_mapping_frame){.ip = at->ip - 1, .rule = 0};
     }
-    tn_map_frame *loop = &m->frames[at->top - 1];
+    tn_mapping_frame *loop = &m->frames[at->top - 1];
     bool goes_on;
     tn_expansion tested = again(m, loop->rule, at->depth, recorded, &goes_on);
     if (tested != TN_EXPANDED)

@@ -119,7 +119,7 @@ tn_expansion tn_mapper_expand_ge(tn_mapper *m)
                          .terminals = g->terminals,
                          .texts = g->texts,
                          .codons = m->codons,
-                         .codons_end = m->codons + m->count,
+                         .codons_end = m->count ? m->codons + m->count : m->codons,
                          .max_depth = m->max_depth ? m->max_depth : UINT32_MAX,
                          .skip_single = g->skip_single};
     ge_run r = {.ip = opening,

@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
+
 void tn_genome_clear(tn_genome *genome)
 {
     free(genome->codons);
@@ -10,17 +12,7 @@ void tn_genome_clear(tn_genome *genome)
 
 bool tn_genome_reserve(tn_genome *genome, size_t count)
 {
-    if (count <= genome->capacity)
-        return true;
-    size_t capacity = genome->capacity ? genome->capacity : 64;
-    while (capacity < count)
-        capacity *= 2;
-    uint64_t *codons = realloc(genome->codons, capacity * sizeof *codons);
-    if (!codons)
-        return false;
-    genome->codons = codons;
-    genome->capacity = capacity;
-    return true;
+    return tn_array_reserve(&genome->codons, &genome->capacity, 0, count, sizeof *genome->codons);
 }
 
 static bool is_blank(char c)

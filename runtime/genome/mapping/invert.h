@@ -11,7 +11,7 @@
 #include "runtime/grammar/grammar.h"
 
 typedef struct tn_invert_options {
-    uint32_t max_depth; /* as in tn_map_options */
+    uint32_t max_depth; /* as in tn_mapping_options */
     size_t max_items;   /* parser states, a bound on time and memory; 0: TN_INVERT_ITEMS */
 } tn_invert_options;
 

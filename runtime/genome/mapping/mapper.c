@@ -1,16 +1,18 @@
-/* Maps a genome through a grammar: turns codons into a sentence. */
+/* Turns codons into a sentence of a grammar. */
 #include "runtime/genome/mapping/mapper_state.h"
+
+#include <stdlib.h>
 
 #define FIRST_IDS 2u /* edge types that there are to begin with: Edge0 and Edge1 (5.2) */
 
-tn_map_options tn_map_options_of(const tn_grammar *grammar)
+tn_mapping_options tn_mapping_options_of(const tn_grammar *grammar)
 {
-    return (tn_map_options){.wraps = grammar->wraps, .max_depth = grammar->max_depth, .repair = grammar->repair};
+    return (tn_mapping_options){.wraps = grammar->wraps, .max_depth = grammar->max_depth, .repair = grammar->repair};
 }
 
-const char *tn_map_reason_text(tn_map_reason reason)
+const char *tn_mapping_reason_text(tn_mapping_reason reason)
 {
-    static const char *const texts[TN_MAP_REASON_COUNT] = {
+    static const char *const texts[TN_MAPPING_REASON_COUNT] = {
         "", "out of codons", "too deep", "too long", "out of codons while repairing", "too long while repairing"};
     return texts[reason];
 }
@@ -41,7 +43,7 @@ void tn_mapper_free(tn_mapper *mapper)
     free(mapper);
 }
 
-static void start(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options)
+static void start(tn_mapper *m, const uint64_t *codons, size_t count, const tn_mapping_options *options)
 {
     m->codons = codons;
     m->count = count;
@@ -49,7 +51,7 @@ static void start(tn_mapper *m, const uint64_t *codons, size_t count, const tn_m
     m->used = 0;
     if (__builtin_mul_overflow((uint64_t)count, (uint64_t)options->wraps + 1, &m->readable))
         m->readable = UINT64_MAX;
-    m->steps_left = options->max_steps ? options->max_steps : TN_MAP_STEPS;
+    m->steps_left = options->max_steps ? options->max_steps : TN_MAPPING_STEPS;
     m->max_depth = options->max_depth;
     m->nodes = m->grammar->dialect == TN_DIALECT_GE ? 1 : 0;
     m->depth = 1;
@@ -65,20 +67,20 @@ static void start(tn_mapper *m, const uint64_t *codons, size_t count, const tn_m
     m->rule_end = SIZE_MAX;
 }
 
-static tn_map_reason reason_for(tn_expansion result, bool repairing)
+static tn_mapping_reason reason_for(tn_expansion result, bool repairing)
 {
     switch (result) {
     case TN_EXPANDED:
     case TN_EXPAND_NO_MEMORY:
-        return TN_MAP_VALID;
+        return TN_MAPPING_VALID;
     case TN_EXPAND_NO_CODON:
-        return repairing ? TN_MAP_REPAIR_OUT_OF_CODONS : TN_MAP_OUT_OF_CODONS;
+        return repairing ? TN_MAPPING_REPAIR_OUT_OF_CODONS : TN_MAPPING_OUT_OF_CODONS;
     case TN_EXPAND_TOO_DEEP:
-        return TN_MAP_TOO_DEEP;
+        return TN_MAPPING_TOO_DEEP;
     case TN_EXPAND_TOO_LONG:
-        return repairing ? TN_MAP_REPAIR_TOO_LONG : TN_MAP_TOO_LONG;
+        return repairing ? TN_MAPPING_REPAIR_TOO_LONG : TN_MAPPING_TOO_LONG;
     }
-    return TN_MAP_VALID;
+    return TN_MAPPING_VALID;
 }
 
 static void describe(const tn_mapper *m, tn_mapping *mapping)
@@ -92,8 +94,8 @@ static void describe(const tn_mapper *m, tn_mapping *mapping)
     mapping->max_id = m->max_id;
 }
 
-tn_status tn_map_genome(tn_mapper *m, const uint64_t *codons, size_t count, const tn_map_options *options,
-                        tn_mapping *mapping, tn_error *error)
+tn_status tn_mapper_derive(tn_mapper *m, const uint64_t *codons, size_t count, const tn_mapping_options *options,
+                           tn_mapping *mapping, tn_error *error)
 {
     bool genr8 = m->grammar->dialect == TN_DIALECT_GENR8, repairing = false;
     memset(mapping, 0, sizeof *mapping);

@@ -11,33 +11,33 @@
 
 #include "runtime/grammar/grammar.h"
 
-typedef struct tn_map_options {
+typedef struct tn_mapping_options {
     uint32_t wraps;     /* further readings of the genome */
     uint32_t max_depth; /* 0: no limit. ge: a deeper sentence is invalid; genr8: from there on only productions without
                            non-terminals are chosen */
-    uint64_t max_steps; /* symbols and codons handled, a bound on time and memory; 0: TN_MAP_STEPS */
+    uint64_t max_steps; /* symbols and codons handled, a bound on time and memory; 0: TN_MAPPING_STEPS */
     tn_repair repair;   /* genr8 only */
     bool record;        /* keep the derivation (tn_mapping.events) */
-} tn_map_options;
+} tn_mapping_options;
 
-#define TN_MAP_STEPS 1000000u
-#define TN_MAP_STEP_BYTES 16u /* as many bytes of a terminal count as a step more */
+#define TN_MAPPING_STEPS 1000000u
+#define TN_MAPPING_STEP_BYTES 16u /* as many bytes of a terminal count as a step more */
 
 /* What the grammar's own directives ask for. */
-tn_map_options tn_map_options_of(const tn_grammar *grammar);
+tn_mapping_options tn_mapping_options_of(const tn_grammar *grammar);
 
-typedef enum tn_map_reason {
-    TN_MAP_VALID,
-    TN_MAP_OUT_OF_CODONS,
-    TN_MAP_TOO_DEEP,
-    TN_MAP_TOO_LONG,             /* max_steps */
-    TN_MAP_REPAIR_OUT_OF_CODONS, /* the sentence itself is there */
-    TN_MAP_REPAIR_TOO_LONG,
-    TN_MAP_REASON_COUNT
-} tn_map_reason;
+typedef enum tn_mapping_reason {
+    TN_MAPPING_VALID,
+    TN_MAPPING_OUT_OF_CODONS,
+    TN_MAPPING_TOO_DEEP,
+    TN_MAPPING_TOO_LONG,             /* max_steps */
+    TN_MAPPING_REPAIR_OUT_OF_CODONS, /* the sentence itself is there */
+    TN_MAPPING_REPAIR_TOO_LONG,
+    TN_MAPPING_REASON_COUNT
+} tn_mapping_reason;
 
-/* In words, as "out of codons"; "" for TN_MAP_VALID. */
-const char *tn_map_reason_text(tn_map_reason reason);
+/* In words, as "out of codons"; "" for TN_MAPPING_VALID. */
+const char *tn_mapping_reason_text(tn_mapping_reason reason);
 
 typedef enum tn_event_kind {
     TN_EVENT_EXPAND, /* a rule by a production, up to its TN_EVENT_END */
@@ -69,7 +69,7 @@ typedef struct tn_event {
 
 typedef struct tn_mapping {
     bool valid;
-    tn_map_reason reason;
+    tn_mapping_reason reason;
     bool has_phenotype;    /* also where only the repair failed */
     const char *phenotype; /* zero-ended */
     size_t phenotype_size;
@@ -97,9 +97,9 @@ typedef struct tn_mapper tn_mapper;
 tn_mapper *tn_mapper_new(const tn_grammar *grammar);
 void tn_mapper_free(tn_mapper *mapper);
 
-/* Maps a genome. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
-tn_status tn_map_genome(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_map_options *options,
-                        tn_mapping *mapping, tn_error *error);
+/* Derives the genome's sentence. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
+tn_status tn_mapper_derive(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_mapping_options *options,
+                           tn_mapping *mapping, tn_error *error);
 
 /* What a valid mapping is for: the repaired sentence where there is one, else the phenotype. */
 static inline const char *tn_mapping_sentence(const tn_mapping *mapping, size_t *size)

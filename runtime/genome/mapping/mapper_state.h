@@ -3,7 +3,7 @@
  *
  * mapper.c     one mapping from begin to end
  * expand.c     the machine for both dialects, with and without recording
- * expand_ge.c  the same for what is mapped most: the ge dialect, nothing recorded
+ * expand_ge.c  the same for what is derived most: the ge dialect, nothing recorded
  * repair.c     rules for edge types that have none
  */
 #ifndef TARTAN_GENOME_MAPPING_MAPPER_STATE_H
@@ -19,25 +19,25 @@
 #define TN_EDGE_TEXT 16u /* "Edge" and ten digits, at most */
 
 /* What to go back to: a production after one of its non-terminals, or a loop. */
-typedef struct tn_map_frame {
+typedef struct tn_mapping_frame {
     const uint32_t *ip; /* next word; of a loop: its first */
     uint32_t depth;
     uint32_t rule; /* that ends when this frame is popped (recording), of a loop: rounds so far */
     uint32_t ids[TN_EDGE_LETTERS];
     uint32_t mark; /* tn_rule_mark of the rule that ends when this frame is popped */
-} tn_map_frame;
+} tn_mapping_frame;
 
-typedef struct tn_map_text {
+typedef struct tn_mapping_text {
     char *data;
     size_t size, capacity;
-} tn_map_text;
+} tn_mapping_text;
 
 struct tn_mapper {
     const tn_grammar *grammar;
-    tn_map_frame *frames;
+    tn_mapping_frame *frames;
     size_t frame_capacity;
-    tn_map_text text, added, repaired;
-    tn_map_text rule; /* that repair writes */
+    tn_mapping_text text, added, repaired;
+    tn_mapping_text rule; /* that repair writes */
     tn_event *events;
     size_t event_count, event_capacity;
     /* genr8: edge types by number: does it occur, is there a rule for it */
@@ -69,7 +69,7 @@ typedef enum tn_expansion {
     TN_EXPAND_NO_MEMORY
 } tn_expansion;
 
-static inline bool tn_text_append(tn_map_text *text, const char *data, size_t size)
+static inline bool tn_text_append(tn_mapping_text *text, const char *data, size_t size)
 {
     if (!tn_array_reserve(&text->data, &text->capacity, text->size, size + 1, 1))
         return false;
@@ -102,7 +102,7 @@ static inline bool tn_mapper_read(tn_mapper *m, uint64_t *codon)
 /* A long text counts as further steps, so that steps bound memory as they bound time. False: there were not enough. */
 static inline bool tn_pay_for_text(uint64_t *steps, size_t length)
 {
-    uint64_t price = length / TN_MAP_STEP_BYTES;
+    uint64_t price = length / TN_MAPPING_STEP_BYTES;
     if (price > *steps)
         return false;
     *steps -= price;
@@ -119,6 +119,6 @@ tn_expansion tn_mapper_expand_ge(tn_mapper *mapper);
 bool tn_repair_waits(tn_mapper *mapper, uint32_t id);
 
 /* Gives every edge type that occurs a rule: the sentence with them is in mapper->repaired (5.1). */
-tn_expansion tn_mapper_repair(tn_mapper *mapper, const tn_map_options *options);
+tn_expansion tn_mapper_repair(tn_mapper *mapper, const tn_mapping_options *options);
 
 #endif

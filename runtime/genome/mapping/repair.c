@@ -53,7 +53,7 @@ static bool next_without_rule(tn_mapper *m, uint32_t *id)
 /* ---- their rules */
 
 /* Writes "Edge<id> -> <successor>" to the empty text. */
-static tn_expansion repairing_rule(tn_mapper *m, uint32_t id, const tn_map_options *options)
+static tn_expansion repairing_rule(tn_mapper *m, uint32_t id, const tn_mapping_options *options)
 {
     m->text.size = 0;
     if (m->steps_left-- == 0)
@@ -75,7 +75,7 @@ static tn_expansion repairing_rule(tn_mapper *m, uint32_t id, const tn_map_optio
 }
 
 /* The added rules go behind the separator that follows the last rewrite rule, or to the end where there is none. */
-static bool join_repaired(tn_mapper *m, const tn_map_text *sentence, size_t rule_end)
+static bool join_repaired(tn_mapper *m, const tn_mapping_text *sentence, size_t rule_end)
 {
     size_t at = rule_end < sentence->size ? rule_end + 1 : sentence->size;
     while (at < sentence->size && sentence->data[at] != ' ')
@@ -100,9 +100,9 @@ static bool add_rule(tn_mapper *m, uint32_t id)
     return true;
 }
 
-tn_expansion tn_mapper_repair(tn_mapper *m, const tn_map_options *options)
+tn_expansion tn_mapper_repair(tn_mapper *m, const tn_mapping_options *options)
 {
-    tn_map_text sentence = m->text;
+    tn_mapping_text sentence = m->text;
     size_t rule_end = m->rule_end;
     m->text = m->rule;
     m->frozen = true;

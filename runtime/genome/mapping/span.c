@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 void tn_spans_clear(tn_spans *spans)
 {
     free(spans->items);
@@ -12,23 +14,8 @@ void tn_spans_clear(tn_spans *spans)
 
 static bool reserve(tn_spans *spans, size_t open)
 {
-    if (spans->count == spans->capacity) {
-        size_t capacity = spans->capacity ? spans->capacity * 2 : 64;
-        tn_span_of *items = realloc(spans->items, capacity * sizeof *items);
-        if (!items)
-            return false;
-        spans->items = items;
-        spans->capacity = capacity;
-    }
-    if (open == spans->open_capacity) {
-        size_t capacity = spans->open_capacity ? spans->open_capacity * 2 : 64;
-        uint32_t *grown = realloc(spans->open, capacity * sizeof *grown);
-        if (!grown)
-            return false;
-        spans->open = grown;
-        spans->open_capacity = capacity;
-    }
-    return true;
+    return tn_array_reserve(&spans->items, &spans->capacity, spans->count, 1, sizeof *spans->items) &&
+           tn_array_reserve(&spans->open, &spans->open_capacity, open, 1, sizeof *spans->open);
 }
 
 bool tn_spans_find(const tn_mapping *mapping, tn_spans *spans)

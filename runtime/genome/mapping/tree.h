@@ -1,7 +1,7 @@
 /* A derivation shown: as a table codon by codon (Genr8 paper, 5.2), as a tree in text or JSON, or as a picture (Fig.
  * 7).
  *
- * All take the events of a mapping made with tn_map_options.record; also an invalid mapping's, as far as it went.
+ * All take the events of a mapping made with tn_mapping_options.record; also an invalid mapping's, as far as it went.
  */
 #ifndef TARTAN_GENOME_MAPPING_TREE_H
 #define TARTAN_GENOME_MAPPING_TREE_H

@@ -47,9 +47,9 @@ static void draw_sentence(cairo_t *t, double x, double y, const char *sentence, 
 static void draw_cell(cairo_t *t, double x, double y, double height, size_t number, const tn_individual *member)
 {
     char text[96];
-    const char *missing = member->reason != TN_MAP_VALID ? tn_map_reason_text(member->reason)
-                          : !member->sentence_size       ? "no text"
-                                                         : NULL;
+    const char *missing = member->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(member->reason)
+                          : !member->sentence_size           ? "no text"
+                                                             : NULL;
     cairo_set_source_rgb(t, 0.8, 0.8, 0.8);
     cairo_set_line_width(t, 0.6);
     cairo_rectangle(t, x, y, CELL_WIDTH - INSET, height - INSET);

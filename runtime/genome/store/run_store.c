@@ -222,7 +222,7 @@ static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_
     bind_score(s, 5, &born->score, objectives);
     bool said = born->score.state == TN_SCORE_FAILED || born->score.state == TN_SCORE_LIMIT;
     if (born->score.state == TN_SCORE_NO_SENTENCE)
-        sqlite3_bind_text(s, 8, tn_map_reason_text(born->reason), -1, SQLITE_STATIC);
+        sqlite3_bind_text(s, 8, tn_mapping_reason_text(born->reason), -1, SQLITE_STATIC);
     else if (said && born->message[0])
         sqlite3_bind_text(s, 8, born->message, -1, SQLITE_STATIC);
     else

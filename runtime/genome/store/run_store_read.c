@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/genome/store/run_store_sql.h"
 
@@ -23,14 +24,9 @@ tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t
     tn_status status =
         prepare(store, "SELECT generation, kind, text FROM event ORDER BY generation, number", &statement, error);
     while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
-        if (*count == capacity) {
-            capacity = capacity ? capacity * 2 : 16;
-            tn_run_event *grown = realloc(*events, capacity * sizeof *grown);
-            if (!grown) {
-                status = tn_fail_memory(error);
-                break;
-            }
-            *events = grown;
+        if (!tn_array_reserve_from(events, &capacity, 16, *count, 1, sizeof **events)) {
+            status = tn_fail_memory(error);
+            break;
         }
         tn_run_event *event = &(*events)[(*count)++];
         *event = (tn_run_event){(uint32_t)sqlite3_column_int64(statement, 0), copy_column(statement, 1),
@@ -110,14 +106,9 @@ tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t
     if (status == TN_OK)
         sqlite3_bind_int64(statement, 1, generation);
     while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
-        if (*count == capacity) {
-            capacity = capacity ? capacity * 2 : 64;
-            tn_rescored *grown = realloc(*rescored, capacity * sizeof *grown);
-            if (!grown) {
-                status = tn_fail_memory(error);
-                break;
-            }
-            *rescored = grown;
+        if (!tn_array_reserve(rescored, &capacity, *count, 1, sizeof **rescored)) {
+            status = tn_fail_memory(error);
+            break;
         }
         tn_rescored *one = &(*rescored)[(*count)++];
         *one = (tn_rescored){.id = (uint64_t)sqlite3_column_int64(statement, 0)};

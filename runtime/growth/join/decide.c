@@ -2,8 +2,9 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/share.h"
-#include "runtime/growth/pass/room.h"
+#include "runtime/base/watch.h"
 
 #define MANY 512u /* faces, for patterns to be worth their finding */
 
@@ -12,12 +13,10 @@
 bool tn_deciders_prepare(tn_growth_workspace *space, int count)
 {
     if (count > space->decider_count) {
-        tn_decider *grown = realloc(space->deciders, (size_t)count * sizeof *grown);
-        if (!grown)
+        if (!tn_array_resize(&space->deciders, (size_t)count, sizeof *space->deciders))
             return false;
         for (int i = space->decider_count; i < count; i++)
-            grown[i] = (tn_decider){0};
-        space->deciders = grown;
+            space->deciders[i] = (tn_decider){0};
         space->decider_count = count;
     }
     for (int i = 0; i < space->decider_count; i++) {
@@ -88,8 +87,8 @@ static bool note_failures(const tn_pass *pass, const tn_loop *loop)
 
 static tn_pending *add_pending(tn_decider *decider, size_t count)
 {
-    if (!tn_make_room((void **)&decider->pending, &decider->pending_room, decider->pending_count + count,
-                      sizeof *decider->pending))
+    if (!tn_array_reserve(&decider->pending, &decider->pending_room, decider->pending_count, count,
+                          sizeof *decider->pending))
         return NULL;
     decider->pending_count += count;
     return decider->pending + decider->pending_count - count;
@@ -154,8 +153,7 @@ static bool decide_alone(const decision *d, uint32_t face, tn_pair_set *taken)
     case TN_JOIN_MEMORY:
         return false;
     case TN_JOIN_LATER:
-        if (!tn_make_room((void **)&decider->later, &decider->later_room, decider->later_count + 1,
-                          sizeof *decider->later))
+        if (!tn_array_reserve(&decider->later, &decider->later_room, decider->later_count, 1, sizeof *decider->later))
             return false;
         decider->later[decider->later_count++] = face;
         return true;
@@ -308,7 +306,8 @@ tn_status tn_pass_decide(tn_pass *pass, tn_error *error)
         !tn_deciders_prepare(space, pass->threads))
         return tn_fail_memory(error);
     pass->chunks = space->chunks.data;
-    tn_share(pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass);
+    if (!tn_share(tn_pass_watch(pass), pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass))
+        return tn_fail_stopped(error);
     bool fine = true;
     for (int i = 0; i < space->decider_count; i++)
         fine = fine && !space->deciders[i].failed;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/growth/pass/room.h"
+#include "runtime/base/array.h"
 
 void tn_cuts_clear(tn_cuts *cuts)
 {
@@ -24,16 +24,14 @@ void tn_cuts_empty(tn_cuts *cuts)
 /* One more than is needed, so that there is an array to point into where nothing is. */
 static bool make_room(tn_cuts *cuts, const tn_loop *loop, bool waiting)
 {
-    size_t darts = cuts->dart_count + loop->item_count, side_room = cuts->dart_room;
-    return tn_make_room((void **)&cuts->items, &cuts->room, cuts->count + 1, sizeof *cuts->items) &&
-           tn_make_room((void **)&cuts->origins, &side_room, darts, sizeof *cuts->origins) &&
-           tn_make_room((void **)&cuts->sides, &cuts->dart_room, darts, sizeof *cuts->sides) &&
-           tn_make_room((void **)&cuts->loops, &cuts->loop_room, cuts->loop_count + loop->join_count + 1,
-                        sizeof *cuts->loops) &&
-           tn_make_room((void **)&cuts->joins, &cuts->join_room, cuts->join_count + loop->join_count + 1,
-                        sizeof *cuts->joins) &&
-           (!waiting || tn_make_room((void **)&cuts->waiting, &cuts->waiting_room,
-                                     cuts->waiting_count + loop->branch_count + 1, sizeof *cuts->waiting));
+    size_t joins = loop->join_count + 1, origin_room = cuts->dart_room;
+    return tn_array_reserve(&cuts->items, &cuts->room, cuts->count, 1, sizeof *cuts->items) &&
+           tn_array_reserve(&cuts->origins, &origin_room, cuts->dart_count, loop->item_count, sizeof *cuts->origins) &&
+           tn_array_reserve(&cuts->sides, &cuts->dart_room, cuts->dart_count, loop->item_count, sizeof *cuts->sides) &&
+           tn_array_reserve(&cuts->loops, &cuts->loop_room, cuts->loop_count, joins, sizeof *cuts->loops) &&
+           tn_array_reserve(&cuts->joins, &cuts->join_room, cuts->join_count, joins, sizeof *cuts->joins) &&
+           (!waiting || tn_array_reserve(&cuts->waiting, &cuts->waiting_room, cuts->waiting_count,
+                                         loop->branch_count + 1, sizeof *cuts->waiting));
 }
 
 /* Branches met after a loop's last dart lie in the corner before its first: they come first. */

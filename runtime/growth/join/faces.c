@@ -162,6 +162,6 @@ tn_status tn_pass_faces(tn_pass *pass, tn_error *error)
     status = tn_pass_number_joints(pass, error);
     if (status != TN_OK)
         return status;
-    tn_pass_stamp(pass);
-    return hand_over_pending(pass, error);
+    status = tn_pass_stamp(pass, error);
+    return status == TN_OK ? hand_over_pending(pass, error) : status;
 }

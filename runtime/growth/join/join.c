@@ -3,9 +3,9 @@
  * equal ones are equal in spite of rounding, and ties go by the branches' numbers. */
 #include "runtime/growth/join/join.h"
 
+#include "runtime/base/array.h"
 #include "runtime/growth/join/around.h"
 #include "runtime/growth/join/branch_tree.h"
-#include "runtime/growth/pass/room.h"
 
 #define FEW 96u /* branches of a face, up to which comparing all of them is the less work */
 
@@ -35,8 +35,7 @@ tn_join_failure tn_branches_compare(const tn_growth *growth, const tn_loop_branc
 
 static bool add_candidate(tn_loop *loop, tn_candidate candidate)
 {
-    if (!tn_make_room((void **)&loop->candidates, &loop->candidate_room, loop->candidate_count + 1,
-                      sizeof *loop->candidates))
+    if (!tn_array_reserve(&loop->candidates, &loop->candidate_room, loop->candidate_count, 1, sizeof *loop->candidates))
         return false;
     loop->candidates[loop->candidate_count++] = candidate;
     return true;
@@ -125,7 +124,7 @@ static void split_region(tn_loop *loop, uint32_t start, uint32_t end)
 
 bool tn_loop_add_join(tn_loop *loop, uint32_t low, uint32_t high)
 {
-    if (!tn_make_room((void **)&loop->joins, &loop->join_room, loop->join_count + 1, sizeof *loop->joins))
+    if (!tn_array_reserve(&loop->joins, &loop->join_room, loop->join_count, 1, sizeof *loop->joins))
         return false;
     tn_loop_branch *a = &loop->branches[low], *b = &loop->branches[high];
     bool turned = a->reversed && !b->reversed; /* '~' marks an incoming branch */

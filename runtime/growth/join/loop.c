@@ -1,8 +1,8 @@
 /* A face's loop as a pass leaves it: each dart's pieces, and the branches at its corners. */
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/growth/join/join.h"
-#include "runtime/growth/pass/room.h"
 
 void tn_loop_clear(tn_loop *loop)
 {
@@ -15,9 +15,8 @@ void tn_loop_clear(tn_loop *loop)
 
 static bool make_room(tn_loop *loop, size_t items, size_t branches)
 {
-    return tn_make_room((void **)&loop->items, &loop->item_room, loop->item_count + items, sizeof *loop->items) &&
-           tn_make_room((void **)&loop->branches, &loop->branch_room, loop->branch_count + branches,
-                        sizeof *loop->branches);
+    return tn_array_reserve(&loop->items, &loop->item_room, loop->item_count, items, sizeof *loop->items) &&
+           tn_array_reserve(&loop->branches, &loop->branch_room, loop->branch_count, branches, sizeof *loop->branches);
 }
 
 static void add_dart(tn_loop *loop, uint32_t vertex, uint32_t side)

@@ -1,8 +1,9 @@
 #include "runtime/growth/join/pattern.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-#include "runtime/growth/pass/room.h"
+#include "runtime/base/array.h"
 
 #define BRANCHES 32u
 #define PAIRS 32u
@@ -236,7 +237,7 @@ static bool find_pattern(tn_patterns *patterns, const view *seen, tn_pattern **f
     }
     if (patterns->count == PATTERNS)
         return true;
-    if (!tn_make_room((void **)&patterns->items, &patterns->room, patterns->count + 1, sizeof *patterns->items))
+    if (!tn_array_reserve(&patterns->items, &patterns->room, patterns->count, 1, sizeof *patterns->items))
         return false;
     tn_pattern *added = &patterns->items[patterns->count++];
     memset(added, 0, sizeof *added);
@@ -368,8 +369,8 @@ static bool find_variant(const tn_patterns *patterns, uint32_t pattern, uint64_t
 static bool add_variant(tn_patterns *patterns, const tn_pass *pass, uint32_t face, tn_loop *loop, tn_variant variant,
                         size_t at)
 {
-    if (!tn_make_room((void **)&patterns->variants, &patterns->variant_room, patterns->variant_count + 1,
-                      sizeof *patterns->variants) ||
+    if (!tn_array_reserve(&patterns->variants, &patterns->variant_room, patterns->variant_count, 1,
+                          sizeof *patterns->variants) ||
         !tn_loop_expand(loop, pass, face, true) ||
         tn_loop_join_branches(loop, pass, face, NULL) != TN_JOINED || /* never later: nothing is shared */
         !tn_cuts_add(&patterns->cuts, loop, true))

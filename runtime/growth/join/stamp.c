@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/join/stamp_lanes.h"
 
@@ -114,8 +115,9 @@ static void stamp_chunk(void *context, uint32_t number)
     }
 }
 
-void tn_pass_stamp(tn_pass *pass)
+tn_status tn_pass_stamp(tn_pass *pass, tn_error *error)
 {
     pass->has_lanes = tn_stamp_has_lanes();
-    tn_share(pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, stamp_chunk, pass);
+    bool complete = tn_share(tn_pass_watch(pass), pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, stamp_chunk, pass);
+    return complete ? TN_OK : tn_fail_stopped(error);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
 
 static int thread_count(const tn_growth *growth)
@@ -44,11 +45,13 @@ static tn_status mean(const tn_growth *growth, tn_vector *centre, tn_error *erro
     summing s = {map, malloc(chunks * sizeof *s.sums)};
     if (!s.sums)
         return tn_fail_memory(error);
-    tn_share(thread_count(growth), chunks, TN_SHARE_EVENLY, sum_chunk, &s);
+    bool complete = tn_share(growth->options.watch, thread_count(growth), chunks, TN_SHARE_EVENLY, sum_chunk, &s);
     tn_vector sum = {0, 0, 0};
-    for (uint32_t c = 0; c < chunks; c++)
+    for (uint32_t c = 0; c < chunks && complete; c++)
         sum = tn_add(sum, s.sums[c]);
     free(s.sums);
+    if (!complete)
+        return tn_fail_stopped(error);
     *centre = tn_scale(sum, 1.0 / map->vertex_count);
     return TN_OK;
 }
@@ -123,8 +126,11 @@ tn_status tn_growth_displace(tn_growth *growth, tn_error *error)
     if (status != TN_OK)
         return status;
     d.fixed = fixed;
-    tn_share(thread_count(growth), chunk_count(&growth->map), TN_SHARE_UNEVEN, displace_chunk, &d);
+    bool complete = tn_share(growth->options.watch, thread_count(growth), chunk_count(&growth->map), TN_SHARE_UNEVEN,
+                             displace_chunk, &d);
     free(fixed);
+    if (!complete)
+        return tn_fail_stopped(error);
     growth->moved = d.moved;
     if (d.infinite || !isfinite(growth->length)) {
         tn_fail(error, TN_LIMIT, E_GROWTH_COORDINATES, "in step %u a coordinate leaves the range of numbers",

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/growth/model/turtle.h"
 #include "runtime/growth/pass/axes.h"
 #include "runtime/growth/pass/rewrite.h"
-#include "runtime/growth/pass/room.h"
 
 typedef struct interpreter {
     tn_pass *pass;
@@ -212,7 +212,7 @@ static tn_status match_edge(interpreter *in, const tn_growth_group *group, uint3
         rule++;
     if (rule == group->rule_count)
         return TN_OK;
-    if (!tn_make_room((void **)&pass->list, &in->room, pass->list_count + 1, sizeof *pass->list))
+    if (!tn_array_reserve(&pass->list, &in->room, pass->list_count, 1, sizeof *pass->list))
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < in->length; i++)
         in->taken[in->chain[i]] = 1;
@@ -248,7 +248,7 @@ tn_status tn_interpret_match(tn_pass *pass, tn_error *error)
     tn_status status = begin(&in, pass, error);
     if (status == TN_OK)
         status = look_around(&in, error);
-    if (status == TN_OK && !tn_make_room((void **)&pass->list, &in.room, 1, sizeof *pass->list))
+    if (status == TN_OK && !tn_array_reserve(&pass->list, &in.room, 0, 1, sizeof *pass->list))
         status = tn_fail_memory(error);
     for (uint32_t g = pass->group_first; g < pass->group_last && status == TN_OK; g++)
         for (uint32_t e = 0; e < pass->old->edge_count && status == TN_OK; e++)

@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
 
 #define NEEDS_DRAW (TN_NO_TEMPLATE - 1)
@@ -212,15 +214,17 @@ static tn_status match_singly(tn_pass *pass, const contexts *around, tn_error *e
 {
     uint32_t chunks = (pass->old->edge_count + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
     single_match match = {pass, around, NULL};
-    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
+    bool complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
+    if (!complete)
+        return tn_fail_stopped(error);
     if (!pass->growth->weighted)
         return TN_OK;
     tn_status status = number_draws(pass, chunks, &match.ordinals, error);
     if (status != TN_OK)
         return status;
-    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
+    complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
     free(match.ordinals);
-    return TN_OK;
+    return complete ? TN_OK : tn_fail_stopped(error);
 }
 
 /* ---- predecessors of several edges: a chain, head to tail through vertices of two edges, replaced as one */
@@ -271,13 +275,8 @@ static bool find_chain(chain_search *search, const tn_growth_group *group, uint3
 static tn_status add_replacement(chain_search *search, uint32_t length, uint16_t template, tn_error *error)
 {
     tn_pass *pass = search->pass;
-    if (pass->list_count == search->capacity) {
-        search->capacity = 2 * search->capacity + 64;
-        tn_edge_replacement *grown = realloc(pass->list, search->capacity * sizeof *grown);
-        if (!grown)
-            return tn_fail_memory(error);
-        pass->list = grown;
-    }
+    if (!tn_array_reserve(&pass->list, &search->capacity, pass->list_count, 1, sizeof *pass->list))
+        return tn_fail_memory(error);
     pass->list[pass->list_count++] =
         (tn_edge_replacement){search->chain[0], search->chain[length - 1], length, template};
     return TN_OK;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/share.h"
+#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
 
 typedef struct numbering {
@@ -43,11 +44,11 @@ tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error)
     numbering n = {pass, calloc(chunks + 1, sizeof *n.first)};
     if (!n.first)
         return tn_fail_memory(error);
-    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, count_joints, &n);
+    bool complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, count_joints, &n);
     n.first[0] = pass->edges;
-    for (uint32_t c = 0; c < chunks; c++)
+    for (uint32_t c = 0; c < chunks && complete; c++)
         n.first[c + 1] += n.first[c];
-    tn_share(pass->threads, chunks, TN_SHARE_EVENLY, number_chunk, &n);
+    complete = complete && tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, number_chunk, &n);
     free(n.first);
-    return TN_OK;
+    return complete ? TN_OK : tn_fail_stopped(error);
 }

@@ -6,6 +6,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
+
 #define HUGE_PAGE ((size_t)2 << 20)
 #define SMALL ((size_t)512 << 10) /* up to here the heap serves as well */
 
@@ -61,10 +63,9 @@ bool tn_pages_reserve(tn_pages *pages, size_t size)
     if (size > SIZE_MAX / 2)
         return false;
     if (size <= SMALL) {
-        void *data = realloc(pages->data, size ? size : 1);
-        if (!data)
+        if (!tn_array_resize(&pages->data, size, 1))
             return false;
-        *pages = (tn_pages){data, size};
+        pages->capacity = size;
         return true;
     }
     size_t capacity = capacity_for(size);

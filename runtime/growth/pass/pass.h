@@ -171,6 +171,12 @@ typedef struct tn_pass {
     bool has_lanes; /* the processor has them (stamp_lanes.h) */
 } tn_pass;
 
+/* Whose wish ends a pass early, or NULL. */
+static inline tn_watch *tn_pass_watch(const tn_pass *pass)
+{
+    return pass->growth->options.watch;
+}
+
 /* The template that replaces an edge, or TN_NO_TEMPLATE, where no chains are replaced. */
 static inline uint16_t tn_choice(const tn_pass *pass, uint32_t edge)
 {
@@ -210,7 +216,7 @@ tn_vector tn_pass_frame(const tn_pass *pass, uint32_t first, uint32_t last, tn_v
                         double *length);
 
 tn_status tn_pass_decide(tn_pass *pass, tn_error *error);
-void tn_pass_stamp(tn_pass *pass);
+tn_status tn_pass_stamp(tn_pass *pass, tn_error *error);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
 tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error);
 

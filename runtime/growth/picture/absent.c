@@ -25,9 +25,9 @@ uint32_t tn_view_by_depth(const tn_view *view)
     return 0;
 }
 
-tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, const char *path,
-                        tn_canvas_format format, tn_error *error)
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error)
 {
-    (void)views, (void)count, (void)options, (void)path, (void)format;
+    (void)views, (void)count, (void)options, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
 }

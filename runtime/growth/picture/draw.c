@@ -198,6 +198,7 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
     tn_painting painting = {0};
     tn_status status = look(map, &eye, &seen, error);
     int threads = tn_growth_settings(growth)->threads;
+    seen.scene.watch = tn_growth_settings(growth)->watch;
     seen.scene.threads = threads > 0 ? threads : tn_thread_count();
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/match/rules.h"
 
@@ -17,14 +18,9 @@
 
 tn_plan_analysis_finding *tn_plan_analysis_add(tn_plan_analysis *analysis, tn_found found, size_t plans)
 {
-    if (analysis->count == analysis->room) {
-        size_t room = analysis->room ? analysis->room * 2 : 16;
-        tn_plan_analysis_finding *findings = realloc(analysis->findings, room * sizeof *findings);
-        if (!findings)
-            return NULL;
-        analysis->findings = findings;
-        analysis->room = room;
-    }
+    if (!tn_array_reserve_from(&analysis->findings, &analysis->room, 16, analysis->count, 1,
+                               sizeof *analysis->findings))
+        return NULL;
     tn_shown_plan *shown = calloc(plans + 1, sizeof *shown);
     if (!shown)
         return NULL;

@@ -17,7 +17,7 @@ typedef struct places {
     tn_key seen;      /* opcode, begin, end; one after another */
 } places;
 
-static bool is_new(places *seen, tn_opcode opcode, const tn_map_record *place, bool *fresh)
+static bool is_new(places *seen, tn_opcode opcode, const tn_source_map_record *place, bool *fresh)
 {
     *fresh = true;
     for (size_t i = 0; i < seen->seen.size; i += 3) {
@@ -148,7 +148,7 @@ static tn_status look_at(tn_plan_analysis *analysis, const item *it, places *see
 {
     if (code->opcode != TN_OP_TRAY && code->opcode != TN_OP_DISTANCE)
         return TN_OK;
-    const tn_map_record *place = tn_module_place(analysis->schema->module, offset);
+    const tn_source_map_record *place = tn_module_place(analysis->schema->module, offset);
     bool fresh;
     if (!place || place->file != it->file || place->begin < it->begin || place->end > it->end)
         return TN_OK;

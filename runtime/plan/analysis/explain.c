@@ -2,75 +2,61 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/analysis/explain_data.h"
 
 #define RELATION_BYTES_MAX (UINT64_C(1) << 30)
 
 /* ---- memory */
 
-static tn_status grow(void **items, uint32_t *capacity, uint32_t count, size_t size, tn_error *error)
-{
-    if (count < *capacity)
-        return TN_OK;
-    uint32_t larger = *capacity * 2 + 16;
-    void *grown = realloc(*items, larger * size);
-    if (!grown)
-        return tn_fail_memory(error);
-    *items = grown;
-    *capacity = larger;
-    return TN_OK;
-}
-
-#define GROW(E, ITEMS, COUNT, CAPACITY)                                                                                \
-    grow((void **)&(E)->result->ITEMS, &(E)->result->CAPACITY, (E)->result->COUNT, sizeof *(E)->result->ITEMS,         \
-         (E)->error)
-
 tn_status tn_explain_stretch(tn_explaining *e, uint32_t node, tn_stretch stretch)
 {
-    tn_status status = GROW(e, stretches, stretch_count, stretch_capacity);
-    if (status != TN_OK)
-        return status;
-    tn_why *why = &e->result->nodes[node];
+    tn_explanation *result = e->result;
+    if (!tn_array_reserve_from(&result->stretches, &result->stretch_capacity, 16, result->stretch_count, 1,
+                               sizeof *result->stretches))
+        return tn_fail_memory(e->error);
+    tn_why *why = &result->nodes[node];
     if (why->stretch_count == 0)
-        why->stretch_first = e->result->stretch_count;
+        why->stretch_first = result->stretch_count;
     why->stretch_count++;
-    e->result->stretches[e->result->stretch_count++] = stretch;
+    result->stretches[result->stretch_count++] = stretch;
     return TN_OK;
 }
 
 tn_status tn_explain_gap(tn_explaining *e, uint32_t node, tn_gap gap)
 {
-    tn_status status = GROW(e, gaps, gap_count, gap_capacity);
-    if (status != TN_OK)
-        return status;
-    tn_why *why = &e->result->nodes[node];
+    tn_explanation *result = e->result;
+    if (!tn_array_reserve_from(&result->gaps, &result->gap_capacity, 16, result->gap_count, 1, sizeof *result->gaps))
+        return tn_fail_memory(e->error);
+    tn_why *why = &result->nodes[node];
     if (why->gap_count == 0)
-        why->gap_first = e->result->gap_count;
+        why->gap_first = result->gap_count;
     why->gap_count++;
-    e->result->gaps[e->result->gap_count++] = gap;
+    result->gaps[result->gap_count++] = gap;
     return TN_OK;
 }
 
 static tn_status add_node(tn_explaining *e, tn_reader_of who, tn_stretch region, uint32_t parent, uint32_t *node)
 {
-    tn_status status = GROW(e, nodes, node_count, node_capacity);
-    if (status != TN_OK)
-        return status;
-    *node = e->result->node_count++;
-    e->result->nodes[*node] = (tn_why){.tree = who.tree,
-                                       .part = who.part,
-                                       .mirrored = who.mirrored,
-                                       .region = region,
-                                       .number = TN_NO_NUMBER,
-                                       .closest = TN_NO_WHY,
-                                       .parent = parent,
-                                       .first = TN_NO_WHY,
-                                       .next = TN_NO_WHY};
+    tn_explanation *result = e->result;
+    if (!tn_array_reserve_from(&result->nodes, &result->node_capacity, 16, result->node_count, 1,
+                               sizeof *result->nodes))
+        return tn_fail_memory(e->error);
+    *node = result->node_count++;
+    result->nodes[*node] = (tn_why){.tree = who.tree,
+                                    .part = who.part,
+                                    .mirrored = who.mirrored,
+                                    .region = region,
+                                    .number = TN_NO_NUMBER,
+                                    .closest = TN_NO_WHY,
+                                    .parent = parent,
+                                    .first = TN_NO_WHY,
+                                    .next = TN_NO_WHY};
     if (parent == TN_NO_WHY)
         return TN_OK;
-    uint32_t *link = &e->result->nodes[parent].first;
+    uint32_t *link = &result->nodes[parent].first;
     while (*link != TN_NO_WHY)
-        link = &e->result->nodes[*link].next;
+        link = &result->nodes[*link].next;
     *link = *node;
     return TN_OK;
 }
@@ -82,14 +68,10 @@ tn_status tn_explain_tree(tn_explaining *e, uint32_t function, uint32_t *tree)
         if (result->functions[*tree] == function)
             return TN_OK;
     if (result->tree_count == result->tree_capacity) {
-        uint32_t capacity = result->tree_capacity * 2 + 8;
-        tn_parts *trees = realloc(result->trees, capacity * sizeof *trees);
-        result->trees = trees ? trees : result->trees;
-        uint32_t *functions = realloc(result->functions, capacity * sizeof *functions);
-        result->functions = functions ? functions : result->functions;
-        uint64_t ***relations = realloc(e->relations, capacity * sizeof *relations);
-        e->relations = relations ? relations : e->relations;
-        if (!trees || !functions || !relations)
+        size_t capacity = tn_array_larger(result->tree_capacity, 0, 8);
+        if (!tn_array_resize(&result->trees, capacity, sizeof *result->trees) ||
+            !tn_array_resize(&result->functions, capacity, sizeof *result->functions) ||
+            !tn_array_resize(&e->relations, capacity, sizeof *e->relations))
             return tn_fail_memory(e->error);
         result->tree_capacity = capacity;
     }

@@ -54,14 +54,18 @@ typedef struct tn_explanation {
     const tn_tray *trays; /* borrowed */
     uint32_t length;
     tn_why *nodes; /* the rule is node 0 */
-    uint32_t node_count, node_capacity;
+    uint32_t node_count;
+    size_t node_capacity;
     tn_stretch *stretches;
-    uint32_t stretch_count, stretch_capacity;
+    uint32_t stretch_count;
+    size_t stretch_capacity;
     tn_gap *gaps;
-    uint32_t gap_count, gap_capacity;
+    uint32_t gap_count;
+    size_t gap_capacity;
     tn_parts *trees;
     uint32_t *functions; /* [tree_count]: of which function */
-    uint32_t tree_count, tree_capacity;
+    uint32_t tree_count;
+    size_t tree_capacity;
 } tn_explanation;
 
 /* Explains a HOLDS function on a plan. max_length: see above; 0 is the default. Clear in any case. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 
 tn_bounds tn_bounds_make(uint32_t max_states)
@@ -215,14 +216,8 @@ static uint8_t product_accepts(const tn_product *product, uint64_t pair)
 static tn_status product_row(tn_product *product, uint32_t state, tn_error *error)
 {
     uint32_t columns = product->join.columns;
-    if (state == product->capacity) {
-        size_t capacity = product->capacity ? product->capacity * 2 : 32;
-        uint32_t *delta = realloc(product->delta, (capacity * columns + 1) * sizeof *delta);
-        if (!delta)
-            return tn_fail_memory(error);
-        product->delta = delta;
-        product->capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&product->delta, &product->capacity, 32, state, 1, columns * sizeof *product->delta))
+        return tn_fail_memory(error);
     uint64_t pair = product->pairs.keys[state];
     uint32_t *row = product->delta + (size_t)state * columns;
     const uint32_t *a = product->a->delta + (pair >> 32) * product->a->columns;

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 typedef struct tn_explorer {
     const tn_construction *construction;
     tn_interner keys;
@@ -15,14 +17,8 @@ static bool explorer_row(tn_explorer *explorer, uint32_t state)
 {
     const tn_construction *construction = explorer->construction;
     uint32_t columns = construction->join->columns;
-    if (state == explorer->capacity) {
-        size_t capacity = explorer->capacity * 2 + 32;
-        uint32_t *delta = realloc(explorer->delta, (capacity * columns + 1) * sizeof *delta);
-        if (!delta)
-            return false;
-        explorer->delta = delta;
-        explorer->capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&explorer->delta, &explorer->capacity, 32, state, 1, columns * sizeof *explorer->delta))
+        return false;
     size_t size;
     const uint32_t *key = tn_interned(&explorer->keys, state, &size);
     if (!tn_key_copy(&explorer->current, key, size))

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 
 /* Tables hold at most this many keys: their slots are at most half full and counted in 32 bits. */
@@ -13,15 +14,13 @@ static bool numbering_grow(tn_numbering *numbering)
     if (numbering->count >= MAX_KEYS)
         return false;
     uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
-    uint64_t *keys = realloc(numbering->keys, capacity / 2 * sizeof *keys);
-    if (!keys)
+    if (!tn_array_resize(&numbering->keys, capacity / 2, sizeof *numbering->keys))
         return false;
-    numbering->keys = keys;
     uint32_t *slots = calloc(capacity, sizeof *slots);
     if (!slots)
         return false;
     for (uint32_t i = 0; i < numbering->count; i++) {
-        uint32_t at = (uint32_t)tn_mix64(keys[i]) & (capacity - 1);
+        uint32_t at = (uint32_t)tn_mix64(numbering->keys[i]) & (capacity - 1);
         while (slots[at])
             at = (at + 1) & (capacity - 1);
         slots[at] = i + 1;
@@ -63,10 +62,8 @@ uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
         if (numbering->count >= MAX_KEYS)
             return UINT32_MAX;
         uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
-        uint64_t *keys = realloc(numbering->keys, capacity / 2 * sizeof *keys);
-        if (!keys)
+        if (!tn_array_resize(&numbering->keys, capacity / 2, sizeof *numbering->keys))
             return UINT32_MAX;
-        numbering->keys = keys;
         numbering->capacity = capacity;
     }
     numbering->keys[numbering->count] = key;
@@ -82,14 +79,8 @@ void tn_numbering_clear(tn_numbering *numbering)
 
 bool tn_key_push(tn_key *key, uint32_t word)
 {
-    if (key->size == key->capacity) {
-        size_t capacity = key->capacity ? key->capacity * 2 : 32;
-        uint32_t *data = realloc(key->data, capacity * sizeof *data);
-        if (!data)
-            return false;
-        key->data = data;
-        key->capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&key->data, &key->capacity, 32, key->size, 1, sizeof *key->data))
+        return false;
     key->data[key->size++] = word;
     return true;
 }
@@ -116,12 +107,10 @@ static bool interner_grow(tn_interner *interner)
     if (interner->count >= MAX_KEYS)
         return false;
     uint32_t capacity = interner->capacity ? interner->capacity * 2 : 64;
-    size_t *first = realloc(interner->first, (capacity / 2 + 1) * sizeof *first);
-    if (!first)
+    if (!tn_array_resize(&interner->first, capacity / 2 + 1, sizeof *interner->first))
         return false;
-    if (!interner->first)
-        first[0] = 0;
-    interner->first = first;
+    if (interner->count == 0)
+        interner->first[0] = 0;
     uint32_t *slots = calloc(capacity, sizeof *slots);
     if (!slots)
         return false;
@@ -141,14 +130,9 @@ static bool interner_grow(tn_interner *interner)
 
 static bool interner_append(tn_interner *interner, const uint32_t *data, size_t size)
 {
-    if (interner->words_capacity - interner->words_used < size) {
-        size_t capacity = interner->words_capacity * 2 + size + 256;
-        uint32_t *words = realloc(interner->words, capacity * sizeof *words);
-        if (!words)
-            return false;
-        interner->words = words;
-        interner->words_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&interner->words, &interner->words_capacity, 256, interner->words_used, size,
+                               sizeof *interner->words))
+        return false;
     if (size > 0)
         memcpy(interner->words + interner->words_used, data, size * sizeof *data);
     interner->words_used += size;

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* Gives each state its phase: the number of markers on the way to it. A live state has only one, since marked words
  * have two markers and the word so far is part of one. */
 static bool find_phases(tn_operand *operand)
@@ -157,15 +159,9 @@ void tn_pairs_add(tn_pairs *pairs, uint32_t first, uint32_t second)
 {
     if (first == pairs->first->dead || (pairs->second && second == pairs->second->dead))
         return;
-    if (pairs->size == pairs->capacity) {
-        size_t capacity = pairs->capacity ? pairs->capacity * 2 : 64;
-        uint64_t *data = realloc(pairs->data, capacity * sizeof *data);
-        if (!data) {
-            pairs->failed = true;
-            return;
-        }
-        pairs->data = data;
-        pairs->capacity = capacity;
+    if (!tn_array_reserve(&pairs->data, &pairs->capacity, pairs->size, 1, sizeof *pairs->data)) {
+        pairs->failed = true;
+        return;
     }
     pairs->data[pairs->size++] = (uint64_t)first << 32 | second;
 }

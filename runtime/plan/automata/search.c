@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* How a tuple was first reached. */
 typedef struct step {
     uint32_t from, letter, length;
@@ -70,14 +72,8 @@ static bool visit(explorer *e, step how, uint32_t *number)
         return false;
     if (e->tuples.count == before)
         return true;
-    if (before == e->room) {
-        size_t room = e->room ? e->room * 2 : 256;
-        step *steps = realloc(e->steps, room * sizeof *steps);
-        if (!steps)
-            return false;
-        e->steps = steps;
-        e->room = room;
-    }
+    if (!tn_array_reserve_from(&e->steps, &e->room, 256, before, 1, sizeof *e->steps))
+        return false;
     e->steps[before] = how;
     return true;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 
 tn_sparse *tn_sparse_new(uint32_t letters, uint32_t columns, uint32_t states, size_t edges)
@@ -290,27 +291,10 @@ void tn_splits_clear(tn_splits *splits)
 
 static bool work_reserve(tn_sparse_work *work, uint32_t state, size_t more)
 {
-    if ((size_t)state + 2 > work->states_capacity) {
-        size_t capacity = work->states_capacity * 2 + 64;
-        size_t *first = realloc(work->first, capacity * sizeof *first);
-        if (!first)
-            return false;
-        work->first = first;
-        work->states_capacity = capacity;
-    }
-    if (work->edges + more <= work->edges_capacity)
-        return true;
-    size_t capacity = work->edges_capacity * 2 + more + 256;
-    uint32_t *label = realloc(work->label, capacity * sizeof *label);
-    if (label)
-        work->label = label;
-    uint32_t *target = realloc(work->target, capacity * sizeof *target);
-    if (target)
-        work->target = target;
-    if (!label || !target)
-        return false;
-    work->edges_capacity = capacity;
-    return true;
+    size_t label_capacity = work->edges_capacity;
+    return tn_array_reserve(&work->first, &work->states_capacity, state, 2, sizeof *work->first) &&
+           tn_array_reserve_from(&work->label, &label_capacity, 256, work->edges, more, sizeof *work->label) &&
+           tn_array_reserve_from(&work->target, &work->edges_capacity, 256, work->edges, more, sizeof *work->target);
 }
 
 static uint32_t work_number(tn_sparse_work *work, uint32_t p, uint32_t q)

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/automata/sparse.h"
 
@@ -56,25 +57,13 @@ typedef struct tn_folding {
     size_t *first;  /* [states + 1] */
     uint64_t *hash; /* [states] */
     uint8_t *accept;
-    uint32_t states, state_capacity;
+    uint32_t states;
+    size_t state_capacity;
     uint32_t *slots; /* state + 1 by hash; 0 is free */
     uint32_t slot_capacity;
     tn_fold_column *looks; /* [columns] */
     uint64_t work;
 } tn_folding;
-
-static bool grow(void **array, size_t *capacity, size_t needed, size_t size)
-{
-    if (needed <= *capacity)
-        return true;
-    size_t more = *capacity * 2 > needed ? *capacity * 2 : needed + 64;
-    void *larger = realloc(*array, more * size);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = more;
-    return true;
-}
 
 /* ---- pairs */
 
@@ -85,7 +74,7 @@ static size_t find_slot(tn_folding *f, uint32_t p, uint32_t q)
         return (size_t)p * f->b->states + q;
     uint32_t number = tn_number(&f->pairs, (uint64_t)p << 32 | q);
     size_t before = f->done_capacity;
-    if (number == UINT32_MAX || !grow((void **)&f->done, &f->done_capacity, (size_t)number + 1, sizeof *f->done))
+    if (number == UINT32_MAX || !tn_array_reserve(&f->done, &f->done_capacity, number, 1, sizeof *f->done))
         return SIZE_MAX;
     memset(f->done + before, 0, (f->done_capacity - before) * sizeof *f->done);
     return number;
@@ -93,7 +82,7 @@ static size_t find_slot(tn_folding *f, uint32_t p, uint32_t q)
 
 static bool visit(tn_folding *f, uint32_t p, uint32_t q, size_t slot)
 {
-    if (!grow((void **)&f->visits, &f->visit_capacity, f->visit_count + 1, sizeof *f->visits))
+    if (!tn_array_reserve(&f->visits, &f->visit_capacity, f->visit_count, 1, sizeof *f->visits))
         return false;
     size_t edge = f->a->first[p];
     f->visits[f->visit_count++] = (tn_visit){
@@ -135,23 +124,18 @@ static bool slots_grow(tn_folding *f)
 
 static bool reserve_state(tn_folding *f, size_t edges)
 {
-    size_t capacity = f->state_capacity;
-    if (f->states + 1 >= capacity) {
-        capacity = capacity ? capacity * 2 : 256;
-        size_t *first = realloc(f->first, (capacity + 1) * sizeof *first);
-        f->first = first ? first : f->first;
-        uint64_t *hash = realloc(f->hash, capacity * sizeof *hash);
-        f->hash = hash ? hash : f->hash;
-        uint8_t *accept = realloc(f->accept, capacity);
-        f->accept = accept ? accept : f->accept;
-        if (!first || !hash || !accept)
+    if ((size_t)f->states + 1 >= f->state_capacity) {
+        size_t capacity = tn_array_larger(f->state_capacity, 0, 256);
+        if (!tn_array_resize(&f->first, capacity + 1, sizeof *f->first) ||
+            !tn_array_resize(&f->hash, capacity, sizeof *f->hash) ||
+            !tn_array_resize(&f->accept, capacity, sizeof *f->accept))
             return false;
         f->first[0] = 0;
-        f->state_capacity = (uint32_t)capacity;
+        f->state_capacity = capacity;
     }
     if (2 * (f->states + 1) > f->slot_capacity && !slots_grow(f))
         return false;
-    return grow((void **)&f->edges, &f->edge_capacity, f->edge_count + edges, sizeof *f->edges);
+    return tn_array_reserve(&f->edges, &f->edge_capacity, f->edge_count, edges, sizeof *f->edges);
 }
 
 static void look_at(tn_fold_column *look, uint32_t state, uint32_t target)
@@ -214,7 +198,7 @@ static bool proceed(tn_folding *f)
             f->work++;
             if (done == NOTHING)
                 continue;
-            if (!grow((void **)&f->stack, &f->stack_capacity, f->stack_count + 1, sizeof *f->stack))
+            if (!tn_array_reserve(&f->stack, &f->stack_capacity, f->stack_count, 1, sizeof *f->stack))
                 return false;
             f->stack[f->stack_count++] = (tn_edge){f->splits.splits[top->split].label, done - FINISHED};
         }
@@ -241,7 +225,7 @@ static tn_status walk(tn_folding *f, const char *what, tn_bounds *bounds, tn_err
     f->done = f->hashed ? NULL : calloc((size_t)all + 1, sizeof *f->done);
     size_t slot = f->hashed || f->done ? find_slot(f, 0, 0) : SIZE_MAX;
     /* Room for an edge at least, so that the row of a state without edges has a place as well. */
-    bool room = grow((void **)&f->stack, &f->stack_capacity, 1, sizeof *f->stack);
+    bool room = tn_array_reserve(&f->stack, &f->stack_capacity, 0, 1, sizeof *f->stack);
     if (slot == SIZE_MAX || !room || !visit(f, 0, 0, slot))
         return tn_fail_memory(error);
     while (f->visit_count > 0) {

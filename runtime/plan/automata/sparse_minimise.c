@@ -279,6 +279,10 @@ tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error 
     refiner_clear(&refiner);
     if (status == TN_OK)
         status = find_cycle(made, &made->folded, error);
+    if (status != TN_OK) {
+        tn_sparse_free(made);
+        made = NULL;
+    }
     *out = made;
     return status;
 }

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 tn_status tn_column_weights(const tn_classes *classes, const uint32_t *column, uint32_t columns, uint64_t **weights,
                             tn_error *error)
 {
@@ -133,9 +135,7 @@ static void row_shrink(const tn_edges *edges, tn_count_row *row)
     for (uint32_t s = 1; s < edges->states; s++)
         memmove(row->value + (size_t)s * (limbs - 1), row->value + (size_t)s * limbs, (limbs - 1) * sizeof *row->value);
     row->limbs = limbs - 1;
-    mp_limb_t *less = realloc(row->value, ((size_t)edges->states * row->limbs + 1) * sizeof *less);
-    if (less)
-        row->value = less;
+    (void)tn_array_resize(&row->value, (size_t)edges->states * row->limbs, sizeof *row->value); /* or it stays large */
 }
 
 tn_status tn_count_row_first(const tn_edges *edges, tn_count_row *row, tn_error *error)

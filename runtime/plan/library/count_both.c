@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/count.h"
 
@@ -55,7 +56,8 @@ typedef struct tn_both {
     uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
     tn_numbering numbers;
     tn_both_pair *pairs;
-    uint32_t count, capacity;
+    uint32_t count;
+    size_t capacity;
     size_t *steps_first, *steps_end; /* [states of a]: steps_first NO_ROW: not worked out */
     tn_both_step *steps;
     size_t step_count, step_capacity;
@@ -128,15 +130,8 @@ static tn_status make_steps(tn_both *both, tn_error *error)
 
 static bool reserve_steps(tn_both *both)
 {
-    if (both->step_count + both->splits.columns <= both->step_capacity)
-        return true;
-    size_t capacity = both->step_capacity * 2 + both->splits.columns + 1024;
-    tn_both_step *larger = realloc(both->steps, capacity * sizeof *larger);
-    if (!larger)
-        return false;
-    both->steps = larger;
-    both->step_capacity = capacity;
-    return true;
+    return tn_array_reserve_from(&both->steps, &both->step_capacity, 1024, both->step_count, both->splits.columns,
+                                 sizeof *both->steps);
 }
 
 /* Adds trays to a state's steps. What leads to one place by one column mostly lies side by side; what does not makes
@@ -177,21 +172,16 @@ static bool grow(tn_both *both)
 {
     if (both->count < both->capacity)
         return true;
-    uint32_t capacity = both->capacity * 2 + 256;
-    tn_both_pair *pairs = realloc(both->pairs, capacity * sizeof *pairs);
-    both->pairs = pairs ? pairs : both->pairs;
+    size_t capacity = tn_array_larger(both->capacity, 0, 256), limb_bytes = both->limbs * sizeof(mp_limb_t);
+    if (!tn_array_resize(&both->pairs, capacity, sizeof *both->pairs))
+        return false;
     for (int f = 0; f < 2; f++) {
         tn_both_front *front = &both->fronts[f];
-        uint32_t *listed = realloc(front->listed, capacity * sizeof *listed);
-        front->listed = listed ? listed : front->listed;
-        mp_limb_t *value = realloc(front->value, capacity * both->limbs * sizeof *value);
-        front->value = value ? value : front->value;
-        if (!listed || !value)
+        if (!tn_array_resize(&front->listed, capacity, sizeof *front->listed) ||
+            !tn_array_resize(&front->value, capacity, limb_bytes))
             return false;
-        memset(value + both->capacity * both->limbs, 0, (capacity - both->capacity) * both->limbs * sizeof *value);
+        memset(front->value + both->capacity * both->limbs, 0, (capacity - both->capacity) * limb_bytes);
     }
-    if (!pairs)
-        return false;
     both->capacity = capacity;
     return true;
 }
@@ -213,15 +203,8 @@ static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
 
 static bool reserve_edges(tn_both *both)
 {
-    if (both->edge_count + both->splits.columns <= both->edge_capacity)
-        return true;
-    size_t capacity = both->edge_capacity * 2 + both->splits.columns + 1024;
-    tn_both_edge *larger = realloc(both->edges, capacity * sizeof *larger);
-    if (!larger)
-        return false;
-    both->edges = larger;
-    both->edge_capacity = capacity;
-    return true;
+    return tn_array_reserve_from(&both->edges, &both->edge_capacity, 1024, both->edge_count, both->splits.columns,
+                                 sizeof *both->edges);
 }
 
 /* Adds trays to the edge to a pair: as add_step. */

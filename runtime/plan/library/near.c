@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/library/near_data.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/rules.h"
@@ -152,14 +153,8 @@ static tn_status make_changes(tn_near_search *s)
 
 static tn_status add_node(tn_near_search *s, uint32_t number, uint32_t tuple, size_t cell)
 {
-    if (number >= s->node_capacity) {
-        size_t capacity = s->node_capacity * 2 + 1024;
-        tn_near_node *larger = realloc(s->nodes, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(s->error);
-        s->nodes = larger;
-        s->node_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&s->nodes, &s->node_capacity, 1024, number, 1, sizeof *s->nodes))
+        return tn_fail_memory(s->error);
     s->nodes[number] = (tn_near_node){.tuple = tuple, .cell = (uint32_t)cell, .cost = TN_FAR, .next = s->first[cell]};
     s->first[cell] = number;
     return TN_OK;
@@ -167,14 +162,8 @@ static tn_status add_node(tn_near_search *s, uint32_t number, uint32_t tuple, si
 
 static tn_status add_edge(tn_near_search *s, uint32_t from, uint32_t to, uint32_t cost)
 {
-    if (s->edge_count == s->edge_capacity) {
-        size_t capacity = s->edge_capacity * 2 + 4096;
-        tn_near_edge *larger = realloc(s->edges, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(s->error);
-        s->edges = larger;
-        s->edge_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&s->edges, &s->edge_capacity, 4096, s->edge_count, 1, sizeof *s->edges))
+        return tn_fail_memory(s->error);
     s->edges[s->edge_count++] = (tn_near_edge){from, to, cost};
     return TN_OK;
 }

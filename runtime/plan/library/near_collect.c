@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/library/near_data.h"
 
 #define LENGTHS_AT_ONCE 64u
@@ -105,10 +106,8 @@ static bool step(const tn_near_finder *finder, const uint32_t *states, tn_tray t
 
 static tn_status add_plan(const tn_near_search *s, const writing *w, uint32_t length, tn_near *near)
 {
-    tn_near_plan *larger = realloc(near->plans, (near->count + 1) * sizeof *larger);
     tn_tray *copy = malloc(((size_t)length + 1) * sizeof *copy);
-    near->plans = larger ? larger : near->plans;
-    if (!larger || !copy) {
+    if (!copy || !tn_array_resize(&near->plans, near->count + 1, sizeof *near->plans)) {
         free(copy);
         return tn_fail_memory(s->error);
     }

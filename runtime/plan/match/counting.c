@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/explore.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/guesses.h"
@@ -49,15 +50,10 @@ static void place_add(tn_counting *counting, uint32_t set, uint32_t count)
 {
     if (set == TN_NO_GUESSES || count == 0)
         return;
-    if (counting->places_size == counting->places_capacity) {
-        size_t capacity = counting->places_capacity ? counting->places_capacity * 2 : 32;
-        tn_place_count *places = realloc(counting->places, capacity * sizeof *places);
-        if (!places) {
-            counting->failed = true;
-            return;
-        }
-        counting->places = places;
-        counting->places_capacity = capacity;
+    if (!tn_array_reserve_from(&counting->places, &counting->places_capacity, 32, counting->places_size, 1,
+                               sizeof *counting->places)) {
+        counting->failed = true;
+        return;
     }
     counting->places[counting->places_size++] = (tn_place_count){set, count};
 }

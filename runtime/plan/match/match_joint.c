@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define JOINED_STATES_MAX 256u  /* a state is a byte */
 #define JOINED_BYTES_MAX 32768u /* of the table of several rules: with the plans it stays in the first-level cache */
 #define JOINED_ROWS_MAX 4096u   /* joining takes 2 x 256 bytes a row */
@@ -91,15 +93,13 @@ static bool join_next(joining *j, pairs *p, uint8_t *next, const tn_row_map *map
 /* Gives the joint its arrays and puts it with the others, which own what it has from here on. */
 static tn_status add_table(tn_joints *joints, tn_joint *joint, size_t table_size, size_t bits_count, tn_error *error)
 {
-    tn_joint *items = realloc(joints->items, (joints->count + 1) * sizeof *items);
-    if (!items) {
+    if (!tn_array_resize(&joints->items, joints->count + 1, sizeof *joints->items)) {
         free(joint->column);
         return tn_fail_memory(error);
     }
-    joints->items = items;
     joint->table = malloc(table_size);
     joint->bits = calloc(bits_count, sizeof *joint->bits);
-    items[joints->count++] = *joint;
+    joints->items[joints->count++] = *joint;
     return joint->table && joint->bits ? TN_OK : tn_fail_memory(error);
 }
 

@@ -5,6 +5,8 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+
+#include "runtime/base/array.h"
 #endif
 
 /* Room for eight plans, rounded up to chunks, and a chunk of padding after each. An even number of trays is walked: of
@@ -13,15 +15,7 @@ static bool reserve(tn_lanes *lanes, size_t longest)
 {
     lanes->longest = longest + longest % 2;
     lanes->stride = (longest > 0 ? (longest - 1) / TN_LANES_CHUNK + 2 : 2) * TN_LANES_CHUNK;
-    if (lanes->stride * TN_LANES <= lanes->capacity)
-        return true;
-    size_t capacity = (lanes->stride + lanes->stride / 2) * TN_LANES;
-    uint32_t *rows = realloc(lanes->rows, capacity * sizeof *rows);
-    if (!rows)
-        return false;
-    lanes->rows = rows;
-    lanes->capacity = capacity;
-    return true;
+    return tn_array_reserve(&lanes->rows, &lanes->capacity, 0, lanes->stride * TN_LANES, sizeof *lanes->rows);
 }
 
 /* Plans of up to one chunk, where a whole chunk can be read of each: what is past a plan's end belongs to the plans

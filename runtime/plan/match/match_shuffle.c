@@ -5,6 +5,8 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+
+#include "runtime/base/array.h"
 #endif
 
 #define TABLE_BYTES_MAX                                                                                                \
@@ -36,11 +38,9 @@ typedef struct packing {
 static tn_status add_vector(packing *p, tn_error *error)
 {
     tn_shuffles *shuffles = p->shuffles;
-    tn_shuffle *items = realloc(shuffles->items, (shuffles->count + 1) * sizeof *items);
-    if (!items)
+    if (!tn_array_resize(&shuffles->items, shuffles->count + 1, sizeof *shuffles->items))
         return tn_fail_memory(error);
-    shuffles->items = items;
-    tn_shuffle *vector = &items[shuffles->count++];
+    tn_shuffle *vector = &shuffles->items[shuffles->count++];
     memset(vector, 0, sizeof *vector);
     vector->table = aligned_alloc(64, ((size_t)p->map->rows * shuffles->width / 64 + 2) * 64);
     if (!vector->table)

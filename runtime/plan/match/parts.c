@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 
 /* Code is in postfix order: a part is made when its last instruction is read, of the parts on the stack. A child so has
@@ -11,7 +12,8 @@ typedef struct reading {
     tn_parts *parts;
     const tn_module *module;
     uint32_t *stack; /* of the function at hand */
-    uint32_t depth, capacity;
+    uint32_t depth;
+    size_t capacity;
     unsigned nesting; /* of functions */
     tn_error *error;
 } reading;
@@ -37,22 +39,11 @@ uint32_t tn_function_rule(const tn_module *module, uint32_t function)
 static tn_status push(reading *r, tn_part part)
 {
     tn_parts *parts = r->parts;
-    if (parts->count == parts->capacity) {
-        uint32_t capacity = parts->capacity * 2 + 32;
-        tn_part *larger = realloc(parts->parts, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        parts->parts = larger;
-        parts->capacity = capacity;
-    }
-    if (r->depth == r->capacity) {
-        uint32_t capacity = r->capacity * 2 + 32;
-        uint32_t *larger = realloc(r->stack, capacity * sizeof *larger);
-        if (!larger)
-            return tn_fail_memory(r->error);
-        r->stack = larger;
-        r->capacity = capacity;
-    }
+    if (parts->count >= r->module->code_size)
+        return foreign(r, part.root);
+    if (!tn_array_reserve_from(&parts->parts, &parts->capacity, 32, parts->count, 1, sizeof *parts->parts) ||
+        !tn_array_reserve_from(&r->stack, &r->capacity, 32, r->depth, 1, sizeof *r->stack))
+        return tn_fail_memory(r->error);
     parts->parts[parts->count] = part;
     r->stack[r->depth++] = parts->count++;
     return TN_OK;
@@ -108,7 +99,7 @@ static void extend(tn_part *part, uint32_t offset, uint32_t length)
 /* Do two instructions come from the same stretch of a source (or is nothing known of them)? */
 static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
 {
-    const tn_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
+    const tn_source_map_record *x = tn_module_place(module, a), *y = tn_module_place(module, b);
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
@@ -120,8 +111,8 @@ static bool goes_on(const reading *r, const tn_part *part, uint32_t offset)
            same_place(r->module, part->root, offset);
 }
 
-/* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own.
- */
+/* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own,
+ * which nothing else calls: so there are never more parts than instructions. */
 static tn_status read_symmetric(reading *r, uint32_t offset, uint32_t length)
 {
     tn_part made = leaf(TN_PART_SYMMETRIC, offset, length);
@@ -147,8 +138,9 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
 {
     tn_part *second = top(r), *first = &r->parts->parts[r->stack[r->depth - 2]];
     if (kind == TN_PART_OR && second->kind == TN_PART_KIND_COUNT)
-        return first->kind == TN_PART_RULE && first->function == second->function ? read_symmetric(r, offset, length)
-                                                                                  : foreign(r, offset);
+        return first->kind == TN_PART_RULE && first->function == second->function && !first->somewhere
+                   ? read_symmetric(r, offset, length)
+                   : foreign(r, offset);
     if (first->kind == TN_PART_KIND_COUNT || second->kind == TN_PART_KIND_COUNT)
         return foreign(r, offset);
     if (goes_on(r, second, offset) && same_place(r->module, first->root, offset)) {
@@ -167,12 +159,18 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
     return TN_OK;
 }
 
+/* What stands at the plan's beginning or end, or somewhere, has all its parts. */
+static bool may_go_on(const tn_part *neighbour)
+{
+    return !neighbour->somewhere && !neighbour->beginning && !neighbour->end;
+}
+
 /* CHAIN: the second neighbour, of one part, goes on the first. */
 static tn_status read_chain(reading *r, uint32_t offset, uint32_t length)
 {
     tn_part *second = top(r), *first = &r->parts->parts[r->stack[r->depth - 2]];
     if (first->kind != TN_PART_NEIGHBOUR || second->kind != TN_PART_NEIGHBOUR || second->child_count != 1 ||
-        first->somewhere || second->somewhere)
+        !may_go_on(first) || !may_go_on(second))
         return foreign(r, offset);
     extend(first, offset, length);
     uint32_t child = second->first;
@@ -186,7 +184,8 @@ static tn_status read_chain(reading *r, uint32_t offset, uint32_t length)
 static tn_status read_more(reading *r, tn_opcode opcode, uint32_t offset, uint32_t length)
 {
     tn_part *part = top(r);
-    if (part->kind != TN_PART_NEIGHBOUR || part->somewhere || (opcode == TN_OP_OPTIONAL && part->child_count != 1))
+    if (part->kind != TN_PART_NEIGHBOUR || part->somewhere ||
+        (opcode == TN_OP_OPTIONAL && (part->child_count != 1 || !may_go_on(part))))
         return foreign(r, offset);
     extend(part, offset, length);
     if (opcode == TN_OP_OPTIONAL)
@@ -305,6 +304,14 @@ static tn_status read_rule(reading *r, uint32_t function)
     return status;
 }
 
+/* Is a part something that an author can have written there? A mirrored call belongs to a symmetric; only `and`, `or`
+ * and `not` ask for what is somewhere in the region. */
+static bool belongs(const tn_part *part, const tn_part *parent)
+{
+    bool joined = !parent || parent->kind == TN_PART_AND || parent->kind == TN_PART_OR || parent->kind == TN_PART_NOT;
+    return part->kind != TN_PART_KIND_COUNT && (joined || !part->somewhere);
+}
+
 /* Numbers the parts from the root, each before its children. */
 static tn_status number(reading *r)
 {
@@ -320,6 +327,8 @@ static tn_status number(reading *r)
     }
     for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t *link = &ordered[i].first;
+        if (!belongs(&ordered[i], i > 0 ? &ordered[ordered[i].parent] : NULL))
+            status = foreign(r, ordered[i].root);
         for (uint32_t child = parts->parts[old[i]].first; child != TN_NO_PART; child = parts->parts[child].next) {
             ordered[count] = parts->parts[child];
             ordered[count].parent = i;
@@ -437,7 +446,7 @@ static void balance(const char *source, size_t length, size_t *begin, size_t *en
 void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
 {
     const tn_module *module = parts->module;
-    const tn_map_record *map = tn_module_place(module, parts->parts[part].root);
+    const tn_source_map_record *map = tn_module_place(module, parts->parts[part].root);
     if (map && map->file < module->SOURCE_count) {
         const char *source = tn_text(module, module->SOURCE_records[map->file].text);
         size_t length = strlen(source);

@@ -49,7 +49,8 @@ typedef struct tn_part {
 typedef struct tn_parts {
     const tn_module *module;
     tn_part *parts;
-    uint32_t count, capacity;
+    uint32_t count;
+    size_t capacity;
 } tn_parts;
 
 /* Reads the parts of a rule function (kind WHOLE or HOLDS). TN_INVALID (E0703) for code that is not what the compiler

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/match/relation.h"
 #include "runtime/plan/match/vm_data.h"
 
@@ -22,10 +23,8 @@ static tn_status resize(tn_plan_vm *vm, void **block, uint64_t before, uint64_t 
 {
     if (after > vm->memory_limit || vm->memory - before > vm->memory_limit - after)
         return out_of_room(vm, error);
-    void *larger = realloc(*block, after);
-    if (!larger)
+    if (!tn_array_resize(block, after, 1))
         return tn_fail_memory(error);
-    *block = larger;
     vm->memory += after - before;
     return TN_OK;
 }

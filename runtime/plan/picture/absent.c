@@ -5,9 +5,9 @@
 #include "runtime/plan/picture/draw_rule.h"
 
 tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, size_t count,
-                        const tn_draw_options *options, const char *path, tn_error *error)
+                        const tn_draw_options *options, tn_picture *to, tn_error *error)
 {
-    (void)schema, (void)plans, (void)count, (void)options, (void)path;
+    (void)schema, (void)plans, (void)count, (void)options, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing plans", error);
 }
 

@@ -8,7 +8,7 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_H
 #define TARTAN_PLAN_PICTURE_DRAW_H
 
-#include "runtime/draw/canvas.h"
+#include "runtime/base/picture.h"
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_drawn_plan {

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* Lets a field have every value that brings in no tray but those that are `in`. */
 static void widen(const tn_schema *schema, const bool *in, uint64_t *box, uint32_t field)
 {
@@ -28,14 +30,9 @@ tn_status tn_tray_boxes(const tn_schema *schema, const bool *in, uint64_t **boxe
     for (tn_tray t = 0; status == TN_OK && t < schema->tray_count; t++) {
         if (!in[t] || covered[t])
             continue;
-        if (*count == room) {
-            room = room ? 2 * room : 8;
-            uint64_t *grown = realloc(*boxes, room * words * sizeof *grown);
-            if (!grown) {
-                status = tn_fail_memory(error);
-                break;
-            }
-            *boxes = grown;
+        if (!tn_array_reserve_from(boxes, &room, 8, *count, 1, words * sizeof **boxes)) {
+            status = tn_fail_memory(error);
+            break;
         }
         uint64_t *box = *boxes + (*count)++ * words;
         memcpy(box, tn_tray_mask(schema, t), words * sizeof *box);

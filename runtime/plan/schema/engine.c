@@ -7,6 +7,25 @@
 
 /* ---- verifying */
 
+/* Do two values of a field mean the same, however they are spelled? */
+static bool same_value(const tn_module *module, uint32_t kind, const tn_value_record *a, const tn_value_record *b)
+{
+    bool by_length = kind == TN_FIELD_LENGTH || kind == TN_FIELD_ZONE;
+    if (by_length && a->length != b->length)
+        return false;
+    return kind == TN_FIELD_LENGTH || strcmp(tn_text(module, a->name), tn_text(module, b->name)) == 0;
+}
+
+/* Each value once. There are at most TN_VALUES_MAX, so comparing each two is little work. */
+static tn_status check_values(const tn_checker *checker, const tn_field_record *field, const tn_value_record *values)
+{
+    for (uint32_t i = 1; i < field->value_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (same_value(checker->module, field->kind, &values[i], &values[k]))
+                return tn_refuse(checker, "two values of a field are the same");
+    return TN_OK;
+}
+
 static tn_status check_field(const tn_checker *checker, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -14,6 +33,9 @@ static tn_status check_field(const tn_checker *checker, uint32_t index)
     if (field->kind == TN_FIELD_FLAG && field->value_count != 2)
         return tn_refuse(checker, "field %u is a flag with %u values instead of 2", index, field->value_count);
     const tn_value_record *values = &module->VALUE_records[field->value_first];
+    tn_status status = check_values(checker, field, values);
+    if (status != TN_OK)
+        return status;
     return tn_check_different(checker, &values->spelling, sizeof *values, field->value_count,
                               "two values of a field are spelled alike");
 }
@@ -59,7 +81,8 @@ static tn_status check_specs(const tn_checker *checker)
     return TN_OK;
 }
 
-/* A flag has two values; values of a field, fields of a schema and schemas differ in their names; forbidden trays and
+/* A flag has two values; values of a field differ in what they mean and in how they are spelled, fields of a schema and
+ * schemas in their names; forbidden trays and
  * specifiers are of the schema, with no bit beyond its last value. */
 static tn_status verify(const tn_checker *checker)
 {

@@ -122,6 +122,15 @@ static void number_trays(tn_schema *schema, uint8_t *values, uint64_t *mask)
     } while (odometer_step(schema, values));
 }
 
+/* Plans are made of trays: without one, nothing about a schema has an answer. */
+static tn_status forbids_all(const tn_schema *schema, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_NOTHING_LEGAL, "schema %s forbids every tray",
+            tn_text(schema->module, schema->record->name));
+    tn_error_help(error, "leave one `forbid` out, or narrow it with more items");
+    return TN_INVALID;
+}
+
 static tn_status make_trays(tn_schema *schema, tn_error *error)
 {
     size_t codes = (size_t)schema->code_count;
@@ -135,7 +144,9 @@ static tn_status make_trays(tn_schema *schema, tn_error *error)
         number_trays(schema, values, mask);
     free(values);
     free(mask);
-    return ready ? TN_OK : tn_fail_memory(error);
+    if (!ready)
+        return tn_fail_memory(error);
+    return schema->tray_count > 0 ? TN_OK : forbids_all(schema, error);
 }
 
 tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **out, tn_error *error)

@@ -32,7 +32,8 @@ typedef struct tn_schema {
 } tn_schema;
 
 /* Makes a schema ready; index: of the SCHEMA record. max_codes bounds the combinations (0: TN_SCHEMA_CODES_DEFAULT) and
- * with them the memory of their tables; E0803 past it. E0703 where a module's tables are not as a schema needs them.
+ * with them the memory of their tables; E0803 past it. E0207 where every tray is forbidden; E0703 where a module's
+ * tables are not as a schema needs them.
  * The caller frees *schema with tn_schema_free. */
 #define TN_SCHEMA_CODES_DEFAULT (1u << 20)
 #define TN_FIELD_VALUES_MAX 256u                 /* a value's index is held in a byte */

@@ -40,6 +40,7 @@ tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error)
                        "a SQLite library cannot be read from standard input: name its file");
     close(reader->file);
     reader->file = -1;
+    reader->opened = (tn_file_state){0}; /* SQLite's locks see to it that what is read is of one file */
     /* Opened for writing where that is allowed, as SQLite must roll back what a killed writer left half done. */
     if (sqlite3_open_v2(reader->path, &reader->database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_PRIVATECACHE, NULL) !=
         SQLITE_OK)

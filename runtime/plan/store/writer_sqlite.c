@@ -2,14 +2,26 @@
  * that a library whose writer was killed holds whole batches and can be gone on with: the plan after the last one comes
  * next. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "runtime/base/file_error.h"
 #include "runtime/plan/store/sqlite_data.h"
 #include "runtime/plan/text/pack.h"
 
 #define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
+
+/* Where a file cannot be made, SQLite looks for one to read, and keeps the reason why there is none: asked again. */
+static int why_not_opened(const tn_plan_writer *writer)
+{
+    int file = open(writer->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return errno;
+    close(file);
+    return sqlite3_system_errno(writer->database);
+}
 
 static tn_status failed(const tn_plan_writer *writer, tn_error *error)
 {
@@ -23,7 +35,7 @@ static tn_status failed(const tn_plan_writer *writer, tn_error *error)
     }
     int reason = code == SQLITE_FULL ? ENOSPC : code == SQLITE_READONLY ? EACCES : 0;
     if (code == SQLITE_CANTOPEN)
-        reason = sqlite3_system_errno(writer->database);
+        reason = why_not_opened(writer);
     if (reason)
         return tn_cannot_write(writer->path, reason, error);
     return tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot write %s: %s", writer->path, sqlite3_errmsg(writer->database));

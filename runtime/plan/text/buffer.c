@@ -4,22 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/text/text.h"
 
 /* There is room for the zero byte too. */
 bool tn_buffer_reserve(tn_buffer *buffer, size_t more)
 {
-    if (buffer->data && more < buffer->capacity - buffer->size)
+    if (more < SIZE_MAX && tn_array_reserve(&buffer->data, &buffer->capacity, buffer->size, more + 1, 1))
         return true;
-    size_t capacity = more <= SIZE_MAX / 4 - buffer->size ? (buffer->size + more) * 2 + 64 : SIZE_MAX;
-    char *data = capacity < SIZE_MAX ? realloc(buffer->data, capacity) : NULL;
-    if (!data) {
-        buffer->failed = true;
-        return false;
-    }
-    buffer->data = data;
-    buffer->capacity = capacity;
-    return true;
+    buffer->failed = true;
+    return false;
 }
 
 bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length)

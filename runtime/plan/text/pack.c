@@ -6,6 +6,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 
 unsigned tn_pack_tray_bytes(const tn_schema *schema)
@@ -76,15 +77,5 @@ bool tn_unpack_trays(const tn_schema *schema, const uint8_t *bytes, size_t lengt
 
 bool tn_plan_reserve(tn_plan *plan, size_t length)
 {
-    if (length <= plan->capacity)
-        return true;
-    if (length > SIZE_MAX / 2 / sizeof *plan->trays)
-        return false;
-    size_t capacity = length + length / 2;
-    tn_tray *trays = realloc(plan->trays, capacity * sizeof *trays);
-    if (!trays)
-        return false;
-    plan->trays = trays;
-    plan->capacity = capacity;
-    return true;
+    return tn_array_reserve_from(&plan->trays, &plan->capacity, 8, 0, length, sizeof *plan->trays);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
@@ -25,15 +26,12 @@ static bool make_room(tn_plan_reader *reader, size_t wanted)
         reader->end -= reader->begin;
         reader->begin = 0;
     }
-    if (wanted <= reader->capacity)
-        return true;
-    size_t capacity = wanted + wanted / 2 + INPUT_BYTES;
-    char *data = realloc(reader->data, capacity);
-    if (!data)
-        return false;
-    reader->data = data;
-    reader->capacity = capacity;
-    return true;
+    return tn_array_reserve_from(&reader->data, &reader->capacity, INPUT_BYTES, 0, wanted, 1);
+}
+
+tn_status tn_plan_reader_unchanged(const tn_plan_reader *reader, tn_error *error)
+{
+    return tn_file_state_same(&reader->opened, reader->file, reader->path, error);
 }
 
 tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
@@ -51,7 +49,7 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
         reader->input_ended = count == 0;
         reader->end += (size_t)count;
     }
-    return TN_OK;
+    return reader->input_ended ? tn_plan_reader_unchanged(reader, error) : TN_OK;
 }
 
 /* Drops input up to and with the next end of line. */
@@ -233,6 +231,7 @@ static tn_status open_reader(tn_plan_reader *reader, const char *path, tn_error 
     reader->file = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     if (reader->file < 0)
         return tn_cannot_read(reader->path, errno, error);
+    reader->opened = tn_file_state_of(reader->file);
     return open_format(reader, error);
 }
 

@@ -2,6 +2,7 @@
 #ifndef TARTAN_PLAN_TEXT_READER_H
 #define TARTAN_PLAN_TEXT_READER_H
 
+#include "runtime/base/file.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/scanner.h"
 #include "runtime/plan/text/stream.h"
@@ -19,6 +20,7 @@ struct tn_plan_reader {
 
     /* Input of every format but SQLite: data[begin, end) is read and not yet used. */
     int file; /* descriptor, or -1 */
+    tn_file_state opened;
     bool input_ended;
     uint64_t shared, shared_end; /* bytes of the file that were given up to tn_plan_lines_read */
     char *data;

@@ -115,16 +115,23 @@ static size_t column_in_line(const csv_field *written, size_t index)
     return written->column + at;
 }
 
+/* The mark that keeps a spreadsheet from computing what follows (tn_writer_options.csv_safe) is no part of the plan. */
+static size_t mark_of(const csv_field *field)
+{
+    return field->size > 1 && field->text[0] == '\'' && strchr("=+-@", field->text[1]);
+}
+
 static tn_status parse_plan(tn_plan_reader *reader, const csv_field *written, tn_error *error)
 {
     csv_field field = *written;
     if (field.doubled && !unquote(reader, &field))
         return tn_fail_memory(error);
-    tn_status status =
-        tn_plan_scan_line(reader->scanner, field.text, field.size, reader->max_length, &reader->plan, error);
+    size_t mark = mark_of(&field);
+    tn_status status = tn_plan_scan_line(reader->scanner, field.text + mark, field.size - mark, reader->max_length,
+                                         &reader->plan, error);
     if (status != TN_OK && error->column > 0)
-        tn_error_place(error, reader->line, column_in_line(written, error->column - 1),
-                       column_in_line(written, error->column_end - 1));
+        tn_error_place(error, reader->line, column_in_line(written, mark + error->column - 1),
+                       column_in_line(written, mark + error->column_end - 1));
     return status;
 }
 

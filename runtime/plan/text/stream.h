@@ -101,10 +101,15 @@ typedef struct tn_plan_metadata {
 typedef struct tn_writer_options {
     tn_plan_format format;
     tn_plan_metadata metadata;
+    bool csv_safe;  /* a plan in CSV that begins with = + - or @ gets a ' before it: spreadsheets compute such cells */
     bool resume;    /* go on with the SQLite library at the path, if there is one */
     uint32_t batch; /* plans a transaction; 0: 100,000 */
     const tn_plan_database *sqlite;
 } tn_writer_options;
+
+/* Has the file stayed as it was since it was opened? Otherwise TN_IO (E0901): what was read may be a mix. Readers ask
+ * that themselves where the input ends; whoever shares a reader's file asks when all is read. */
+tn_status tn_plan_reader_unchanged(const tn_plan_reader *reader, tn_error *error);
 
 /* Opens a file to write plans to ("-": standard output, not for SQLite). A SQLite library that is there is replaced, or
  * with `resume` gone on with: E0606 where it was made from other rules or by another command. A file that is there and

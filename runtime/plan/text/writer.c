@@ -163,6 +163,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->csv_safe = options->csv_safe;
     writer->sqlite = options->sqlite;
     writer->length_field = tn_schema_length_field(schema);
     if (writer->length_field != UINT32_MAX)
@@ -208,8 +209,13 @@ static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *
         if (!append_field(out, total, strlen(total)) || !append_text(out, ","))
             return false;
     }
-    return tn_writer_line(writer, trays, length, line) &&
-           (line->size == 0 || append_field(out, line->data, line->size)) && append_text(out, "\n");
+    if (writer->csv_safe && !append_text(line, "'"))
+        return false;
+    if (!tn_writer_line(writer, trays, length, line))
+        return false;
+    bool marked = writer->csv_safe && line->size > 1 && strchr("=+-@", line->data[1]);
+    size_t skipped = writer->csv_safe && !marked; /* the mark was put there before it was known whether it is needed */
+    return (line->size == 0 || append_field(out, line->data + skipped, line->size - skipped)) && append_text(out, "\n");
 }
 
 static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t length)

@@ -37,6 +37,7 @@ struct tn_plan_writer {
     bool closed;
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
+    bool csv_safe;
     tn_buffer text;        /* of the plan in hand; SQLite: of those that wait */
     tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
     size_t *tray_text_end; /* [trays]: where in tray_texts each ends */

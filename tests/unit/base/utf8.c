@@ -88,9 +88,9 @@ static void test_cleaning(void **state)
     (void)state;
     expect_clean("plain \xC3\xA9", "plain \xC3\xA9");
     expect_clean("a\tb\nc\r", "a b c ");
-    expect_clean("\x1b]0;x\x07", "\xEF\xBF\xBD]0;x\xEF\xBF\xBD");
-    expect_clean("\xC2\x9B", "\xEF\xBF\xBD");     /* CSI as one character */
-    expect_clean("\xE2\x80\xAE", "\xEF\xBF\xBD"); /* right-to-left override */
+    expect_clean("\x1b]0;x\x07", "\\x1b]0;x\\x07");
+    expect_clean("\xC2\x9B", "\\u009b");     /* CSI as one character */
+    expect_clean("\xE2\x80\xAE", "\\u202e"); /* right-to-left override */
     expect_clean("\xFFz", "\xEF\xBF\xBDz");
 }
 

@@ -230,7 +230,7 @@ static void test_what_is_not_text(void **state)
     (void)state;
     fixture *f = begin("a\x1b[31m\xFF\x01 b\xE2\x80\xAE!");
     tn_report(&f->list, E_UNEXPECTED, piece(f, "b"), "an \x1b in\nhere");
-    expect_text(f, "a.plan:1:10: error[E0001]: an \xEF\xBF\xBD in here\n"
+    expect_text(f, "a.plan:1:10: error[E0001]: an \\x1b in here\n"
                    "   1 | a\xEF\xBF\xBD[31m\xEF\xBF\xBD\xEF\xBF\xBD b\xEF\xBF\xBD!\n"
                    "     |          ^\n");
     end(f);

@@ -91,7 +91,7 @@ static void assert_same_modules(const tn_module *a, const tn_module *b)
     for (tn_section section = TN_SECTION_CODE + 1; section < TN_SECTION_COUNT; section++) {
         tn_section_info info = tn_section_describe(section);
         const char *one = a->tables[section].records, *other = b->tables[section].records;
-        if (section == TN_SECTION_MAP)
+        if (section == TN_SECTION_SOURCE_MAP)
             continue;
         assert_int_equal(a->tables[section].count, b->tables[section].count);
         for (size_t i = 0; i < a->tables[section].count; i++)

@@ -78,8 +78,8 @@ static void reads(const char *text, size_t count, const char *const *sentences)
     for (uint64_t i = 0; i < count; i++) {
         uint64_t codons[4] = {i, 0, 0, 0};
         tn_mapping mapping;
-        tn_map_options options = {0};
-        assert_int_equal(tn_map_genome(mapper, codons, 4, &options, &mapping, NULL), TN_OK);
+        tn_mapping_options options = {0};
+        assert_int_equal(tn_mapper_derive(mapper, codons, 4, &options, &mapping, NULL), TN_OK);
         assert_true(mapping.valid);
         assert_string_equal(mapping.phenotype, sentences[i]);
     }
@@ -173,9 +173,9 @@ static void test_damaged_modules(void **state)
                 if (tn_grammar_new(module, 0, &grammar, NULL) == TN_OK) {
                     uint64_t codons[] = {1, 3, 5, 7, 9, 11, 2, 4};
                     tn_mapping mapping;
-                    tn_map_options options = {.wraps = 3, .max_steps = 1000, .record = true};
+                    tn_mapping_options options = {.wraps = 3, .max_steps = 1000, .record = true};
                     tn_mapper *mapper = tn_mapper_new(grammar);
-                    assert_int_equal(tn_map_genome(mapper, codons, 8, &options, &mapping, NULL), TN_OK);
+                    assert_int_equal(tn_mapper_derive(mapper, codons, 8, &options, &mapping, NULL), TN_OK);
                     tn_mapper_free(mapper);
                     tn_grammar_free(grammar);
                     loaded++;

@@ -18,17 +18,17 @@ static size_t round_trips(const char *path, uint32_t max_depth, size_t genomes, 
     for (uint64_t i = 0; i < genomes; i++) {
         for (uint64_t k = 0; k < 100; k++)
             codons[k] = tn_random64(7, i, k);
-        tn_map_options options = {.max_depth = max_depth, .repair = TN_REPAIR_OFF};
+        tn_mapping_options options = {.max_depth = max_depth, .repair = TN_REPAIR_OFF};
         tn_mapping mapping;
         tn_error error = {0};
-        assert_int_equal(tn_map_genome(mapper, codons, 100, &options, &mapping, NULL), TN_OK);
+        assert_int_equal(tn_mapper_derive(mapper, codons, 100, &options, &mapping, NULL), TN_OK);
         if (!mapping.valid || mapping.phenotype_size > longest)
             continue;
         char *sentence = strdup(mapping.phenotype);
         tn_invert_options inverting = {.max_depth = max_depth};
         if (tn_invert(grammar, sentence, mapping.phenotype_size, &inverting, &genome, &error) != TN_OK)
             fail_msg("%s: %s", sentence, error.message);
-        assert_int_equal(tn_map_genome(mapper, genome.codons, genome.count, &options, &mapping, NULL), TN_OK);
+        assert_int_equal(tn_mapper_derive(mapper, genome.codons, genome.count, &options, &mapping, NULL), TN_OK);
         assert_true(mapping.valid);
         assert_string_equal(mapping.phenotype, sentence);
         assert_int_equal(mapping.used, genome.count);

@@ -53,14 +53,14 @@ static void test_selection(void **state)
 typedef struct mutating {
     tn_grammar *grammar;
     tn_analysis analysis;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     tn_breeder *breeder;
 } mutating;
 
 static mutating begin(void)
 {
     mutating m = {.grammar = test_grammar_file(STDLIB "words.bnf")};
-    m.mapping = tn_map_options_of(m.grammar);
+    m.mapping = tn_mapping_options_of(m.grammar);
     assert_int_equal(tn_analyse(m.grammar, &m.analysis, NULL), TN_OK);
     m.breeder = tn_breeder_new(m.grammar, &m.analysis, &m.mapping);
     return m;
@@ -169,7 +169,7 @@ static void count_states(const tn_evolution *e, uint32_t counts[TN_SCORE_STATE_C
         assert_true(one->score.state == TN_SCORED ? isfinite(one->score.objectives[0])
                                                   : one->score.objectives[0] == HUGE_VAL);
         assert_true(i == 0 || members[i - 1]->score.objectives[0] <= one->score.objectives[0]);
-        assert_int_equal(one->score.state == TN_SCORE_NO_SENTENCE, one->reason != TN_MAP_VALID);
+        assert_int_equal(one->score.state == TN_SCORE_NO_SENTENCE, one->reason != TN_MAPPING_VALID);
     }
 }
 

@@ -8,7 +8,7 @@
 typedef struct fixture {
     tn_grammar *grammar;
     tn_analysis analysis;
-    tn_map_options mapping;
+    tn_mapping_options mapping;
     tn_mapper *mapper;
 } fixture;
 
@@ -16,7 +16,7 @@ static fixture prepare(const char *path)
 {
     fixture f = {.grammar = test_grammar_file(path)};
     assert_int_equal(tn_analyse(f.grammar, &f.analysis, NULL), TN_OK);
-    f.mapping = tn_map_options_of(f.grammar);
+    f.mapping = tn_mapping_options_of(f.grammar);
     f.mapping.repair = TN_REPAIR_OFF;
     f.mapper = tn_mapper_new(f.grammar);
     return f;
@@ -49,7 +49,8 @@ static void test_trees(void **state)
                                        .max_codons = 100000};
             assert_int_equal(tn_random_tree(f.grammar, &f.analysis, 0, 1, &options, &chance, &genome, NULL), TN_OK);
             tn_mapping mapping;
-            assert_int_equal(tn_map_genome(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL), TN_OK);
+            assert_int_equal(tn_mapper_derive(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL),
+                             TN_OK);
             assert_true(mapping.valid);
             assert_int_equal(mapping.used, genome.count); /* reads the tree's codons, each once */
             assert_true(mapping.depth <= options.depth);
@@ -93,7 +94,7 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
         tn_genome children[2] = {0}, copies[2] = {0}, *into[2] = {&children[0], &children[1]},
                   *twice[2] = {&copies[0], &copies[1]};
         tn_mapping mapping;
-        tn_map_genome(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
+        tn_mapper_derive(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
         tn_parent parents[2] = {{&genomes[a], mapping.used}, {&genomes[b], 0}};
         uint8_t kinds[2], same[2];
         tn_chance chance = tn_chance_for(5, TN_PURPOSE_BIRTH, 1, round), repeated = chance;
@@ -105,7 +106,7 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
             assert_int_equal(children[i].count, copies[i].count);
             assert_memory_equal(children[i].codons, copies[i].codons, children[i].count * sizeof(uint64_t));
             assert_int_equal(
-                tn_map_genome(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
+                tn_mapper_derive(f->mapper, children[i].codons, children[i].count, &f->mapping, &mapping, NULL), TN_OK);
             assert_true(mapping.valid || !keeps_valid);
             tn_genome *place = &genomes[i ? b : a];
             if (mapping.valid && (i == 0 || a != b)) {

@@ -59,11 +59,11 @@ static bool map_again(trial *t)
 {
     if (!t->mapper)
         return true; /* there was no memory for the mapper itself */
-    tn_map_options options = tn_map_options_of(t->grammar);
+    tn_mapping_options options = tn_mapping_options_of(t->grammar);
     tn_mapping mapping;
     tn_error error = {0};
     options.record = t->record;
-    if (!said(tn_map_genome(t->mapper, t->codons, CODONS, &options, &mapping, &error), &error))
+    if (!said(tn_mapper_derive(t->mapper, t->codons, CODONS, &options, &mapping, &error), &error))
         return false;
     size_t size;
     assert_true(mapping.valid);
@@ -126,13 +126,13 @@ static void test_inverting(void **state)
 
 static bool make_tree(trial *t)
 {
-    tn_map_options options = tn_map_options_of(t->grammar);
+    tn_mapping_options options = tn_mapping_options_of(t->grammar);
     tn_mapping mapping;
     tn_tree tree;
     tn_error error = {0};
     options.record = true;
     tn_mapper *mapper = tn_mapper_new(t->grammar);
-    bool worked = mapper && said(tn_map_genome(mapper, t->codons, CODONS, &options, &mapping, &error), &error);
+    bool worked = mapper && said(tn_mapper_derive(mapper, t->codons, CODONS, &options, &mapping, &error), &error);
     if (worked) {
         worked = said(tn_tree_make(mapping.events, mapping.event_count, &tree, &error), &error);
         assert_true(!worked || tree.count > 1);

@@ -293,7 +293,7 @@ static void test_what_is_emitted(void **state)
     ASSERT_CODE(m, 8, TN_OP_LABEL, TN_OP_LABEL, TN_OP_REPLACE, TN_OP_PASS); /* one successor needs no weight */
     assert_int_equal(m->FUNCTION_count, 9);
     assert_int_equal(m->REWRITE_GROUP_count, 3);
-    const tn_map_record *place = tn_module_place(m, m->FUNCTION_records[5].code_begin);
+    const tn_source_map_record *place = tn_module_place(m, m->FUNCTION_records[5].code_begin);
     assert_memory_equal(tn_text(m, m->SOURCE_records[0].text) + place->begin, "-> A - ~ A +", 12);
     tn_module_free(m);
     tn_compilation_clear(&compilation);

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "runtime/load.h"
 #include "runtime/module/code.h"
 #include "tests/support/compile_file.h"
@@ -352,9 +352,9 @@ static void places_and_stacks(void **state)
         const tn_function_record *function = &m->FUNCTION_records[f];
         uint32_t depth = 0, most = 0;
         for (uint32_t at = function->code_begin; at < function->code_end; count++) {
-            const tn_map_record *place = tn_module_place(m, at);
+            const tn_source_map_record *place = tn_module_place(m, at);
             assert_non_null(place);
-            assert_int_equal(m->MAP_records[count].offset, at);
+            assert_int_equal(m->SOURCE_MAP_records[count].offset, at);
             assert_true(place->begin < place->end);
             tn_opcode_effect effect = tn_code_effect(m->code[at]);
             depth += effect.pushes;
@@ -364,7 +364,7 @@ static void places_and_stacks(void **state)
         }
         assert_int_equal(function->stack_max, most);
     }
-    assert_int_equal(count, m->MAP_count);
+    assert_int_equal(count, m->SOURCE_MAP_count);
     drop(&c);
 }
 

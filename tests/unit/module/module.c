@@ -268,9 +268,9 @@ static void test_places(void **state)
     assert_int_equal(tn_module_load(good.bytes, good.size, NULL, &module, NULL), TN_OK);
     const tn_function_record *condition = &module->FUNCTION_records[0], *whole = &module->FUNCTION_records[1];
     assert_null(tn_module_place(module, condition->code_begin)); /* the condition has no places of its own */
-    assert_ptr_equal(tn_module_place(module, whole->code_begin), &module->MAP_records[0]);
-    assert_ptr_equal(tn_module_place(module, whole->code_end - 1), &module->MAP_records[0]);
-    assert_ptr_equal(tn_module_place(module, whole->code_end), &module->MAP_records[1]);
+    assert_ptr_equal(tn_module_place(module, whole->code_begin), &module->SOURCE_MAP_records[0]);
+    assert_ptr_equal(tn_module_place(module, whole->code_end - 1), &module->SOURCE_MAP_records[0]);
+    assert_ptr_equal(tn_module_place(module, whole->code_end), &module->SOURCE_MAP_records[1]);
     assert_null(tn_module_place(module, (uint32_t)module->code_size));
     assert_null(tn_module_place(module, UINT32_MAX));
     tn_module_free(module);

@@ -274,7 +274,8 @@ static void test_rows_ascend_and_have_one_engine(void **state)
             for (const tn_section *own = all->items[i]->sections; own && *own != TN_SECTION_STRINGS; own++)
                 owners += *own == section;
         bool common = section == TN_SECTION_STRINGS || section == TN_SECTION_CODE || section == TN_SECTION_FUNCTION ||
-                      section == TN_SECTION_SOURCE || section == TN_SECTION_MAP || section == TN_SECTION_PRODUCER;
+                      section == TN_SECTION_SOURCE || section == TN_SECTION_SOURCE_MAP ||
+                      section == TN_SECTION_PRODUCER;
         if (owners != !common)
             fail_msg("section %s belongs to %zu engines", info.name, owners);
     }

@@ -137,6 +137,41 @@ static void test_schemas(void **state)
     expect(builder, TN_INVALID, "it has value records that belong to no field record");
 }
 
+/* What the compiler refuses too: the same length twice, and more trays than a plan can have. */
+static void test_as_the_compiler(void **state)
+{
+    (void)state;
+    REFUSED(VALUE, tn_value_record, 1, length = 4 * TN_FOOT_NM, "two values of a field are the same");
+    REFUSED(LIBRARY, tn_library_record, 0, trays_max = TN_TRAYS_MAX + 1, "library 0: trays_max");
+}
+
+/* A non-terminal whose one production leads to `expands`, beside one that ends. */
+static void expect_grammar(uint32_t expands, const char *reason)
+{
+    tn_builder *builder = sample_builder();
+    tn_grammar_record grammar = {.name = tn_builder_string(builder, "g"), .rule_count = 2, .repair = TN_REPAIR_OFF};
+    grammar.rewrite_rule = grammar.predecessor = grammar.successor = TN_NO_RECORD;
+    for (uint32_t i = 0; i < 2; i++) {
+        uint32_t begin = tn_builder_offset(builder);
+        tn_builder_emit(builder, i == 0 ? TN_OP_EXPAND : TN_OP_EMIT, i == 0 ? expands : 0, 0);
+        tn_builder_emit(builder, TN_OP_DONE, 0, 0);
+        tn_builder_add_PRODUCTION(builder,
+                                  &(tn_production_record){.code_begin = begin, .code_end = tn_builder_offset(builder)});
+        tn_builder_add_NONTERMINAL(builder, &(tn_nonterminal_record){.name = tn_builder_string(builder, i ? "b" : "a"),
+                                                                     .production_first = i,
+                                                                     .production_count = 1});
+    }
+    tn_builder_add_GRAMMAR(builder, &grammar);
+    expect(builder, reason ? TN_INVALID : TN_OK, reason);
+}
+
+static void test_grammars_end(void **state)
+{
+    (void)state;
+    expect_grammar(1, NULL);
+    expect_grammar(0, "non-terminal 0 can never end");
+}
+
 static void test_second_schema(void **state)
 {
     (void)state;
@@ -180,7 +215,7 @@ static void test_places(void **state)
     REFUSED(RULE, tn_rule_record, 0, begin = size, "rule 0: it names a place outside its source");
     REFUSED(LIBRARY, tn_library_record, 0, end = size + 1, "library 0: it names a place outside its source");
     REFUSED(CLAUSE, tn_clause_record, 1, begin = 1, "clause 1: it names a place outside its source");
-    REFUSED(MAP, tn_map_record, 2, end = UINT32_MAX, "map 2: it names a place outside its source");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 2, end = UINT32_MAX, "source map 2: it names a place outside its source");
 }
 
 static void test_rules_and_libraries(void **state)
@@ -209,9 +244,9 @@ static void test_rules_and_libraries(void **state)
 static void test_functions(void **state)
 {
     (void)state;
-    REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "function 1: kind is 8");
+    REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "function 1: kind is 11");
     REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_KIND_COUNT,
-            "function 0: kind is 8; 0 to 7 are possible");
+            "function 0: kind is 11; 0 to 10 are possible");
     REFUSED(FUNCTION, tn_function_record, 1, stack_max = 1, "the stack passes the 1 that the function declares");
     REFUSED(FUNCTION, tn_function_record, 1, code_begin = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 3, code_end = UINT32_MAX, "not the stretch after the one before");
@@ -291,10 +326,13 @@ static void test_stack(void **state)
 static void test_map(void **state)
 {
     (void)state;
-    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(1).offset + 1, "the source map's record 1 names no instruction");
-    REFUSED(MAP, tn_map_record, 1, offset = sample_MAP(0).offset, "the source map does not ascend at its record 1");
-    REFUSED(MAP, tn_map_record, 0, offset = sample_MAP(1).offset, "the source map does not ascend at its record 1");
-    REFUSED(MAP, tn_map_record, 2, offset = UINT32_MAX, "the source map names places past the code");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 1, offset = sample_SOURCE_MAP(1).offset + 1,
+            "the source map's record 1 names no instruction");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 1, offset = sample_SOURCE_MAP(0).offset,
+            "the source map does not ascend at its record 1");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 0, offset = sample_SOURCE_MAP(1).offset,
+            "the source map does not ascend at its record 1");
+    REFUSED(SOURCE_MAP, tn_source_map_record, 2, offset = UINT32_MAX, "the source map names places past the code");
 }
 
 /* The reason names the code offset, so that a finding can be shown in the source. */
@@ -337,6 +375,8 @@ int main(void)
         cmocka_unit_test(test_strings),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_schemas),
+        cmocka_unit_test(test_as_the_compiler),
+        cmocka_unit_test(test_grammars_end),
         cmocka_unit_test(test_second_schema),
         cmocka_unit_test(test_specifiers),
         cmocka_unit_test(test_places),

@@ -68,7 +68,7 @@ static unsigned long brute_force(const compiled *with, const compiled *without)
 
 static bool same_part(const tn_module *module, const tn_part *a, const tn_part *b)
 {
-    const tn_map_record *x = tn_module_place(module, a->root), *y = tn_module_place(module, b->root);
+    const tn_source_map_record *x = tn_module_place(module, a->root), *y = tn_module_place(module, b->root);
     return a->kind == b->kind && x->begin == y->begin && x->end == y->end;
 }
 
@@ -77,7 +77,7 @@ static bool same_part(const tn_module *module, const tn_part *a, const tn_part *
 static bool compare(const char *text, const compiled *with, tn_coverage *coverage, const tn_parts *trees, uint32_t part)
 {
     const tn_module *module = with->opened.module;
-    const tn_map_record *place = tn_module_place(module, trees[0].parts[part].root);
+    const tn_source_map_record *place = tn_module_place(module, trees[0].parts[part].root);
     char *changed = malloc(strlen(text) + sizeof never);
     assert_non_null(changed);
     memcpy(changed, text, place->begin);

@@ -226,39 +226,6 @@ static void empty_libraries_and_empty_plans(void **state)
     }
 }
 
-/* A schema that forbids every tray has one plan, the one of no trays. */
-static void no_tray_is_legal(void **state)
-{
-    (void)state;
-    test_schema none = test_schema_tiny;
-    none.forbid_count = 1;
-    none.forbids[0] = 0xF;
-    tn_builder *builder = tn_builder_new();
-    assert_non_null(builder);
-    test_schema_add(builder, &none);
-    uint32_t spec = test_spec_add(builder, 0, 0xB), begin = tn_builder_offset(builder);
-    tn_builder_emit(builder, TN_OP_TRAY, spec, 0);
-    tn_builder_emit(builder, TN_OP_SOMEWHERE, 0, 0);
-    tn_builder_emit(builder, TN_OP_RETURN, 0, 0);
-    tn_function_record function = {.name = tn_builder_string(builder, "H"),
-                                   .kind = TN_FUNCTION_HOLDS,
-                                   .code_begin = begin,
-                                   .code_end = tn_builder_offset(builder),
-                                   .stack_max = 1};
-    tn_clause_record clause = {.name = tn_builder_string(builder, "open"), .kind = TN_CLAUSE_PRUNE};
-    clause.holds = tn_builder_add_FUNCTION(builder, &function);
-    tn_builder_add_CLAUSE(builder, &clause);
-    tn_builder_add_LIBRARY(
-        builder, &(tn_library_record){.name = tn_builder_string(builder, "none"), .trays_max = 3, .clause_count = 1});
-    hand made = {.module = test_module(builder)};
-    made.schema = test_schema_open(made.module, 0);
-    assert_int_equal(made.schema->tray_count, 0);
-    tn_library *library = hand_library(&made, NULL);
-    check_count(library, 1);
-    tn_library_free(library);
-    hand_clear(&made);
-}
-
 static void refuse(const hand *made, const tn_library_options *options, uint32_t code)
 {
     tn_library *library = NULL;
@@ -292,7 +259,6 @@ int main(void)
         cmocka_unit_test(samples_are_kept_distinct_and_repeatable),
         cmocka_unit_test(equal_meaning_has_equal_hash),
         cmocka_unit_test(empty_libraries_and_empty_plans),
-        cmocka_unit_test(no_tray_is_legal),
         cmocka_unit_test(limits_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

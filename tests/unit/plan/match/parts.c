@@ -108,8 +108,92 @@ static void compared(void **state)
     tn_close(&opened);
 }
 
+/* ---- code that no author can have written */
+
+/* A rule of one tray, and a condition n > 1. */
+enum { WHOLE, CONDITION };
+
+static uint32_t end_function(tn_builder *builder, tn_function_kind kind, uint32_t begin)
+{
+    tn_builder_emit(builder, kind == TN_FUNCTION_CONDITION ? TN_OP_ANSWER : TN_OP_RETURN, 0, 0);
+    return tn_builder_add_FUNCTION(
+        builder, &(tn_function_record){
+                     .kind = kind, .code_begin = begin, .code_end = tn_builder_offset(builder), .stack_max = 3});
+}
+
+static tn_builder *begin_module(void)
+{
+    tn_builder *builder = tn_builder_new();
+    assert_non_null(builder);
+    uint32_t any = test_spec_add(builder, test_schema_add(builder, &test_schema_tiny), 0x0f);
+    uint32_t begin = tn_builder_offset(builder);
+    tn_builder_emit(builder, TN_OP_TRAY, any, 0);
+    end_function(builder, TN_FUNCTION_WHOLE, begin);
+    begin = tn_builder_offset(builder);
+    tn_builder_emit(builder, TN_OP_GREATER, 1, 0);
+    end_function(builder, TN_FUNCTION_CONDITION, begin);
+    return builder;
+}
+
+/* The module verifies; reading the parts of its last function, the rule's, ends so. */
+static void expect_parts(tn_builder *builder, tn_status wanted)
+{
+    tn_parts parts;
+    tn_error error = {0};
+    uint32_t holds = (uint32_t)tn_builder_count(builder, TN_SECTION_FUNCTION) - 1;
+    tn_builder_add_RULE(builder,
+                        &(tn_rule_record){.name = tn_builder_string(builder, "r"), .whole = WHOLE, .holds = holds});
+    tn_module *module = test_module(builder);
+    assert_int_equal(tn_parts_read(module, holds, &parts, &error), wanted);
+    assert_true(wanted == TN_OK || error.code == E_REFUSED_MODULE);
+    tn_parts_clear(&parts);
+    tn_module_free(module);
+}
+
+/* The first instruction, `more` if it is not NOT, and a count of that. */
+static void expect_counted(tn_opcode first, tn_opcode more, tn_opcode count, tn_status wanted)
+{
+    tn_builder *builder = begin_module();
+    uint32_t begin = tn_builder_offset(builder);
+    tn_builder_emit(builder, first, WHOLE, 0);
+    if (more != TN_OP_NOT)
+        tn_builder_emit(builder, more, 0, 0);
+    tn_builder_emit(builder, count, CONDITION, 0);
+    end_function(builder, TN_FUNCTION_HOLDS, begin);
+    expect_parts(builder, wanted);
+}
+
+static void foreign(void **state)
+{
+    (void)state;
+    expect_counted(TN_OP_CALL, TN_OP_NOT, TN_OP_OCCURRENCES, TN_OK);
+    expect_counted(TN_OP_MIRROR, TN_OP_NOT, TN_OP_OCCURRENCES, TN_INVALID);
+    expect_counted(TN_OP_MIRROR, TN_OP_NONEMPTY, TN_OP_QUANTITY, TN_INVALID);
+    expect_counted(TN_OP_CALL, TN_OP_SOMEWHERE, TN_OP_QUANTITY, TN_INVALID);
+}
+
+/* Each function mirrors the one before twice: written out, they are more parts than there is memory for. */
+static void doubled(void **state)
+{
+    (void)state;
+    tn_builder *builder = begin_module();
+    uint32_t before = WHOLE, begin;
+    for (int i = 0; i < 40; i++) {
+        begin = tn_builder_offset(builder);
+        for (int twice = 0; twice < 2; twice++) {
+            tn_builder_emit(builder, TN_OP_CALL, before, 0);
+            tn_builder_emit(builder, TN_OP_MIRROR, before, 0);
+            tn_builder_emit(builder, TN_OP_OR, 0, 0);
+        }
+        tn_builder_emit(builder, TN_OP_AND, 0, 0);
+        before = end_function(builder, i < 39 ? TN_FUNCTION_WHOLE : TN_FUNCTION_HOLDS, begin);
+    }
+    expect_parts(builder, TN_INVALID);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cut), cmocka_unit_test(compared)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cut), cmocka_unit_test(compared), cmocka_unit_test(foreign),
+                                       cmocka_unit_test(doubled)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,6 +49,23 @@ static void test_forbidden_trays_have_no_number(void **state)
     tn_module_free(module);
 }
 
+/* Two that overlap and leave nothing: a module's, since the compiler refuses such a source. */
+static void test_no_legal_tray(void **state)
+{
+    (void)state;
+    test_schema all = test_schema_tiny;
+    tn_schema *schema;
+    tn_error error;
+    all.forbid_count = 2;
+    all.forbids[0] = 0x0d;
+    all.forbids[1] = 0x0e;
+    tn_module *module = module_of(&all);
+    assert_int_equal(tn_schema_new(module, 0, 0, &schema, &error), TN_INVALID);
+    assert_int_equal(error.code, E_NOTHING_LEGAL);
+    assert_null(schema);
+    tn_module_free(module);
+}
+
 static void test_specifiers(void **state)
 {
     (void)state;
@@ -182,6 +199,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_trays_are_numbered_in_order),
         cmocka_unit_test(test_forbidden_trays_have_no_number),
+        cmocka_unit_test(test_no_legal_tray),
         cmocka_unit_test(test_specifiers),
         cmocka_unit_test(test_fields),
         cmocka_unit_test(test_too_many_combinations),

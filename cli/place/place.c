@@ -1,0 +1,237 @@
+/* tartan place: places parts by a connection grammar, and writes the model. */
+#include "cli/place/place.h"
+
+#include <inttypes.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/option_rows.h"
+#include "driver/place/place.h"
+
+typedef struct place_settings {
+    tn_settings common;
+    tn_option_list outputs;
+    const char *program;
+    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, memory_limit;
+    int stats, engine;
+    bool trace, header, keep_partial;
+} place_settings;
+
+typedef enum out_format { OUT_LDRAW, OUT_LIST, OUT_NONE } out_format;
+
+typedef struct placing {
+    tn_job *job;
+    const place_settings *settings;
+    tn_place_rules rules;
+    tn_placed_model model;
+} placing;
+
+static out_format format_of(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    if (strcmp(path, "-") == 0 || (dot && strcasecmp(dot, ".ldr") == 0))
+        return OUT_LDRAW;
+    return dot && strcasecmp(dot, ".csv") == 0 ? OUT_LIST : OUT_NONE;
+}
+
+static bool check_options(tn_job *job)
+{
+    const place_settings *s = (const place_settings *)job->settings;
+    uint32_t standard = s->program && strcmp(s->program, "-") == 0;
+    bool ldraw = false;
+    for (size_t i = 0; i < s->outputs.count; i++) {
+        const char *path = s->outputs.items[i];
+        standard += strcmp(path, "-") == 0;
+        ldraw |= format_of(path) == OUT_LDRAW;
+        if (format_of(path) != OUT_NONE)
+            continue;
+        tn_diagnostic *d = tn_job_usage(job, "%.200s does not say what is to be written", path);
+        tn_help(tn_job_diagnostics(job), d, "end its name in .ldr (a model) or .csv (a list of its parts)");
+        return false;
+    }
+    if (standard + (s->trace || s->stats) > 1)
+        tn_job_usage(job, "standard output takes one thing only: name a file with -o");
+    else if (s->header && !ldraw)
+        tn_job_usage(job, "--header is of an .ldr file: name one with -o");
+    else if (s->keep_partial && s->outputs.count == 0 && !s->program)
+        tn_job_usage(job, "--keep-partial does nothing without a file: name one with -o");
+    else
+        return true;
+    return false;
+}
+
+/* ---- what is written */
+
+static void write_header(const placing *p, FILE *out)
+{
+    const tn_module *module = p->rules.module;
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    fprintf(out, "0 %s\n0 seed %" PRIu64 ", rules %016" PRIx64 ", %s\n",
+            tn_text(module, module->GRAMMAR_records[0].name), p->settings->seed.value,
+            producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
+}
+
+static void write_output(placing *p, const char *path)
+{
+    tn_output output;
+    tn_error error;
+    tn_status status = TN_OK;
+    if (!tn_job_output(p->job, path, &output))
+        return;
+    if (format_of(path) == OUT_LIST) {
+        status = tn_place_write_list(&p->model, output.stream, &error);
+    } else {
+        if (p->settings->header)
+            write_header(p, output.stream);
+        tn_place_write_ldraw(&p->model, output.stream);
+    }
+    if (status != TN_OK)
+        tn_job_fail(p->job, &error);
+    tn_job_close(p->job, &output, status == TN_OK);
+}
+
+static void write_program(placing *p)
+{
+    tn_output output;
+    if (!tn_job_output(p->job, p->settings->program, &output))
+        return;
+    tn_place_write_program(&p->model, &p->rules, output.stream);
+    tn_job_commit(p->job, &output);
+}
+
+static void print_summary(placing *p)
+{
+    tn_output output;
+    tn_error error;
+    tn_status status = TN_OK;
+    if (!tn_job_output(p->job, NULL, &output))
+        return;
+    if (p->settings->stats)
+        tn_place_stats(&p->model, p->settings->stats == 2, output.stream);
+    else
+        status = tn_place_summary(&p->model, output.stream, &error);
+    if (status != TN_OK)
+        tn_job_fail(p->job, &error);
+    tn_job_close(p->job, &output, status == TN_OK);
+}
+
+static void write_all(placing *p)
+{
+    const place_settings *s = p->settings;
+    for (size_t i = 0; i < s->outputs.count; i++)
+        write_output(p, s->outputs.items[i]);
+    if (s->program)
+        write_program(p);
+    if (s->stats || (s->outputs.count == 0 && !s->program && !s->trace))
+        print_summary(p);
+}
+
+/* ---- the run */
+
+static bool stop(void *context)
+{
+    (void)context;
+    return tn_interrupted();
+}
+
+static void report(void *context, const tn_place_event *event)
+{
+    const placing *p = context;
+    tn_place_trace(p->job, &p->rules, event, stdout);
+}
+
+static tn_place_options options_of(placing *p)
+{
+    const place_settings *s = p->settings;
+    return (tn_place_options){.seed = (uint32_t)s->seed.value,
+                              .part_limit = s->part_limit.value,
+                              .step_limit = s->step_limit.value,
+                              .frame_limit = s->frame_limit.value,
+                              .lookahead_limit = s->lookahead_limit.value,
+                              .memory_limit = s->memory_limit.value << 20,
+                              .keep_steps = s->program != NULL,
+                              .watch = s->trace,
+                              .interpret = s->engine == 1,
+                              .stop = stop,
+                              .report = s->trace ? report : NULL,
+                              .context = p};
+}
+
+static void run_placing(placing *p)
+{
+    tn_error error;
+    tn_status status = tn_place_rules_make(p->job->opened.module, &p->rules, &error);
+    if (status != TN_OK) {
+        tn_fail(&error, status, E_NOT_PLACING, "%.200s holds nothing to place", p->settings->common.operands.items[0]);
+        tn_error_help(&error, "%s", tn_opened_help(&p->job->opened, "connection grammars are .pcfg files").text);
+        tn_job_fail(p->job, &error);
+        return;
+    }
+    tn_place_options options = options_of(p);
+    tn_job_show(p->job);
+    status = tn_place_model(&p->job->opened, &p->rules, &options, &p->model);
+    tn_job_status(p->job, status);
+    if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0))
+        write_all(p);
+    else if (p->model.count > 0)
+        tn_job_note(p->job, "%zu part%s placed before; nothing was written", p->model.count,
+                    p->model.count == 1 ? " was" : "s were");
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    tn_job job;
+    placing p = {.job = &job, .settings = (const place_settings *)common};
+    tn_job_begin(&job, common);
+    if (check_options(&job) && tn_job_open_joined(&job, common->operands.items, common->operands.count))
+        run_placing(&p);
+    tn_placed_model_clear(&p.model);
+    tn_place_rules_clear(&p.rules);
+    return tn_job_end(&job);
+}
+
+#define SETTINGS place_settings
+static const tn_option options[] = {
+    LIST("output", 'o', "FILE", outputs,
+         "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
+         "a model on standard output"),
+    NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
+    TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, parted by blanks"),
+    MAYBE("stats", 0, "[table|json]", stats, "table|json",
+          "print figures: parts, steps, alternatives looked at, cells"),
+    FLAG("trace", 0, trace, "print of every symbol which alternatives did not fit, and what was in the way"),
+    FLAG("header", 0, header, "begin an .ldr file with how it was made"),
+    FLAG("keep-partial", 0, keep_partial, "where the run cannot go on, write what was placed before"),
+    CHOICE("engine", 0, "ENGINE", engine, "auto|vm",
+           "vm looks ahead step by step; auto, the default, does what can be worked out beforehand once"),
+    NUMBER("part-limit", 0, "N", part_limit, 1, UINT32_MAX, "the most parts (default 1000000)"),
+    NUMBER("step-limit", 0, "N", step_limit, 1, UINT64_MAX, "the most steps (default 1000000000)"),
+    NUMBER("frame-limit", 0, "N", frame_limit, 1, UINT32_MAX, "the most ( that are open at a time (default 1000000)"),
+    NUMBER("lookahead-limit", 0, "N", lookahead_limit, 1, UINT64_MAX,
+           "the most steps of one lookahead, and of symbols expanded without a step (default 1000000)"),
+    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24, "the most memory of the filled cells (default 4096)"),
+    OPTION_WERROR,
+};
+
+const tn_command tn_command_place = {
+    .name = "place",
+    .summary = "place parts by a connection grammar",
+    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.pcfg... --trace",
+    .description =
+        "Derives a model from a connection grammar and writes it. The files are one grammar together, in the order "
+        "given, and the first rule's symbol is expanded: its alternatives are tried in their order, and the first that "
+        "finds room is taken; where their probabilities sum to 1, one is drawn. Without -o a summary is printed.\n\n"
+        "Where the published program for these grammars comes to its end, the .ldr file has the same bytes. Where a "
+        "part has no room, the run ends with exit code 1, says what is in the way and since when, and writes nothing "
+        "unless --keep-partial is given.",
+    .example = "$ tartan place wall.pcfg bricks.pcfg -o wall.ldr -o parts.csv",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .operands = "at least one FILE.pcfg",
+    .operands_min = 1,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

@@ -1,0 +1,95 @@
+/* Summaries, figures and traces of placing, as text. */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "cli/place/place.h"
+#include "driver/place/place.h"
+
+tn_status tn_place_summary(const tn_placed_model *model, FILE *out, tn_error *error)
+{
+    tn_part_count *counts;
+    size_t kinds;
+    tn_status status = tn_place_count_parts(model, &counts, &kinds, error);
+    if (status != TN_OK)
+        return status;
+    fprintf(out, "%zu part%s\n", model->count, model->count == 1 ? "" : "s");
+    for (size_t i = 0; i < kinds; i++)
+        fprintf(out, "%8" PRIu64 "  %s in colour %d\n", counts[i].count, counts[i].name, counts[i].colour);
+    free(counts);
+    return TN_OK;
+}
+
+void tn_place_stats(const tn_placed_model *model, bool json, FILE *out)
+{
+    const tn_place_counts *c = &model->counts;
+    const struct {
+        const char *name, *what;
+        uint64_t value;
+    } rows[] = {
+        {"elements", "parts placed", c->parts},
+        {"terminals", "steps taken", c->steps},
+        {"expansions", "symbols expanded", c->expansions},
+        {"random", "of these, by a draw", c->draws},
+        {"tries", "alternatives looked at", c->tries},
+        {"fallbacks", "times that none fitted", c->fallbacks},
+        {"cells", "cells filled", c->cells},
+        {"bounds", "bounds set", c->bounds},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (json)
+            fprintf(out, "%s\"%s\":%" PRIu64, i ? "," : "{", rows[i].name, rows[i].value);
+        else
+            fprintf(out, "%12" PRIu64 "  %s\n", rows[i].value, rows[i].what);
+    }
+    if (json)
+        fputs("}\n", out);
+}
+
+/* ---- traces */
+
+static void write_place(tn_job *job, tn_span span, FILE *out)
+{
+    tn_place place = tn_sources_place(&job->opened.compilation.sources, span);
+    fprintf(out, "%s:%zu", place.path, place.line);
+}
+
+static void write_step(tn_job *job, const tn_place_rules *rules, uint32_t step, FILE *out)
+{
+    size_t length;
+    const char *text = tn_step_text(rules, &rules->steps[step], &length);
+    fprintf(out, "'%.*s' of ", (int)length, text);
+    write_place(job, tn_place_step_span(rules, step), out);
+}
+
+static void write_refusal(tn_job *job, const tn_place_rules *rules, const tn_place_event *event, FILE *out)
+{
+    const tn_place_obstacle *o = &event->obstacle;
+    fputs("does not fit: ", out);
+    write_step(job, rules, event->step, out);
+    if (!o->known) {
+        fputs(" has nothing to touch", out);
+    } else if (!o->has_step) {
+        fprintf(out, " meets a bound at %d %d %d", o->cell[0], o->cell[1], o->cell[2]);
+    } else {
+        fprintf(out, " meets, at %d %d %d, what ", o->cell[0], o->cell[1], o->cell[2]);
+        write_step(job, rules, o->step, out);
+        fprintf(out, " filled after %u part%s", o->parts, o->parts == 1 ? "" : "s");
+    }
+}
+
+void tn_place_trace(tn_job *job, const tn_place_rules *rules, const tn_place_event *event, FILE *out)
+{
+    static const char *const words[] = {"", "is taken", "is drawn", "is taken although it does not fit"};
+    const tn_frame *frame = event->frame;
+    fprintf(out, "%zu part%s", event->parts, event->parts == 1 ? "" : "s");
+    if (frame)
+        fprintf(out, ", at %d %d %d heading %u", frame->at[0], frame->at[1], frame->at[2], frame->heading);
+    fprintf(out, ": %s of ", rules->symbols[tn_place_symbol_of(rules, event->alternative)].name);
+    write_place(job, tn_place_alternative_span(rules, event->alternative), out);
+    fputc(' ', out);
+    if (event->outcome == TN_PLACE_REFUSED)
+        write_refusal(job, rules, event, out);
+    else
+        fputs(words[event->outcome], out);
+    fputc('\n', out);
+}

@@ -1,0 +1,92 @@
+/* Compiles .field files; and the front end that the table of notations names. */
+#include <string.h>
+
+#include "compiler/common/emit_sources.h"
+#include "compiler/common/notation.h"
+#include "compiler/field/field.h"
+
+static const char field_files[] = ".field";
+
+/* What importing needs to know of a file. */
+static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
+{
+    *use_count = 0;
+    tn_field_file *file = tn_parse_field(arena, diagnostics, unit->file, NULL);
+    if (!file)
+        return false;
+    unit->tree = file;
+    *uses = TN_NEW_ARRAY(arena, tn_use, file->use_count + 1);
+    if (!*uses)
+        return false;
+    for (const tn_field_use *use = file->uses.first; use; use = use->next) {
+        if (use->path.text[0] == '\0') {
+            tn_diagnostic *d = tn_report(diagnostics, E_IMPORT_NOT_FOUND, use->path.span, "the file has no name");
+            tn_help(diagnostics, d, "write its path, or the name of one of the standard library's");
+            continue;
+        }
+        (*uses)[(*use_count)++] = (tn_use){use->path.text, use->path.span, NULL, NULL};
+    }
+    return true;
+}
+
+static tn_status emit(tn_compilation *c, const tn_compile_options *options, const tn_imports *imports,
+                      const tn_checked_fields *checked, tn_error *error)
+{
+    tn_builder *builder = tn_builder_new();
+    if (!builder)
+        return tn_fail_memory(error);
+    tn_emit_sources(builder, imports, &c->sources);
+    tn_status status = tn_emit_field(builder, c->arena, &c->diagnostics, checked, error);
+    if (status == TN_OK && options->warnings_are_errors && c->diagnostics.warning_count > 0)
+        status = TN_INVALID;
+    if (status == TN_OK)
+        status = tn_builder_finish(builder, &c->module, &c->module_size, error);
+    tn_builder_free(builder);
+    return status;
+}
+
+static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
+{
+    tn_imports imports;
+    tn_checked_fields checked;
+    tn_diagnostics *diagnostics = &c->diagnostics;
+    tn_status status = tn_import_all(c, options, field_files, parse_unit, &imports);
+    if (status != TN_OK)
+        return status;
+    bool damaged = false;
+    for (size_t u = 0; u < imports.count; u++) {
+        const tn_field_file *file = imports.units[u]->tree;
+        damaged = damaged || !file || file->damaged;
+    }
+    if (!damaged && !tn_check_field(c->arena, diagnostics, &imports, &checked))
+        return tn_fail_memory(error);
+    if (tn_arena_failed(c->arena) || diagnostics->failed)
+        return tn_fail_memory(error);
+    if (damaged || diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
+        return TN_INVALID;
+    return emit(c, options, &imports, &checked, error);
+}
+
+static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
+{
+    reading->tree = tn_parse_field(arena, diagnostics, reading->file, &reading->tokens);
+    return reading->tree != NULL;
+}
+
+/* A library of functions leaves nothing but its name. */
+static bool made(const tn_module *module)
+{
+    const char *path = module->SOURCE_count ? tn_text(module, module->SOURCE_records[0].path) : "";
+    return module->SURFACE_count > 0 || strcmp(tn_path_extension(path), field_files) == 0;
+}
+
+extern const tn_front tn_front_field;
+const tn_front tn_front_field = {
+    .read = read,
+    .compile = compile,
+    .made = made,
+    .list = tn_field_list,
+    .lay_out = tn_format_field,
+    .spell = tn_format_small_letters,
+    .nests = true,
+};

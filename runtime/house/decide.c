@@ -1,0 +1,175 @@
+/* Decides on cells and sections by running their code, and from that what may be in a cell or a face. */
+#include "runtime/house/house.h"
+#include "runtime/module/code.h"
+
+__extension__ typedef __int128 square;
+
+/* ---- code */
+
+static bool area_compares(const tn_cell *cell, int64_t test, int64_t square_micrometres)
+{
+    square area = (square)(cell->at.x1 - cell->at.x0) * (cell->at.y1 - cell->at.y0),
+           other = (square)square_micrometres * 1000000;
+    switch ((tn_area_test)test) {
+    case TN_AREA_LESS:
+        return area < other;
+    case TN_AREA_AT_MOST:
+        return area <= other;
+    case TN_AREA_EQUAL:
+        return area == other;
+    case TN_AREA_UNEQUAL:
+        return area != other;
+    case TN_AREA_AT_LEAST:
+        return area >= other;
+    case TN_AREA_GREATER:
+    case TN_AREA_TEST_COUNT:
+        break;
+    }
+    return area > other;
+}
+
+/* Is the section's value of some choice this SHAPE record? */
+static bool chosen(const tn_house *house, int64_t shape)
+{
+    const tn_house_form *form = house->form;
+    for (uint32_t i = 0; i < form->record->choice_count; i++)
+        if ((int64_t)tn_form_choice(form, i)->shape_first + house->shapes[i] == shape)
+            return true;
+    return false;
+}
+
+/* What an instruction without inputs says; what asks for a cell is false of a section. */
+static bool question(const tn_house *house, const tn_instruction *instruction, const tn_cell *cell)
+{
+    const tn_house_form *form = house->form;
+    if (instruction->opcode == TN_OP_EVERY)
+        return true;
+    if (instruction->opcode == TN_OP_CHOSEN)
+        return chosen(house, instruction->first);
+    if (!cell)
+        return false;
+    switch (instruction->opcode) {
+    case TN_OP_IN_TRAY:
+        return tn_spec_meets(form->schema, (uint32_t)instruction->first, house->trays[cell->tray]);
+    case TN_OP_IN_ZONE:
+        return form->schema->record->field_first + (int64_t)cell->zone == instruction->first;
+    case TN_OP_IN_STOREY:
+        return form->record->storey_first + (int64_t)cell->storey == instruction->first;
+    case TN_OP_IS_FOR:
+        return cell->function != TN_NO_FUNCTION &&
+               form->record->rule_first + (int64_t)cell->function == instruction->first;
+    case TN_OP_IS_VOID:
+        return cell->open;
+    default:
+        return area_compares(cell, instruction->first, instruction->second);
+    }
+}
+
+bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell)
+{
+    const tn_module *module = house->form->module;
+    bool stack[TN_DECISION_STACK_MAX];
+    size_t depth = 0;
+    uint32_t at = module->FUNCTION_records[function].code_begin;
+    for (;;) {
+        tn_instruction instruction = tn_code_read(module->code, at);
+        at += instruction.length;
+        switch (instruction.opcode) {
+        case TN_OP_ALL_OF:
+            depth--;
+            stack[depth - 1] = stack[depth - 1] && stack[depth];
+            break;
+        case TN_OP_ONE_OF:
+            depth--;
+            stack[depth - 1] = stack[depth - 1] || stack[depth];
+            break;
+        case TN_OP_NONE_OF:
+            stack[depth - 1] = !stack[depth - 1];
+            break;
+        case TN_OP_DECIDE:
+            return stack[depth - 1];
+        default:
+            stack[depth++] = question(house, &instruction, cell);
+        }
+    }
+}
+
+bool tn_house_section_stands(const tn_house *house)
+{
+    const tn_house_form *form = house->form;
+    for (uint32_t i = form->kinds_end[TN_CELL_NO]; i < form->kinds_end[TN_CELL_FORBID]; i++)
+        if (tn_house_decide(house, tn_form_rule(form, i)->decides, NULL))
+            return false;
+    return true;
+}
+
+bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function)
+{
+    return !cell->open && tn_house_decide(house, tn_form_rule(house->form, function)->decides, cell);
+}
+
+/* ---- faces */
+
+/* Does the kind fit into the face? An opening leaves half a wall at either side, and a deck above. */
+static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, kind);
+    if (!opening)
+        return kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE;
+    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;
+    return opening->wide + house->form->record->wall <= wide &&
+           opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
+}
+
+static bool is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+{
+    if (line->relation == TN_FACE_ALONG || line->relation == TN_FACE_ACROSS) {
+        bool along = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_RIGHT;
+        if (face->relation != TN_FACE_BESIDE || along != (line->relation == TN_FACE_ALONG))
+            return false;
+    } else if (line->relation != (uint32_t)face->relation) {
+        return false;
+    }
+    const tn_cell *first = &house->cells[face->first];
+    if (face->relation == TN_FACE_OUTSIDE)
+        return (line->side == TN_HOUSE_ANY_SIDE || line->side == (uint32_t)face->side) &&
+               tn_house_decide(house, line->first, first);
+    const tn_cell *second = &house->cells[face->second];
+    if (tn_house_decide(house, line->first, first) && tn_house_decide(house, line->second, second))
+        return true;
+    bool either = line->relation == TN_FACE_BESIDE || line->relation == TN_FACE_ACROSS;
+    return either && tn_house_decide(house, line->first, second) && tn_house_decide(house, line->second, first);
+}
+
+/* The kinds of the first line that is about the face and has some that fit; a void is always open to what is below it.
+ */
+size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX])
+{
+    const tn_house_form *form = house->form;
+    size_t count = 0;
+    if (face->relation == TN_FACE_UNDER && house->cells[face->second].open) {
+        kinds[0] = TN_FACE_OPEN;
+        return 1;
+    }
+    for (uint32_t i = 0; count == 0 && i < form->record->face_count; i++) {
+        const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
+        if (!is_about(house, line, face))
+            continue;
+        for (uint32_t k = 0; k < line->kind_count && count < TN_FACE_KINDS_MAX; k++) {
+            uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
+            if (fits(house, face, kind))
+                kinds[count++] = kind;
+        }
+    }
+    if (count == 0)
+        kinds[count++] = face->relation == TN_FACE_UNDER ? TN_FACE_FLOOR : TN_FACE_WALL;
+    return count;
+}
+
+int64_t tn_face_thickness(const tn_house *house, const tn_face *face)
+{
+    if (face->relation == TN_FACE_UNDER || face->kind == TN_FACE_OPEN)
+        return 0;
+    bool thick = face->relation == TN_FACE_OUTSIDE || face->kind == TN_FACE_PARTY;
+    return thick ? house->form->record->wall : house->form->record->partition;
+}

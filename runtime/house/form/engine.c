@@ -1,0 +1,168 @@
+/* Verifies the forms of a module: what standing a house relies on beyond the bounds of each field. */
+#include "runtime/module/engine.h"
+#include "runtime/house/form/form.h"
+
+static const tn_function_record *function_of(const tn_checker *checker, uint32_t index)
+{
+    return &checker->module->FUNCTION_records[index];
+}
+
+static bool decides(const tn_checker *checker, uint32_t function, tn_function_kind kind, uint32_t schema)
+{
+    const tn_function_record *record = function_of(checker, function);
+    return record->kind == kind && record->schema == schema;
+}
+
+/* Is the field a zone of the schema? */
+static bool is_zone(const tn_checker *checker, uint32_t field, uint32_t schema)
+{
+    const tn_schema_record *record = &checker->module->SCHEMA_records[schema];
+    return field >= record->field_first && field - record->field_first < record->field_count &&
+           checker->module->FIELD_records[field].kind == TN_FIELD_ZONE;
+}
+
+static tn_status check_choice(const tn_checker *checker, const tn_form_record *form, uint32_t index)
+{
+    const tn_choice_record *choice = &checker->module->CHOICE_records[index];
+    if (choice->kind != TN_CHOICE_PLAIN && !is_zone(checker, choice->zone, form->schema))
+        return tn_refuse(checker, "choice %u is about no zone of its form's schema", index);
+    for (uint32_t i = 0; i < choice->shape_count; i++) {
+        const tn_shape_record *shape = &checker->module->SHAPE_records[choice->shape_first + i];
+        bool slope = shape->roof >= TN_ROOF_SHED_BACK && shape->roof <= TN_ROOF_GABLE;
+        if (choice->kind == TN_CHOICE_STOREYS && (shape->storeys < 1 || shape->storeys > form->storey_count))
+            return tn_refuse(checker, "choice %u has a number of storeys that its form has not", index);
+        if (choice->kind == TN_CHOICE_ROOF &&
+            (shape->roof == TN_ROOF_NONE || (slope && (shape->rise == 0 || shape->run == 0))))
+            return tn_refuse(checker, "choice %u has a roof without a shape", index);
+    }
+    return TN_OK;
+}
+
+static tn_status check_rules(const tn_checker *checker, const tn_form_record *form)
+{
+    const tn_cell_rule_record *rules = checker->module->CELL_RULE_records + form->rule_first;
+    for (uint32_t i = 0; i < form->rule_count; i++) {
+        tn_function_kind kind = rules[i].kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL;
+        if (!decides(checker, rules[i].decides, kind, form->schema))
+            return tn_refuse(checker, "line %u of cells names a function of another kind or schema",
+                             form->rule_first + i);
+        if (i > 0 && rules[i].kind < rules[i - 1].kind)
+            return tn_refuse(checker, "line %u of cells is out of order", form->rule_first + i);
+    }
+    return TN_OK;
+}
+
+static tn_status check_items(const tn_checker *checker, uint32_t first, uint32_t count, uint32_t end)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (checker->module->HOUSE_ITEM_records[first + i].number >= end)
+            return tn_refuse(checker, "item %u of a form is beyond what the form has", first + i);
+    return TN_OK;
+}
+
+static tn_status check_face(const tn_checker *checker, const tn_form_record *form, uint32_t index)
+{
+    const tn_face_line_record *face = &checker->module->FACE_LINE_records[index];
+    bool outside = face->relation == TN_FACE_OUTSIDE;
+    if (!decides(checker, face->first, TN_FUNCTION_CELL, form->schema) || outside != (face->second == TN_NO_RECORD) ||
+        (!outside && !decides(checker, face->second, TN_FUNCTION_CELL, form->schema)))
+        return tn_refuse(checker, "line %u of faces names a function of another kind or schema", index);
+    for (uint32_t i = 0; i < face->kind_count; i++) {
+        uint32_t kind = checker->module->HOUSE_ITEM_records[face->kind_first + i].number;
+        bool vertical = kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR;
+        if (kind != TN_FACE_OPEN && vertical != (face->relation == TN_FACE_UNDER))
+            return tn_refuse(checker, "line %u of faces has a kind that cannot be there", index);
+    }
+    return check_items(checker, face->kind_first, face->kind_count, TN_FACE_KIND_COUNT + form->opening_count);
+}
+
+static tn_status check_tile(const tn_checker *checker, const tn_form_record *form, uint32_t index)
+{
+    const tn_tile_record *tile = &checker->module->TILE_records[index];
+    tn_status status = check_items(checker, tile->purpose_first, tile->purpose_count, form->rule_count);
+    return status == TN_OK ? check_items(checker, tile->against_first, tile->against_count,
+                                         TN_FACE_KIND_COUNT + form->opening_count)
+                           : status;
+}
+
+static bool has_length(const tn_checker *checker, uint32_t schema)
+{
+    const tn_schema_record *record = &checker->module->SCHEMA_records[schema];
+    for (uint32_t i = 0; i < record->field_count; i++)
+        if (checker->module->FIELD_records[record->field_first + i].kind == TN_FIELD_LENGTH)
+            return true;
+    return false;
+}
+
+static tn_status check_form(const tn_checker *checker, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    const tn_form_record *form = &module->FORM_records[index];
+    tn_status status = TN_OK;
+    if (!is_zone(checker, form->spine, form->schema) || !has_length(checker, form->schema))
+        return tn_refuse(checker, "form %u has a spine that is no zone, or trays without a length", index);
+    if (form->wall % 2 || form->partition % 2)
+        return tn_refuse(checker, "form %u has walls whose halves are not whole", index);
+    for (uint32_t i = 0; i < form->storey_count; i++)
+        if (module->STOREY_records[form->storey_first + i].height <= form->deck)
+            return tn_refuse(checker, "storey %u is no higher than its deck", form->storey_first + i);
+    for (uint32_t i = 0; status == TN_OK && i < form->choice_count; i++)
+        status = check_choice(checker, form, form->choice_first + i);
+    if (status == TN_OK)
+        status = check_rules(checker, form);
+    for (uint32_t i = 0; status == TN_OK && i < form->face_count; i++)
+        status = check_face(checker, form, form->face_first + i);
+    for (uint32_t i = 0; status == TN_OK && i < form->tile_count; i++)
+        status = check_tile(checker, form, form->tile_first + i);
+    return status;
+}
+
+static tn_status verify(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (uint32_t i = 0; i < module->FORM_count; i++) {
+        tn_status status = check_form(checker, i);
+        if (status != TN_OK)
+            return status;
+    }
+    return tn_check_different(checker, &module->FORM_records->name, sizeof *module->FORM_records, module->FORM_count,
+                              "two forms have the same name");
+}
+
+static tn_status verify_function(const tn_checker *checker, uint32_t function)
+{
+    if (function_of(checker, function)->stack_max > TN_DECISION_STACK_MAX)
+        return tn_refuse(checker, "a decision's stack passes %u", TN_DECISION_STACK_MAX);
+    if (function_of(checker, function)->schema >= checker->module->SCHEMA_count)
+        return tn_refuse(checker, "there is no schema %u", function_of(checker, function)->schema);
+    return TN_OK;
+}
+
+static tn_status check_area(const tn_checker *checker, const tn_instruction *instruction)
+{
+    if (instruction->first < 0 || instruction->first >= TN_AREA_TEST_COUNT || instruction->second < 0)
+        return tn_refuse(checker, "an area is compared in no known way");
+    return TN_OK;
+}
+
+static void list_area(tn_lister *lister, const tn_instruction *instruction)
+{
+    static const char *const signs[] = {"<", "<=", "=", "!=", ">=", ">"};
+    fprintf(lister->out, "area %s %lld", signs[instruction->first], (long long)instruction->second);
+}
+
+static const tn_section sections[] = {TN_SECTION_FORM,       TN_SECTION_STOREY,    TN_SECTION_CHOICE,
+                                      TN_SECTION_SHAPE,      TN_SECTION_CELL_RULE, TN_SECTION_OPENING,
+                                      TN_SECTION_FACE_LINE,  TN_SECTION_TILE,      TN_SECTION_TILE_BOX,
+                                      TN_SECTION_HOUSE_ITEM, TN_SECTION_STRINGS};
+
+static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area}};
+
+extern const tn_engine tn_engine_house;
+const tn_engine tn_engine_house = {.name = "house",
+                                   .sections = sections,
+                                   .codes = 1u << TN_CODE_HOUSE,
+                                   .operands = operands,
+                                   .operand_count = sizeof operands / sizeof *operands,
+                                   .verify = verify,
+                                   .verify_function = verify_function};

@@ -1,0 +1,60 @@
+/* A form made ready: what a plan's trays become when they stand up (docs/houses.md).
+ *
+ * A form is immutable and may be shared between threads. It borrows the module and the schema, which must outlive it.
+ */
+#ifndef TARTAN_HOUSE_FORM_FORM_H
+#define TARTAN_HOUSE_FORM_FORM_H
+
+#include "runtime/plan/schema/schema.h"
+
+#define TN_DECISION_STACK_MAX 1024u
+
+typedef struct tn_house_form {
+    const tn_module *module;
+    const tn_form_record *record;
+    const tn_schema *schema;
+    uint32_t width;                /* the schema's first field of lengths */
+    uint32_t spine;                /* a field of the schema */
+    uint32_t zones[TN_FIELDS_MAX]; /* the schema's zones, from back to front */
+    uint32_t zone_count;
+    uint32_t kinds_end[TN_CELL_RULE_KIND_COUNT]; /* rules of a kind end there; those of the next one begin */
+    int64_t level[TN_STOREYS_MAX + 1];           /* the floor of each storey, and what is above the last */
+} tn_house_form;
+
+/* Makes the FORM record `index` ready; `schema` is its schema. */
+void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form);
+
+/* How many functions it has; function i is rule i. */
+static inline uint32_t tn_form_functions(const tn_house_form *form)
+{
+    return form->kinds_end[TN_CELL_FUNCTION];
+}
+
+static inline const tn_cell_rule_record *tn_form_rule(const tn_house_form *form, uint32_t rule)
+{
+    return &form->module->CELL_RULE_records[form->record->rule_first + rule];
+}
+
+static inline const tn_choice_record *tn_form_choice(const tn_house_form *form, uint32_t choice)
+{
+    return &form->module->CHOICE_records[form->record->choice_first + choice];
+}
+
+/* The opening that a kind of face is; NULL where it is none. */
+static inline const tn_opening_record *tn_form_opening(const tn_house_form *form, uint32_t kind)
+{
+    return kind < TN_FACE_KIND_COUNT
+               ? NULL
+               : &form->module->OPENING_records[form->record->opening_first + kind - TN_FACE_KIND_COUNT];
+}
+
+/* The height of a storey's rooms: from its floor to the deck above. */
+static inline int64_t tn_form_clear(const tn_house_form *form, uint32_t storey)
+{
+    return form->level[storey + 1] - form->level[storey] - form->record->deck;
+}
+
+/* How a house line writes a kind of face. */
+const char *tn_form_kind_text(const tn_house_form *form, uint32_t kind);
+
+#endif

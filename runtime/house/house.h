@@ -1,0 +1,161 @@
+/* One house: a plan that stands up in a form, with a value for each choice of its section, a function for each cell,
+ * something in each face, and a tile in each cell whose function has tiles.
+ *
+ * Coordinates are integer nanometres: x along the row, y to the front, 0 at the back of the spine. A tn_house owns its
+ * arrays and borrows the form; free them with tn_house_clear.
+ */
+#ifndef TARTAN_HOUSE_HOUSE_H
+#define TARTAN_HOUSE_HOUSE_H
+
+#include "runtime/house/form/form.h"
+#include "runtime/plan/text/text.h"
+
+#define TN_NO_CELL UINT32_MAX
+#define TN_NO_FUNCTION UINT32_MAX
+#define TN_FACE_KINDS_MAX (TN_FACE_KIND_COUNT + TN_OPENINGS_MAX)
+
+typedef struct tn_rectangle {
+    int64_t x0, x1, y0, y1;
+} tn_rectangle;
+
+typedef struct tn_box {
+    int64_t x0, x1, y0, y1, z0, z1;
+} tn_box;
+
+/* open: it has no floor, and belongs to the cell below. variant: which of the tiles that fit (tn_tile_variants). */
+typedef struct tn_cell {
+    uint32_t tray, zone, storey; /* zone: a field of the schema */
+    tn_rectangle at;
+    bool open;
+    uint32_t function;
+    size_t variant;
+} tn_cell;
+
+/* A face of two cells (BESIDE; UNDER: first is below second), or of one and the OUTSIDE, which is on a side of it. */
+typedef struct tn_face {
+    uint32_t first, second; /* cells; second: TN_NO_CELL outside */
+    tn_face_relation relation;
+    tn_house_side side; /* of the first cell; TN_HOUSE_ANY_SIDE: above it */
+    tn_rectangle at;    /* without width or depth where it stands */
+    uint32_t storey;
+    uint32_t kind; /* what is in it: a tn_face_kind or an opening */
+} tn_face;
+
+typedef struct tn_house {
+    const tn_house_form *form;
+    tn_tray *trays;
+    size_t length;
+    uint32_t shapes[TN_CHOICES_MAX]; /* the section: a value for each choice, counted within it */
+    tn_cell *cells;                  /* by tray, zone, storey */
+    size_t cell_count, cell_room;
+    uint32_t *tray_first; /* [length + 1] a tray's first cell */
+    tn_face *faces;       /* by first cell; then left, back, front, right, above; then y */
+    size_t face_count, face_room;
+} tn_house;
+
+/* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
+tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
+                         tn_house *house, tn_error *error);
+void tn_house_clear(tn_house *house);
+
+/* The value of a zone's choice of that kind: a SHAPE record, or NULL where the form has none. */
+const tn_shape_record *tn_house_shape(const tn_house *house, uint32_t zone, tn_choice_kind kind);
+
+/* What a function of kind CELL decides on a cell, or of kind SECTION on the house (cell NULL). */
+bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell);
+
+/* Is the section one that the form does not forbid? */
+bool tn_house_section_stands(const tn_house *house);
+
+/* May the cell have the function? (An open cell has none.) */
+bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function);
+
+/* What may be in a face, when all functions are given: at least one kind. Returns how many. */
+size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX]);
+
+/* The thickness of the wall that stands in a face; 0 where none does. */
+int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
+
+/* ---- house_line.c */
+
+/* Reads a house line: `plan ; section ; functions ; faces ; tiles`. Parts at the end that leave no choice may be left
+ * out. E1611 with its columns where it is no house of the form; errors of the plan as tn_plan_parse_line has them. */
+tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                        tn_error *error);
+
+/* Appends the house's line. TN_MEMORY. */
+tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);
+
+/* ---- tiles.c */
+
+/* A tile as it stands in a cell. item_first: of its items in tn_variants. */
+typedef struct tn_tile_variant {
+    uint32_t tile; /* a TILE record */
+    tn_house_side side;
+    bool mirrored;
+    size_t item_first, item_count;
+} tn_tile_variant;
+
+typedef struct tn_standing_item {
+    uint32_t box; /* a TILE_BOX record */
+    tn_box at;    /* z from the floor of the storey */
+} tn_standing_item;
+
+/* All tiles that fit in a cell, when all faces are known. Owns its arrays. */
+typedef struct tn_variants {
+    bool wanted; /* has the cell's function tiles at all? */
+    tn_tile_variant *variants;
+    size_t count, room;
+    tn_standing_item *items;
+    size_t item_count, item_room;
+} tn_variants;
+
+tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error);
+void tn_variants_clear(tn_variants *variants);
+
+/* A variant's name: `bed.left.m`. */
+#define TN_VARIANT_TEXT (TN_NAME_MAX + 16)
+void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, char text[TN_VARIANT_TEXT]);
+
+/* The clear rectangle of a cell: each side back by half of its thickest wall. */
+tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell);
+
+/* ---- posts.c */
+
+/* Where walls of a storey end: the thickest that runs in y there (thick_x, measured in x), and the thickest that runs
+ * in x. Where there are both it is a post, and the walls end at it. */
+typedef struct tn_post {
+    int64_t x, y, thick_x, thick_y;
+} tn_post;
+
+typedef struct tn_posts {
+    tn_post *items; /* by x, then y */
+    size_t count;
+} tn_posts;
+
+/* The caller frees posts->items, also after a failure. */
+tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error);
+
+/* The one at a point, where a wall ends. */
+const tn_post *tn_posts_find(const tn_posts *posts, int64_t x, int64_t y);
+
+static inline tn_rectangle tn_post_at(const tn_post *post)
+{
+    return (tn_rectangle){post->x - post->thick_x / 2, post->x + post->thick_x / 2, post->y - post->thick_y / 2,
+                          post->y + post->thick_y / 2};
+}
+
+/* Where an opening begins whose wall's ends add up to `ends`: in the middle, rounded down to a nanometre. */
+static inline int64_t tn_opening_from(int64_t ends, int64_t wide)
+{
+    int64_t twice = ends - wide;
+    return twice >= 0 || twice % 2 == 0 ? twice / 2 : twice / 2 - 1;
+}
+
+/* ---- rooms.c */
+
+/* The room of each cell, as the lowest cell of it: cells of one function joined by open faces, and the voids above. The
+ * caller frees *rooms. */
+tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
+
+#endif

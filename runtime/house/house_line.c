@@ -1,0 +1,359 @@
+/* Reads and writes house lines: `plan ; section ; functions ; faces ; tiles`, in this order; trays are between bars,
+ * and a part without words is `-`. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/house/house.h"
+#include "runtime/plan/schema/value.h"
+#include "runtime/plan/text/text.h"
+
+enum { PLAN, SECTION, FUNCTIONS, FACES, TILES, PARTS };
+static const char *const part_names[] = {"plan", "section", "functions", "faces", "tiles"};
+
+/* The words of one part. */
+typedef struct tn_part_reader {
+    const char *line;
+    size_t at, end; /* what is left of it */
+    int part;
+    bool there; /* has it words at all? */
+} tn_part_reader;
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* The next word; of no size at the end. Bars and `-` say nothing. */
+static tn_word next_word(tn_part_reader *reader)
+{
+    for (;;) {
+        while (reader->at < reader->end && (is_blank(reader->line[reader->at]) || reader->line[reader->at] == '|'))
+            reader->at++;
+        size_t begin = reader->at;
+        while (reader->at < reader->end && !is_blank(reader->line[reader->at]) && reader->line[reader->at] != '|')
+            reader->at++;
+        size_t size = reader->at - begin;
+        if (size != 1 || reader->line[begin] != '-')
+            return (tn_word){.text = reader->line + begin, .size = size, .column = begin + 1, .extent = size};
+    }
+}
+
+static bool word_is(const tn_word *word, const char *text)
+{
+    return strlen(text) == word->size && memcmp(word->text, text, word->size) == 0;
+}
+
+static tn_part_reader open_part(const char *line, size_t size, int part)
+{
+    tn_part_reader reader = {.line = line, .at = 0, .end = size, .part = part};
+    for (int i = 0; i < part && reader.at <= size; i++) {
+        const char *next = reader.at < size ? memchr(line + reader.at, ';', size - reader.at) : NULL;
+        reader.at = next ? (size_t)(next - line) + 1 : size;
+    }
+    const char *next = reader.at < size ? memchr(line + reader.at, ';', size - reader.at) : NULL;
+    reader.end = next ? (size_t)(next - line) : size;
+    tn_part_reader look = reader;
+    reader.there = next_word(&look).size > 0;
+    return reader;
+}
+
+/* ---- what is wrong */
+
+static tn_status refuse_word(const tn_part_reader *reader, const tn_word *word, const char *what, tn_error *error)
+{
+    char shown[TN_WORD_SHOWN];
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "in the %s, `%s` is no %s", part_names[reader->part],
+            tn_word_show(word, shown), what);
+    return tn_word_refuse(word, error);
+}
+
+static void help_choices(tn_error *error, const char *lead, const char *const *texts, size_t count)
+{
+    char list[240] = "";
+    for (size_t i = 0; i < count && strlen(list) + strlen(texts[i]) + 8 < sizeof list; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
+                 i == 0           ? ""
+                 : i + 1 == count ? " or "
+                                  : ", ",
+                 texts[i]);
+    tn_error_help(error, "%s %s", lead, list);
+}
+
+/* Which of the texts the next word is. Where the part has no words, the only one there is. */
+static tn_status choose(tn_part_reader *reader, const char *what, const char *const *texts, size_t count,
+                        size_t *chosen, tn_error *error)
+{
+    *chosen = 0;
+    if (!reader->there && count == 1)
+        return TN_OK;
+    tn_word word = next_word(reader);
+    for (; *chosen < count; ++*chosen)
+        if (word.size > 0 && word_is(&word, texts[*chosen]))
+            return TN_OK;
+    if (word.size > 0) {
+        refuse_word(reader, &word, what, error);
+    } else {
+        tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the house line ends too soon: in the %s, a %s is missing",
+                part_names[reader->part], what);
+        tn_error_place(error, 0, reader->end + 1, reader->end + 1);
+    }
+    help_choices(error, "it can be", texts, count);
+    return TN_INVALID;
+}
+
+static tn_status at_end(tn_part_reader *reader, const char *what, tn_error *error)
+{
+    tn_word word = next_word(reader);
+    if (word.size == 0)
+        return TN_OK;
+    char shown[TN_WORD_SHOWN];
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "`%s` is one word too many in the %s", tn_word_show(&word, shown),
+            part_names[reader->part]);
+    tn_error_help(error, "there is a word for each %s", what);
+    return tn_word_refuse(&word, error);
+}
+
+/* ---- reading */
+
+static tn_status read_section(const tn_house_form *form, const char *line, size_t size, uint32_t shapes[TN_CHOICES_MAX],
+                              tn_error *error)
+{
+    tn_part_reader reader = open_part(line, size, SECTION);
+    for (uint32_t i = 0; i < form->record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(form, i);
+        const char *texts[TN_VALUES_MAX];
+        size_t chosen;
+        for (uint32_t s = 0; s < choice->shape_count; s++)
+            texts[s] = tn_text(form->module, form->module->SHAPE_records[choice->shape_first + s].spelling);
+        tn_status status =
+            choose(&reader, tn_text(form->module, choice->name), texts, choice->shape_count, &chosen, error);
+        if (status != TN_OK)
+            return status;
+        shapes[i] = (uint32_t)chosen;
+    }
+    return at_end(&reader, "choice of the form", error);
+}
+
+/* A cell that no function may take makes that there is no such house. */
+static tn_status no_function(const tn_house *house, const tn_cell *cell, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "no function may take the %s of tray %u in storey %s",
+            tn_text(form->module, form->schema->fields[cell->zone].name), cell->tray + 1,
+            tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
+    tn_error_help(error, "the form's `function` lines say where each may be");
+    return TN_INVALID;
+}
+
+static tn_status read_function(tn_house *house, tn_part_reader *reader, tn_cell *cell, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    const char *texts[TN_CELL_RULES_MAX];
+    uint32_t functions[TN_CELL_RULES_MAX];
+    size_t count = 0, chosen;
+    for (uint32_t i = 0; i < tn_form_functions(form); i++) {
+        if (!tn_cell_may(house, cell, i))
+            continue;
+        functions[count] = i;
+        texts[count++] = tn_text(form->module, tn_form_rule(form, i)->name);
+    }
+    if (cell->open)
+        texts[count++] = "void";
+    if (count == 0)
+        return no_function(house, cell, error);
+    tn_status status = choose(reader, "function that may be there", texts, count, &chosen, error);
+    if (status == TN_OK && !cell->open)
+        cell->function = functions[chosen];
+    return status;
+}
+
+static tn_status read_functions(tn_house *house, const char *line, size_t size, tn_error *error)
+{
+    tn_part_reader reader = open_part(line, size, FUNCTIONS);
+    for (size_t i = 0; i < house->cell_count; i++) {
+        tn_status status = read_function(house, &reader, &house->cells[i], error);
+        if (status != TN_OK)
+            return status;
+    }
+    return at_end(&reader, "cell", error);
+}
+
+static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_error *error)
+{
+    tn_part_reader reader = open_part(line, size, FACES);
+    for (size_t i = 0; i < house->face_count; i++) {
+        uint32_t kinds[TN_FACE_KINDS_MAX];
+        const char *texts[TN_FACE_KINDS_MAX];
+        size_t count = tn_face_options(house, &house->faces[i], kinds), chosen = 0;
+        for (size_t k = 0; k < count; k++)
+            texts[k] = tn_form_kind_text(house->form, kinds[k]);
+        tn_status status = count > 1 ? choose(&reader, "kind of that face", texts, count, &chosen, error) : TN_OK;
+        if (status != TN_OK)
+            return status;
+        house->faces[i].kind = kinds[chosen];
+    }
+    return at_end(&reader, "face with a choice", error);
+}
+
+static tn_status no_tile(const tn_house *house, const tn_cell *cell, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "no tile fits into the %s of tray %u in storey %s",
+            tn_text(form->module, tn_form_rule(form, cell->function)->name), cell->tray + 1,
+            tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
+    tn_error_help(error, "the room may be too small, or its walls have openings where a tile stands");
+    return TN_INVALID;
+}
+
+static tn_status read_tile(tn_house *house, tn_part_reader *reader, uint32_t cell, tn_error *error)
+{
+    tn_variants v;
+    tn_status status = tn_tile_variants(house, cell, &v, error);
+    char(*names)[TN_VARIANT_TEXT] = NULL;
+    const char **texts = NULL;
+    if (status == TN_OK && v.wanted && v.count == 0)
+        status = no_tile(house, &house->cells[cell], error);
+    if (status == TN_OK && v.count > 0) {
+        names = malloc(v.count * sizeof *names);
+        texts = malloc(v.count * sizeof *texts);
+        status = names && texts ? TN_OK : tn_fail_memory(error);
+        for (size_t i = 0; status == TN_OK && i < v.count; i++) {
+            tn_variant_text(house->form, &v.variants[i], names[i]);
+            texts[i] = names[i];
+        }
+        if (status == TN_OK)
+            status = choose(reader, "tile that fits there", texts, v.count, &house->cells[cell].variant, error);
+    }
+    free(names);
+    free(texts);
+    tn_variants_clear(&v);
+    return status;
+}
+
+static tn_status read_tiles(tn_house *house, const char *line, size_t size, tn_error *error)
+{
+    tn_part_reader reader = open_part(line, size, TILES);
+    for (uint32_t i = 0; i < house->cell_count; i++) {
+        tn_status status = read_tile(house, &reader, i, error);
+        if (status != TN_OK)
+            return status;
+    }
+    return at_end(&reader, "cell whose function has tiles", error);
+}
+
+static tn_status check_parts(const char *line, size_t size, tn_error *error)
+{
+    int parts = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (line[i] != ';' || ++parts < PARTS)
+            continue;
+        tn_fail(error, TN_INVALID, E_BAD_HOUSE, "a house line has five parts, and this is a sixth");
+        tn_error_help(error, "the parts are: plan ; section ; functions ; faces ; tiles");
+        tn_error_place(error, 0, i + 1, i + 2);
+        return TN_INVALID;
+    }
+    return TN_OK;
+}
+
+tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                        tn_error *error)
+{
+    tn_part_reader plan = open_part(line, size, PLAN);
+    tn_plan trays = {0};
+    uint32_t shapes[TN_CHOICES_MAX] = {0};
+    *house = (tn_house){0};
+    tn_status status = check_parts(line, size, error);
+    if (status == TN_OK)
+        status = tn_plan_parse_line(form->schema, line, plan.end, max_trays, &trays, error);
+    if (status == TN_OK)
+        status = read_section(form, line, size, shapes, error);
+    if (status == TN_OK)
+        status = tn_house_stand(form, trays.trays, trays.length, shapes, house, error);
+    free(trays.trays);
+    if (status == TN_OK && !tn_house_section_stands(house)) {
+        status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the form forbids this section");
+        tn_error_help(error, "its `forbid` lines say which sections there are not");
+    }
+    if (status == TN_OK)
+        status = read_functions(house, line, size, error);
+    if (status == TN_OK)
+        status = read_faces(house, line, size, error);
+    return status == TN_OK ? read_tiles(house, line, size, error) : status;
+}
+
+/* ---- writing */
+
+/* A word of a part; the first one says so by itself. */
+static void put(tn_buffer *out, bool *any, const char *text)
+{
+    tn_buffer_printf(out, "%s%s", *any ? " " : "", text);
+    *any = true;
+}
+
+static void end_part(tn_buffer *out, bool *any, bool last)
+{
+    if (!*any)
+        tn_buffer_append(out, "-", 1);
+    if (!last)
+        tn_buffer_append(out, " ; ", 3);
+    *any = false;
+}
+
+static void write_functions(const tn_house *house, tn_buffer *out)
+{
+    bool any = false;
+    for (size_t t = 0; t < house->length; t++) {
+        if (t > 0)
+            tn_buffer_append(out, " | ", 3);
+        any = false;
+        for (uint32_t i = house->tray_first[t]; i < house->tray_first[t + 1]; i++) {
+            const tn_cell *cell = &house->cells[i];
+            put(out, &any,
+                cell->open ? "void" : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name));
+        }
+        if (!any)
+            tn_buffer_append(out, "-", 1);
+    }
+    any = house->length > 0;
+    end_part(out, &any, false);
+}
+
+static tn_status write_tiles(const tn_house *house, tn_buffer *out, tn_error *error)
+{
+    bool any = false;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++) {
+        tn_variants v;
+        char text[TN_VARIANT_TEXT];
+        status = tn_tile_variants(house, i, &v, error);
+        if (status == TN_OK && v.count > 0) {
+            tn_variant_text(house->form, &v.variants[house->cells[i].variant], text);
+            put(out, &any, text);
+        }
+        tn_variants_clear(&v);
+    }
+    end_part(out, &any, true);
+    return status;
+}
+
+tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    bool any = house->length > 0;
+    uint32_t kinds[TN_FACE_KINDS_MAX];
+    tn_plan_write_line(form->schema, house->trays, house->length, out);
+    end_part(out, &any, false);
+    for (uint32_t i = 0; i < form->record->choice_count; i++)
+        put(out, &any,
+            tn_text(form->module,
+                    form->module->SHAPE_records[tn_form_choice(form, i)->shape_first + house->shapes[i]].spelling));
+    end_part(out, &any, false);
+    write_functions(house, out);
+    for (size_t i = 0; i < house->face_count; i++)
+        if (tn_face_options(house, &house->faces[i], kinds) > 1)
+            put(out, &any, tn_form_kind_text(form, house->faces[i].kind));
+    end_part(out, &any, false);
+    tn_status status = write_tiles(house, out, error);
+    return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
+}

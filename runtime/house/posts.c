@@ -1,0 +1,57 @@
+/* Finds where the walls of a storey end, and how thick the post there is. */
+#include <stdlib.h>
+
+#include "runtime/house/house.h"
+
+static int compare(const void *a, const void *b)
+{
+    const tn_post *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return (p->y > q->y) - (p->y < q->y);
+}
+
+/* Ends at one point become one. */
+static void join(tn_posts *posts)
+{
+    size_t kept = 0;
+    qsort(posts->items, posts->count, sizeof *posts->items, compare);
+    for (size_t i = 0; i < posts->count; i++) {
+        tn_post *last = kept ? &posts->items[kept - 1] : NULL, next = posts->items[i];
+        if (!last || compare(last, &next) != 0) {
+            posts->items[kept++] = next;
+            continue;
+        }
+        last->thick_x = next.thick_x > last->thick_x ? next.thick_x : last->thick_x;
+        last->thick_y = next.thick_y > last->thick_y ? next.thick_y : last->thick_y;
+    }
+    posts->count = kept;
+}
+
+tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error)
+{
+    *posts = (tn_posts){.items = malloc((2 * house->face_count + 1) * sizeof *posts->items)};
+    if (!posts->items)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        int64_t thick = tn_face_thickness(house, face);
+        if (face->storey != storey || thick == 0)
+            continue;
+        bool in_y = face->at.x0 == face->at.x1;
+        tn_post end = {face->at.x0, face->at.y0, in_y ? thick : 0, in_y ? 0 : thick};
+        posts->items[posts->count++] = end;
+        end.x = face->at.x1;
+        end.y = face->at.y1;
+        posts->items[posts->count++] = end;
+    }
+    if (posts->count)
+        join(posts);
+    return TN_OK;
+}
+
+const tn_post *tn_posts_find(const tn_posts *posts, int64_t x, int64_t y)
+{
+    tn_post key = {.x = x, .y = y};
+    return posts->count ? bsearch(&key, posts->items, posts->count, sizeof *posts->items, compare) : NULL;
+}

@@ -1,0 +1,247 @@
+/* Builds the roofs: which cell covers what, the decks below, and prisms under a flat, a sloped or a vaulted line. */
+#include <stdlib.h>
+
+#include "runtime/house/solids.h"
+
+enum { VAULT_STEPS = 16, PROFILE_MAX = VAULT_STEPS + 1 };
+
+/* ---- the line of a roof */
+
+/* The top of a roof above its slab, over a cell as wide as that: heights at places between which it is straight. Both
+ * are in fractions of a common bottom. */
+typedef struct tn_profile {
+    tn_wide y[PROFILE_MAX], z[PROFILE_MAX];
+    tn_wide y_bottom, z_bottom;
+    size_t count;
+} tn_profile;
+
+static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y1)
+{
+    tn_wide from = y0, to = y1, wide = to - from, rise = shape ? shape->rise : 0;
+    tn_wide run = shape && shape->run ? shape->run : 1;
+    switch (shape ? (tn_roof_kind)shape->roof : TN_ROOF_FLAT) {
+    case TN_ROOF_SHED_BACK:
+        return (tn_profile){{from, to}, {0, wide * rise}, 1, run, 2};
+    case TN_ROOF_SHED_FRONT:
+        return (tn_profile){{from, to}, {wide * rise, 0}, 1, run, 2};
+    case TN_ROOF_GABLE:
+        return (tn_profile){{2 * from, from + to, 2 * to}, {0, wide * rise, 0}, 2, 2 * run, 3};
+    case TN_ROOF_VAULT: {
+        tn_profile profile = {.y_bottom = VAULT_STEPS, .z_bottom = VAULT_STEPS * VAULT_STEPS, .count = PROFILE_MAX};
+        for (int i = 0; i <= VAULT_STEPS; i++) {
+            profile.y[i] = from * VAULT_STEPS + wide * i;
+            profile.z[i] = (tn_wide)shape->height * 4 * i * (VAULT_STEPS - i);
+        }
+        return profile;
+    }
+    default:
+        return (tn_profile){{from, to}, {0, 0}, 1, 1, 2};
+    }
+}
+
+/* The line's height at a place between its ends. `y` is in the profile's fractions. */
+static tn_fraction height_at(const tn_profile *profile, tn_wide y, int64_t base)
+{
+    size_t i = 0;
+    while (i + 2 < profile->count && profile->y[i + 1] < y)
+        i++;
+    tn_wide run = profile->y[i + 1] - profile->y[i], rise = profile->z[i + 1] - profile->z[i];
+    tn_fraction slope = tn_fraction_new(rise, run * profile->z_bottom); /* of a y in fractions */
+    tn_fraction part = tn_fraction_new((y - profile->y[i]) * slope.top, slope.bottom);
+    tn_fraction start = tn_fraction_new(profile->z[i] + (tn_wide)base * profile->z_bottom, profile->z_bottom);
+    return tn_fraction_new(start.top * part.bottom + part.top * start.bottom, start.bottom * part.bottom);
+}
+
+static tn_status add_point(tn_solids *solids, tn_roof_point point, tn_error *error)
+{
+    if (solids->point_count == solids->point_room) {
+        size_t room = solids->point_room ? 2 * solids->point_room : 64;
+        tn_roof_point *points = realloc(solids->points, room * sizeof *points);
+        if (!points)
+            return tn_fail_memory(error);
+        solids->points = points;
+        solids->point_room = room;
+    }
+    solids->points[solids->point_count++] = point;
+    return TN_OK;
+}
+
+static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
+{
+    if (solids->prism_count == solids->prism_room) {
+        size_t room = solids->prism_room ? 2 * solids->prism_room : 32;
+        tn_prism *prisms = realloc(solids->prisms, room * sizeof *prisms);
+        if (!prisms)
+            return tn_fail_memory(error);
+        solids->prisms = prisms;
+        solids->prism_room = room;
+    }
+    solids->prisms[solids->prism_count++] = prism;
+    return TN_OK;
+}
+
+/* The roof of a cell over one of its rectangles. */
+static tn_status put_prism(const tn_house *house, uint32_t index, tn_rectangle r, tn_solids *solids, tn_error *error)
+{
+    const tn_cell *cell = &house->cells[index];
+    tn_rectangle grown = tn_cell_grown(house, cell);
+    tn_profile profile = profile_of(tn_house_shape(house, cell->zone, TN_CHOICE_ROOF), grown.y0, grown.y1);
+    int64_t base = house->form->level[cell->storey + 1], slab = base + house->form->record->roof;
+    tn_prism prism = {.of = index, .x0 = r.x0, .x1 = r.x1, .base = base, .point_first = solids->point_count};
+    tn_wide first = (tn_wide)r.y0 * profile.y_bottom, last = (tn_wide)r.y1 * profile.y_bottom;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < profile.count + 2; i++) {
+        tn_wide y = i == 0 ? first : i == profile.count + 1 ? last : profile.y[i - 1];
+        bool between = y > first && y < last;
+        if (i == 0 || i == profile.count + 1 || between)
+            status = add_point(
+                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), height_at(&profile, y, slab)}, error);
+    }
+    prism.point_count = solids->point_count - prism.point_first;
+    return status == TN_OK ? add_prism(solids, prism, error) : status;
+}
+
+/* ---- who covers what */
+
+/* The rectangles of one step: the cell; strips half a wall wide along its sides; corners. */
+static size_t step_of(const tn_cell *cell, int64_t g, int step, tn_rectangle out[4])
+{
+    int64_t x0 = cell->at.x0, x1 = cell->at.x1, y0 = cell->at.y0, y1 = cell->at.y1;
+    if (step == 0) {
+        out[0] = cell->at;
+        return 1;
+    }
+    if (step == 1) {
+        out[0] = (tn_rectangle){x0, x1, y0 - g, y0};
+        out[1] = (tn_rectangle){x0, x1, y1, y1 + g};
+        out[2] = (tn_rectangle){x0 - g, x0, y0, y1};
+        out[3] = (tn_rectangle){x1, x1 + g, y0, y1};
+        return 4;
+    }
+    for (int i = 0; i < 4; i++) {
+        int64_t x = i / 2 ? x1 : x0 - g, y = i % 2 ? y1 : y0 - g;
+        out[i] = (tn_rectangle){x, x + g, y, y + g};
+    }
+    return 4;
+}
+
+/* A highest cell of a stack, and what it covers. */
+typedef struct tn_parcel {
+    uint32_t cell;
+    tn_rectangles own;
+} tn_parcel;
+
+static tn_status take(const tn_cell *cell, int64_t g, int step, tn_rectangles *taken, tn_rectangles *own,
+                      tn_error *error)
+{
+    tn_rectangle parts[4];
+    tn_rectangles wanted = {.items = parts, .count = step_of(cell, g, step, parts)}, got = {0};
+    tn_status status = tn_region_cut(&wanted, taken, &got, error);
+    for (size_t i = 0; status == TN_OK && i < got.count; i++) {
+        status = tn_rectangles_add(own, got.items[i], error);
+        if (status == TN_OK)
+            status = tn_rectangles_add(taken, got.items[i], error);
+    }
+    free(got.items);
+    return status;
+}
+
+/* Each cell takes what is free: first its rectangle, then the strips, then the corners, in cell order. */
+static tn_status parcel(const tn_house *house, tn_parcel *covered, size_t count, const tn_rectangles *before,
+                        tn_error *error)
+{
+    tn_rectangles taken = {0}, nothing = {0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < before->count; i++)
+        status = tn_rectangles_add(&taken, before->items[i], error);
+    for (int step = 0; step < 3; step++)
+        for (size_t i = 0; status == TN_OK && i < count; i++)
+            status = take(&house->cells[covered[i].cell], house->form->record->wall / 2, step, &taken, &covered[i].own,
+                          error);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        tn_rectangles whole = {0};
+        status = tn_region_cut(&covered[i].own, &nothing, &whole, error);
+        free(covered[i].own.items);
+        covered[i].own = whole;
+    }
+    free(taken.items);
+    return status;
+}
+
+/* ---- a level */
+
+static bool is_top(const tn_house *house, uint32_t cell)
+{
+    const tn_cell *c = &house->cells[cell], *above = c + 1; /* cells are in order */
+    return cell + 1 == house->cell_count || above->tray != c->tray || above->zone != c->zone;
+}
+
+/* What the cells of the storey above cover. */
+static tn_status above_of(const tn_house *house, uint32_t storey, tn_rectangles *above, tn_error *error)
+{
+    tn_rectangles cells = {0}, nothing = {0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < house->cell_count; i++)
+        if (house->cells[i].storey == storey + 1)
+            status = tn_rectangles_add(&cells, tn_cell_grown(house, &house->cells[i]), error);
+    if (status == TN_OK)
+        status = tn_region_cut(&cells, &nothing, above, error);
+    free(cells.items);
+    return status;
+}
+
+static tn_status put_parcels(const tn_house *house, const tn_parcel *decked, const tn_parcel *land, size_t count,
+                             tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t c = 0; status == TN_OK && c < count; c++) {
+        uint32_t cell = land[c].cell;
+        int64_t level = house->form->level[house->cells[cell].storey + 1];
+        for (size_t i = 0; status == TN_OK && i < decked[c].own.count; i++) {
+            tn_rectangle r = decked[c].own.items[i];
+            tn_box at = {r.x0, r.x1, r.y0, r.y1, level - house->form->record->deck, level};
+            status = tn_solids_add(solids, (tn_solid){.kind = TN_SOLID_ROOFDECK, .of = cell, .at = at}, error);
+        }
+        for (size_t i = 0; status == TN_OK && i < land[c].own.count; i++)
+            status = put_prism(house, cell, land[c].own.items[i], solids, error);
+    }
+    return status;
+}
+
+/* The roofs over the cells of a storey that end their stacks. */
+static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rectangles *deck, tn_solids *solids,
+                           tn_error *error)
+{
+    tn_parcel *land = calloc(2 * house->cell_count + 1, sizeof *land), *decked = land ? land + house->cell_count : NULL;
+    tn_rectangles above = {0};
+    size_t count = 0;
+    if (!land)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < house->cell_count; i++)
+        if (house->cells[i].storey == storey && is_top(house, i)) {
+            land[count].cell = i;
+            decked[count++].cell = i;
+        }
+    tn_status status = count ? above_of(house, storey, &above, error) : TN_OK;
+    if (status == TN_OK)
+        status = parcel(house, decked, count, deck, error);
+    if (status == TN_OK)
+        status = parcel(house, land, count, &above, error);
+    if (status == TN_OK)
+        status = put_parcels(house, decked, land, count, solids, error);
+    for (size_t i = 0; i < count; i++) {
+        free(land[i].own.items);
+        free(decked[i].own.items);
+    }
+    free(above.items);
+    free(land);
+    return status;
+}
+
+tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < house->form->record->storey_count; k++)
+        status = put_level(house, k, &decks[k + 1], solids, error);
+    return status;
+}

@@ -1,0 +1,44 @@
+/* Finds the rooms of a house: cells of one function that open faces join, with the voids above them. */
+#include <stdlib.h>
+
+#include "runtime/house/house.h"
+
+/* The lowest cell of a group; the path to it becomes shorter. */
+static uint32_t find(uint32_t *groups, uint32_t cell)
+{
+    while (groups[cell] != cell) {
+        groups[cell] = groups[groups[cell]];
+        cell = groups[cell];
+    }
+    return cell;
+}
+
+static void join(uint32_t *groups, uint32_t a, uint32_t b)
+{
+    a = find(groups, a);
+    b = find(groups, b);
+    groups[a > b ? a : b] = a < b ? a : b;
+}
+
+tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error)
+{
+    uint32_t *groups = malloc((house->cell_count + 1) * sizeof *groups);
+    if (!groups)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < house->cell_count; i++)
+        groups[i] = i;
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->second == TN_NO_CELL)
+            continue;
+        const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
+        bool above = face->relation == TN_FACE_UNDER && b->open;
+        bool same = face->kind == TN_FACE_OPEN && !a->open && !b->open && a->function == b->function;
+        if (above || same)
+            join(groups, face->first, face->second);
+    }
+    for (uint32_t i = 0; i < house->cell_count; i++)
+        groups[i] = find(groups, i);
+    *rooms = groups;
+    return TN_OK;
+}

@@ -1,0 +1,227 @@
+/* Builds the solids of a house: posts and walls with their openings, decks, roofs, and what stands in the rooms. */
+#include "runtime/house/solids.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static tn_wide gcd(tn_wide a, tn_wide b)
+{
+    while (b) {
+        tn_wide rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a < 0 ? -a : a;
+}
+
+tn_fraction tn_fraction_new(tn_wide top, tn_wide bottom)
+{
+    tn_wide common = gcd(top, bottom);
+    return (tn_fraction){top / common, bottom / common};
+}
+
+double tn_fraction_value(tn_fraction fraction)
+{
+    tn_wide whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
+    return (double)whole + (double)rest / (double)fraction.bottom;
+}
+
+const char *tn_solid_kind_text(tn_solid_kind kind)
+{
+    static const char *const words[] = {"outside", "party", "partition", "post", "deck", "roofdeck", "item", "roof"};
+    return words[kind];
+}
+
+tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error)
+{
+    if (solids->box_count == solids->box_room) {
+        size_t room = solids->box_room ? 2 * solids->box_room : 64;
+        tn_solid *boxes = realloc(solids->boxes, room * sizeof *boxes);
+        if (!boxes)
+            return tn_fail_memory(error);
+        solids->boxes = boxes;
+        solids->box_room = room;
+    }
+    solids->boxes[solids->box_count++] = solid;
+    return TN_OK;
+}
+
+static tn_status put(tn_solids *solids, tn_solid_kind kind, uint32_t of, tn_rectangle r, int64_t z0, int64_t z1,
+                     tn_error *error)
+{
+    return tn_solids_add(solids, (tn_solid){.kind = kind, .of = of, .at = {r.x0, r.x1, r.y0, r.y1, z0, z1}}, error);
+}
+
+tn_rectangle tn_cell_grown(const tn_house *house, const tn_cell *cell)
+{
+    int64_t half = house->form->record->wall / 2;
+    return (tn_rectangle){cell->at.x0 - half, cell->at.x1 + half, cell->at.y0 - half, cell->at.y1 + half};
+}
+
+/* ---- walls */
+
+/* A wall between the posts at its ends; `from` and `to` run along it. */
+typedef struct tn_wall {
+    const tn_face *face;
+    tn_solid_kind kind;
+    uint32_t of;
+    int64_t thick, from, to;
+} tn_wall;
+
+static tn_rectangle wall_part(const tn_wall *wall, int64_t from, int64_t to)
+{
+    const tn_rectangle *at = &wall->face->at;
+    int64_t half = wall->thick / 2;
+    if (at->x0 == at->x1)
+        return (tn_rectangle){at->x0 - half, at->x0 + half, from, to};
+    return (tn_rectangle){from, to, at->y0 - half, at->y0 + half};
+}
+
+/* Jamb, sill, lintel, jamb. */
+static tn_status put_opening(tn_solids *solids, const tn_wall *wall, const tn_opening_record *o, int64_t z0, int64_t z1,
+                             tn_error *error)
+{
+    const tn_rectangle *at = &wall->face->at;
+    int64_t ends = at->x0 == at->x1 ? at->y0 + at->y1 : at->x0 + at->x1;
+    int64_t from = tn_opening_from(ends, o->wide), to = from + o->wide;
+    tn_status status = TN_OK;
+    if (wall->from < from)
+        status = put(solids, wall->kind, wall->of, wall_part(wall, wall->from, from), z0, z1, error);
+    if (status == TN_OK && o->sill)
+        status = put(solids, wall->kind, wall->of, wall_part(wall, from, to), z0, z0 + o->sill, error);
+    if (status == TN_OK && o->sill + o->high < z1 - z0)
+        status = put(solids, wall->kind, wall->of, wall_part(wall, from, to), z0 + o->sill + o->high, z1, error);
+    if (status == TN_OK && to < wall->to)
+        status = put(solids, wall->kind, wall->of, wall_part(wall, to, wall->to), z0, z1, error);
+    return status;
+}
+
+static tn_status put_wall(const tn_house *house, uint32_t index, const tn_posts *posts, tn_rectangles *foot,
+                          tn_solids *solids, tn_error *error)
+{
+    const tn_face *face = &house->faces[index];
+    const tn_house_form *form = house->form;
+    tn_wall wall = {.face = face, .of = index, .thick = tn_face_thickness(house, face)};
+    if (wall.thick == 0)
+        return TN_OK;
+    const tn_post *first = tn_posts_find(posts, face->at.x0, face->at.y0),
+                  *last = tn_posts_find(posts, face->at.x1, face->at.y1);
+    bool in_y = face->at.x0 == face->at.x1;
+    wall.from = in_y ? face->at.y0 + first->thick_y / 2 : face->at.x0 + first->thick_x / 2;
+    wall.to = in_y ? face->at.y1 - last->thick_y / 2 : face->at.x1 - last->thick_x / 2;
+    wall.kind = face->relation == TN_FACE_OUTSIDE ? TN_SOLID_OUTSIDE
+                : face->kind == TN_FACE_PARTY     ? TN_SOLID_PARTY
+                                                  : TN_SOLID_PARTITION;
+    int64_t z0 = form->level[face->storey], z1 = z0 + tn_form_clear(form, face->storey);
+    const tn_opening_record *opening = tn_form_opening(form, face->kind);
+    tn_status status = tn_rectangles_add(foot, wall_part(&wall, wall.from, wall.to), error);
+    if (status != TN_OK)
+        return status;
+    return opening ? put_opening(solids, &wall, opening, z0, z1, error)
+                   : put(solids, wall.kind, index, wall_part(&wall, wall.from, wall.to), z0, z1, error);
+}
+
+/* The posts and walls of a storey; `foot`: the rectangles that they stand on. */
+static tn_status put_walls(const tn_house *house, uint32_t storey, tn_rectangles *foot, tn_solids *solids,
+                           tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    int64_t z0 = form->level[storey], z1 = z0 + tn_form_clear(form, storey);
+    tn_posts posts;
+    tn_status status = tn_house_posts(house, storey, &posts, error);
+    for (size_t i = 0; status == TN_OK && i < posts.count; i++) {
+        const tn_post *post = &posts.items[i];
+        if (!post->thick_x || !post->thick_y)
+            continue;
+        status = put(solids, TN_SOLID_POST, storey, tn_post_at(post), z0, z1, error);
+        if (status == TN_OK)
+            status = tn_rectangles_add(foot, tn_post_at(post), error);
+    }
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++)
+        if (house->faces[i].storey == storey)
+            status = put_wall(house, i, &posts, foot, solids, error);
+    free(posts.items);
+    return status;
+}
+
+/* ---- decks */
+
+/* Is there a hole in the floor of a cell: a stair below, or the cell below is open to it? */
+static bool has_hole(const tn_house *house, uint32_t cell)
+{
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->relation == TN_FACE_UNDER && face->second == cell)
+            return face->kind == TN_FACE_STAIR || face->kind == TN_FACE_OPEN;
+    }
+    return false;
+}
+
+/* The deck below a storey's floor; its rectangles are kept for the roof decks. */
+static tn_status put_deck(const tn_house *house, uint32_t storey, const tn_rectangles *foot, tn_rectangles *deck,
+                          tn_solids *solids, tn_error *error)
+{
+    tn_rectangles floors = {0}, nothing = {0};
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
+        if (house->cells[i].storey == storey && !has_hole(house, i))
+            status = tn_rectangles_add(&floors, tn_cell_grown(house, &house->cells[i]), error);
+    for (size_t i = 0; status == TN_OK && storey > 0 && i < foot->count; i++)
+        status = tn_rectangles_add(&floors, foot->items[i], error);
+    if (status == TN_OK)
+        status = tn_region_cut(&floors, &nothing, deck, error);
+    int64_t z1 = house->form->level[storey];
+    for (size_t i = 0; status == TN_OK && i < deck->count; i++)
+        status = put(solids, TN_SOLID_DECK, storey, deck->items[i], z1 - house->form->record->deck, z1, error);
+    free(floors.items);
+    return status;
+}
+
+/* ---- what stands in the rooms */
+
+static tn_status put_items(const tn_house *house, uint32_t index, tn_solids *solids, tn_error *error)
+{
+    const tn_cell *cell = &house->cells[index];
+    int64_t floor = house->form->level[cell->storey];
+    tn_variants v;
+    tn_status status = tn_tile_variants(house, index, &v, error);
+    const tn_tile_variant *variant = status == TN_OK && v.count > 0 ? &v.variants[cell->variant] : NULL;
+    for (size_t i = 0; variant && status == TN_OK && i < variant->item_count; i++) {
+        const tn_standing_item *item = &v.items[variant->item_first + i];
+        tn_solid solid = {.kind = TN_SOLID_ITEM, .of = index, .item = item->box, .at = item->at};
+        solid.at.z0 += floor;
+        solid.at.z1 += floor;
+        status = tn_solids_add(solids, solid, error);
+    }
+    tn_variants_clear(&v);
+    return status;
+}
+
+tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error)
+{
+    uint32_t storeys = house->form->record->storey_count;
+    tn_rectangles foot[TN_STOREYS_MAX + 1] = {{0}}, decks[TN_STOREYS_MAX + 1] = {{0}};
+    tn_status status = TN_OK;
+    *solids = (tn_solids){0};
+    for (uint32_t k = 0; status == TN_OK && k < storeys; k++)
+        status = put_walls(house, k, &foot[k], solids, error);
+    for (uint32_t k = 0; status == TN_OK && k <= storeys; k++)
+        status = put_deck(house, k, &foot[k], &decks[k], solids, error);
+    if (status == TN_OK)
+        status = tn_house_roofs(house, decks, solids, error);
+    for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
+        status = put_items(house, i, solids, error);
+    for (uint32_t k = 0; k <= storeys; k++) {
+        free(foot[k].items);
+        free(decks[k].items);
+    }
+    return status;
+}
+
+void tn_solids_clear(tn_solids *solids)
+{
+    free(solids->boxes);
+    free(solids->prisms);
+    free(solids->points);
+    *solids = (tn_solids){0};
+}

@@ -1,0 +1,85 @@
+/* The solids of a house: boxes, and roofs as prisms along x. Disjoint, without gaps, exact (docs/houses.md).
+ *
+ * A tn_solids owns its arrays; free them with tn_solids_clear. Coordinates are nanometres, those of roofs exact
+ * fractions.
+ */
+#ifndef TARTAN_HOUSE_SOLIDS_H
+#define TARTAN_HOUSE_SOLIDS_H
+
+#include "runtime/house/house.h"
+
+__extension__ typedef __int128 tn_wide;
+
+/* top / bottom, in lowest terms, bottom > 0. */
+typedef struct tn_fraction {
+    tn_wide top, bottom;
+} tn_fraction;
+
+tn_fraction tn_fraction_new(tn_wide top, tn_wide bottom);
+double tn_fraction_value(tn_fraction fraction); /* the nearest, but for rounding twice */
+
+typedef enum tn_solid_kind {
+    TN_SOLID_OUTSIDE,
+    TN_SOLID_PARTY,
+    TN_SOLID_PARTITION,
+    TN_SOLID_POST,
+    TN_SOLID_DECK,
+    TN_SOLID_ROOFDECK,
+    TN_SOLID_ITEM,
+    TN_SOLID_ROOF,
+    TN_SOLID_COUNT
+} tn_solid_kind;
+
+const char *tn_solid_kind_text(tn_solid_kind kind);
+
+/* of: the face of a wall, the cell of a roof deck or an item, the storey of a deck or post. item: a TILE_BOX record. */
+typedef struct tn_solid {
+    tn_solid_kind kind;
+    uint32_t of, item;
+    tn_box at;
+} tn_solid;
+
+/* A roof over [x0, x1): from `base` up to the line through its points, which go from the back to the front. */
+typedef struct tn_roof_point {
+    tn_fraction y, z;
+} tn_roof_point;
+
+typedef struct tn_prism {
+    uint32_t of; /* a cell */
+    int64_t x0, x1, base;
+    size_t point_first, point_count;
+} tn_prism;
+
+typedef struct tn_solids {
+    tn_solid *boxes;
+    size_t box_count, box_room;
+    tn_prism *prisms;
+    size_t prism_count, prism_room;
+    tn_roof_point *points;
+    size_t point_count, point_room;
+} tn_solids;
+
+tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error);
+void tn_solids_clear(tn_solids *solids);
+
+/* ---- region.c: rectangles */
+
+typedef struct tn_rectangles {
+    tn_rectangle *items;
+    size_t count, room;
+} tn_rectangles;
+
+tn_status tn_rectangles_add(tn_rectangles *list, tn_rectangle rectangle, tn_error *error);
+
+/* Appends the union of some rectangles less others: cut at every x of their edges, stretches in y joined, neighbours
+ * with the same whole list of stretches joined. */
+tn_status tn_region_cut(const tn_rectangles *of, const tn_rectangles *less, tn_rectangles *cut, tn_error *error);
+
+/* ---- roof.c */
+tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, tn_solids *solids, tn_error *error);
+tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error);
+
+/* What a cell covers: its rectangle, grown by half a wall. */
+tn_rectangle tn_cell_grown(const tn_house *house, const tn_cell *cell);
+
+#endif

@@ -1,0 +1,313 @@
+/* Finds the tiles that fit in a cell: on each side, turned, plain and mirrored. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/house/house.h"
+
+/* What a tile must not stand in, beside its own items: posts, and what openings need clear. */
+typedef struct tn_room {
+    const tn_house *house;
+    uint32_t cell;
+    tn_rectangle clear; /* its walls taken off */
+    int64_t height;
+    tn_box *taken;
+    size_t taken_count, taken_room;
+    uint64_t kinds[TN_HOUSE_SIDE_COUNT][(TN_FACE_KINDS_MAX + 63) / 64]; /* on each side */
+} tn_room;
+
+/* The side of the cell that a face is on; TN_HOUSE_ANY_SIDE where it is none of its walls. */
+static tn_house_side side_of(const tn_face *face, uint32_t cell)
+{
+    static const tn_house_side opposite[] = {[TN_HOUSE_BACK] = TN_HOUSE_FRONT,
+                                             [TN_HOUSE_FRONT] = TN_HOUSE_BACK,
+                                             [TN_HOUSE_LEFT] = TN_HOUSE_RIGHT,
+                                             [TN_HOUSE_RIGHT] = TN_HOUSE_LEFT};
+    if (face->relation == TN_FACE_UNDER)
+        return TN_HOUSE_ANY_SIDE;
+    return face->first == cell ? face->side : face->second == cell ? opposite[face->side] : TN_HOUSE_ANY_SIDE;
+}
+
+tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell)
+{
+    int64_t back[TN_HOUSE_SIDE_COUNT] = {0};
+    for (size_t i = 0; i < house->face_count; i++) {
+        tn_house_side side = side_of(&house->faces[i], cell);
+        int64_t half = tn_face_thickness(house, &house->faces[i]) / 2;
+        if (half > back[side])
+            back[side] = half;
+    }
+    tn_rectangle at = house->cells[cell].at;
+    return (tn_rectangle){at.x0 + back[TN_HOUSE_LEFT], at.x1 - back[TN_HOUSE_RIGHT], at.y0 + back[TN_HOUSE_BACK],
+                          at.y1 - back[TN_HOUSE_FRONT]};
+}
+
+static bool overlap(const tn_box *a, const tn_box *b)
+{
+    return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1 && a->z0 < b->z1 && b->z0 < a->z1;
+}
+
+static tn_status take(tn_room *room, tn_box box, tn_error *error)
+{
+    if (room->taken_count == room->taken_room) {
+        size_t size = room->taken_room ? 2 * room->taken_room : 16;
+        tn_box *taken = realloc(room->taken, size * sizeof *taken);
+        if (!taken)
+            return tn_fail_memory(error);
+        room->taken = taken;
+        room->taken_room = size;
+    }
+    room->taken[room->taken_count++] = box;
+    return TN_OK;
+}
+
+/* The space that an opening of the room's side needs clear. */
+static tn_status take_clearance(tn_room *room, const tn_face *face, tn_house_side side, tn_error *error)
+{
+    const tn_opening_record *o = tn_form_opening(room->house->form, face->kind);
+    if (!o || o->clear == 0)
+        return TN_OK;
+    tn_rectangle c = room->clear;
+    bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
+    int64_t middle = across ? face->at.x0 + face->at.x1 : face->at.y0 + face->at.y1;
+    int64_t from = tn_opening_from(middle, o->wide), to = from + o->wide;
+    tn_box box = side == TN_HOUSE_BACK    ? (tn_box){from, to, c.y0, c.y0 + o->clear, 0, 0}
+                 : side == TN_HOUSE_FRONT ? (tn_box){from, to, c.y1 - o->clear, c.y1, 0, 0}
+                 : side == TN_HOUSE_LEFT  ? (tn_box){c.x0, c.x0 + o->clear, from, to, 0, 0}
+                                          : (tn_box){c.x1 - o->clear, c.x1, from, to, 0, 0};
+    box.z0 = o->sill;
+    box.z1 = o->sill + o->high;
+    return take(room, box, error);
+}
+
+/* The posts at the cell: where walls in x and in y meet. */
+static tn_status take_posts(tn_room *room, tn_error *error)
+{
+    const tn_cell *cell = &room->house->cells[room->cell];
+    tn_posts posts;
+    tn_status status = tn_house_posts(room->house, cell->storey, &posts, error);
+    for (size_t i = 0; status == TN_OK && i < posts.count; i++) {
+        const tn_post *post = &posts.items[i];
+        bool near =
+            post->x >= cell->at.x0 && post->x <= cell->at.x1 && post->y >= cell->at.y0 && post->y <= cell->at.y1;
+        tn_rectangle at = tn_post_at(post);
+        if (near && post->thick_x && post->thick_y)
+            status = take(room, (tn_box){at.x0, at.x1, at.y0, at.y1, 0, room->height}, error);
+    }
+    free(posts.items);
+    return status;
+}
+
+static tn_status enter(tn_room *room, tn_error *error)
+{
+    const tn_house *house = room->house;
+    room->clear = tn_cell_clear(house, room->cell);
+    room->height = tn_form_clear(house->form, house->cells[room->cell].storey);
+    tn_status status = take_posts(room, error);
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        tn_house_side side = side_of(face, room->cell);
+        if (side == TN_HOUSE_ANY_SIDE)
+            continue;
+        room->kinds[side][face->kind / 64] |= UINT64_C(1) << face->kind % 64;
+        status = take_clearance(room, face, side, error);
+    }
+    return status;
+}
+
+/* ---- one tile on one side */
+
+typedef struct tn_placing {
+    const tn_room *room;
+    const tn_tile_record *tile;
+    tn_house_side side;
+    bool mirrored;
+    int64_t wide, deep; /* of the clear room, seen with the back behind */
+} tn_placing;
+
+static bool stands_against(const tn_room *room, const tn_tile_record *tile, tn_house_side side)
+{
+    uint64_t allowed[(TN_FACE_KINDS_MAX + 63) / 64] = {0};
+    const tn_house_item_record *items = room->house->form->module->HOUSE_ITEM_records;
+    for (uint32_t i = 0; i < tile->against_count; i++) {
+        uint32_t kind = items[tile->against_first + i].number;
+        allowed[kind / 64] |= UINT64_C(1) << kind % 64;
+    }
+    for (size_t w = 0; tile->against_count > 0 && w < sizeof allowed / sizeof *allowed; w++)
+        if (room->kinds[side][w] & ~allowed[w])
+            return false;
+    return true;
+}
+
+/* Where a box of the tile comes to be; false where it does not fit into the room. */
+static bool place(const tn_placing *p, const tn_tile_box_record *box, tn_box *at)
+{
+    const tn_rectangle *c = &p->room->clear;
+    int64_t u0 = box->flags & TN_TILE_X_FROM_RIGHT ? p->wide - box->x_from : box->x_from;
+    int64_t u1 = box->flags & TN_TILE_X_TO_RIGHT ? p->wide - box->x_to : box->x_to;
+    int64_t v0 = box->flags & TN_TILE_Y_FROM_FRONT ? p->deep - box->y_from : box->y_from;
+    int64_t v1 = box->flags & TN_TILE_Y_TO_FRONT ? p->deep - box->y_to : box->y_to;
+    int64_t z0 = box->up_low, z1 = box->up_high ? box->up_high : p->room->height;
+    if (u0 < 0 || u0 >= u1 || u1 > p->wide || v0 < 0 || v0 >= v1 || v1 > p->deep || z0 >= z1 || z1 > p->room->height)
+        return false;
+    if (p->mirrored) {
+        int64_t other = p->wide - u1;
+        u1 = p->wide - u0;
+        u0 = other;
+    }
+    *at = p->side == TN_HOUSE_BACK    ? (tn_box){c->x0 + u0, c->x0 + u1, c->y0 + v0, c->y0 + v1, z0, z1}
+          : p->side == TN_HOUSE_FRONT ? (tn_box){c->x1 - u1, c->x1 - u0, c->y1 - v1, c->y1 - v0, z0, z1}
+          : p->side == TN_HOUSE_LEFT  ? (tn_box){c->x0 + v0, c->x0 + v1, c->y1 - u1, c->y1 - u0, z0, z1}
+                                      : (tn_box){c->x1 - v1, c->x1 - v0, c->y0 + u0, c->y0 + u1, z0, z1};
+    return true;
+}
+
+/* Room for the items of one more variant. */
+static tn_status make_room(tn_variants *v, size_t items, tn_error *error)
+{
+    if (v->count == v->room) {
+        size_t room = v->room ? 2 * v->room : 8;
+        tn_tile_variant *variants = realloc(v->variants, room * sizeof *variants);
+        if (!variants)
+            return tn_fail_memory(error);
+        v->variants = variants;
+        v->room = room;
+    }
+    if (v->item_count + items <= v->item_room)
+        return TN_OK;
+    size_t room = 2 * (v->item_count + items);
+    tn_standing_item *list = realloc(v->items, room * sizeof *list);
+    if (!list)
+        return tn_fail_memory(error);
+    v->items = list;
+    v->item_room = room;
+    return TN_OK;
+}
+
+/* Puts the tile's items behind those that are there. False where something does not fit. */
+static bool stands(const tn_placing *p, tn_variants *v, size_t *count)
+{
+    const tn_tile_box_record *boxes = p->room->house->form->module->TILE_BOX_records + p->tile->box_first;
+    tn_standing_item *items = v->items + v->item_count;
+    tn_box keep;
+    *count = 0;
+    for (uint32_t i = 0; i < p->tile->box_count; i++) {
+        if (boxes[i].flags & TN_TILE_KEEP)
+            continue;
+        tn_standing_item *item = &items[*count];
+        item->box = p->tile->box_first + i;
+        if (!place(p, &boxes[i], &item->at))
+            return false;
+        for (size_t k = 0; k < *count; k++)
+            if (overlap(&items[k].at, &item->at))
+                return false;
+        for (size_t k = 0; k < p->room->taken_count; k++)
+            if (overlap(&p->room->taken[k], &item->at))
+                return false;
+        ++*count;
+    }
+    for (uint32_t i = 0; i < p->tile->box_count; i++) {
+        if (!(boxes[i].flags & TN_TILE_KEEP))
+            continue;
+        if (!place(p, &boxes[i], &keep))
+            return false;
+        for (size_t k = 0; k < *count; k++)
+            if (overlap(&items[k].at, &keep))
+                return false;
+    }
+    return true;
+}
+
+/* ---- equal layouts count once */
+
+static bool same_item(const tn_module *module, const tn_standing_item *a, const tn_standing_item *b)
+{
+    const tn_tile_box_record *boxes = module->TILE_BOX_records;
+    return memcmp(&a->at, &b->at, sizeof a->at) == 0 &&
+           strcmp(tn_text(module, boxes[a->box].name), tn_text(module, boxes[b->box].name)) == 0;
+}
+
+/* Items of one tile do not overlap, so that two layouts of as many are equal where each item of one is in the other. */
+static bool is_new(const tn_module *module, const tn_variants *v, const tn_standing_item *items, size_t count)
+{
+    for (size_t i = 0; i < v->count; i++) {
+        const tn_tile_variant *other = &v->variants[i];
+        size_t same = 0;
+        for (size_t k = 0; other->item_count == count && k < count; k++)
+            for (size_t m = 0; m < count; m++)
+                same += same_item(module, &items[k], &v->items[other->item_first + m]);
+        if (other->item_count == count && same == count)
+            return false;
+    }
+    return true;
+}
+
+/* ---- all of them */
+
+static tn_status try_side(const tn_room *room, uint32_t tile, tn_house_side side, tn_variants *v, tn_error *error)
+{
+    const tn_module *module = room->house->form->module;
+    const tn_tile_record *record = &module->TILE_records[tile];
+    bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
+    int64_t x = room->clear.x1 - room->clear.x0, y = room->clear.y1 - room->clear.y0;
+    tn_placing placing = {.room = room, .tile = record, .side = side, .wide = across ? x : y, .deep = across ? y : x};
+    if (!stands_against(room, record, side) || placing.wide < record->wide_least || placing.wide > record->wide_most ||
+        placing.deep < record->deep_least || placing.deep > record->deep_most)
+        return TN_OK;
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        size_t count;
+        placing.mirrored = mirrored;
+        tn_status status = make_room(v, record->box_count, error);
+        if (status != TN_OK)
+            return status;
+        if (!stands(&placing, v, &count) || !is_new(module, v, v->items + v->item_count, count))
+            continue;
+        v->variants[v->count++] = (tn_tile_variant){tile, side, mirrored, v->item_count, count};
+        v->item_count += count;
+    }
+    return TN_OK;
+}
+
+static bool is_for(const tn_house_form *form, uint32_t tile, uint32_t function)
+{
+    const tn_tile_record *record = &form->module->TILE_records[tile];
+    for (uint32_t i = 0; i < record->purpose_count; i++)
+        if (form->module->HOUSE_ITEM_records[record->purpose_first + i].number == function)
+            return true;
+    return false;
+}
+
+tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error)
+{
+    static const tn_house_side sides[] = {TN_HOUSE_BACK, TN_HOUSE_FRONT, TN_HOUSE_LEFT, TN_HOUSE_RIGHT};
+    const tn_house_form *form = house->form;
+    tn_room room = {.house = house, .cell = cell};
+    tn_status status = TN_OK;
+    *variants = (tn_variants){0};
+    for (uint32_t t = 0; t < form->record->tile_count && status == TN_OK; t++) {
+        uint32_t tile = form->record->tile_first + t;
+        if (house->cells[cell].open || !is_for(form, tile, house->cells[cell].function))
+            continue;
+        if (!variants->wanted)
+            status = enter(&room, error);
+        variants->wanted = true;
+        for (size_t i = 0; status == TN_OK && i < sizeof sides / sizeof *sides; i++)
+            status = try_side(&room, tile, sides[i], variants, error);
+    }
+    free(room.taken);
+    return status;
+}
+
+void tn_variants_clear(tn_variants *variants)
+{
+    free(variants->variants);
+    free(variants->items);
+    *variants = (tn_variants){0};
+}
+
+void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, char text[TN_VARIANT_TEXT])
+{
+    static const char *const sides[] = {"", "back", "front", "left", "right"};
+    snprintf(text, TN_VARIANT_TEXT, "%s.%s%s", tn_text(form->module, form->module->TILE_records[variant->tile].name),
+             sides[variant->side], variant->mirrored ? ".m" : "");
+}

@@ -1,0 +1,28 @@
+/* The cells of space that are filled: bits in chunks of 64 x 16 x 16, found through a hash table.
+ *
+ * A row of 64 cells along x is one word, so that a box is looked at or filled a word at a time. The chunk used last is
+ * remembered: what is placed lies near what was placed before. Coordinates are cells, from -2^28 to 2^28. */
+#ifndef TARTAN_PLACE_CELLS_H
+#define TARTAN_PLACE_CELLS_H
+
+#include "runtime/place/model/frame.h"
+
+typedef struct tn_cells tn_cells;
+
+/* memory_limit: bytes of the chunks together. NULL where out of memory. */
+tn_cells *tn_cells_new(uint64_t memory_limit);
+void tn_cells_free(tn_cells *cells);
+
+/* How many cells are filled. */
+uint64_t tn_cells_count(const tn_cells *cells);
+
+/* Is any cell of the box filled? */
+bool tn_cells_any(tn_cells *cells, const tn_cell_box *box);
+
+/* A filled cell of the box, the lowest by x, then y, then z; false where there is none. */
+bool tn_cells_first(tn_cells *cells, const tn_cell_box *box, int32_t cell[3]);
+
+/* Fills the box; cells that are filled stay so. TN_LIMIT (E1312) where the chunks pass the memory limit. */
+tn_status tn_cells_fill(tn_cells *cells, const tn_cell_box *box, tn_error *error);
+
+#endif

@@ -1,0 +1,81 @@
+/* A derivation under way: what looking ahead and taking steps share. Internal to grow.c and lookahead.c. */
+#ifndef TARTAN_PLACE_DERIVATION_H
+#define TARTAN_PLACE_DERIVATION_H
+
+#include "runtime/place/grow.h"
+#include "runtime/place/mersenne.h"
+#include "runtime/place/trace.h"
+
+/* Where an alternative is being read. */
+typedef struct cursor {
+    uint32_t next, end; /* steps */
+    uint32_t alternative;
+} cursor;
+
+typedef struct frame_stack {
+    tn_frame *items;
+    size_t count, capacity;
+} frame_stack;
+
+typedef struct cursor_stack {
+    cursor *items;
+    size_t count, capacity;
+} cursor_stack;
+
+/* A box that a step filled, kept where somebody asks what is in the way. */
+typedef struct filled_box {
+    tn_cell_box box;
+    uint32_t step, parts;
+} filled_box;
+
+typedef struct filled_boxes {
+    filled_box *items;
+    size_t count, capacity;
+} filled_boxes;
+
+/* The step at which a lookahead failed, and its box. */
+typedef struct refusal {
+    uint32_t step;
+    tn_cell_box box;
+} refusal;
+
+typedef struct derivation {
+    const tn_place_rules *rules;
+    tn_place_options options;
+    tn_traces traces;
+    tn_cells *cells;
+    tn_mersenne random;
+    frame_stack frames, trial; /* trial: frames of the lookahead above the lowest that it kept */
+    cursor_stack pending, ahead;
+    filled_boxes boxes;
+    refusal refused;
+    uint64_t idle; /* expansions since the last step */
+    tn_placed_model *model;
+    tn_place_fault *fault;
+    tn_error *error;
+} derivation;
+
+tn_status tn_pending_push(derivation *d, cursor_stack *stack, uint32_t alternative);
+
+/* The next step of the topmost alternative that has one; NULL where all are done. */
+const tn_step *tn_pending_next(const derivation *d, cursor_stack *stack, uint32_t *index, uint32_t *alternative);
+
+tn_status tn_frame_push(derivation *d, frame_stack *stack, const tn_frame *frame);
+tn_status tn_past_limit(derivation *d, const char *what, uint64_t limit, const char *option);
+/* A derivation, or the lookahead of an alternative, that does not come to an end: names the symbols that lead to one
+ * another. */
+tn_status tn_no_end(derivation *d, uint32_t alternative, bool lookahead);
+
+tn_status tn_no_frame(derivation *d, uint32_t step, uint32_t alternative);
+tn_status tn_too_far(derivation *d, uint32_t step, uint32_t alternative);
+tn_status tn_bound_empty_world(derivation *d);
+tn_status tn_set_bound(derivation *d, const tn_frame *frame, const tn_step *step);
+
+/* What is in the way of a step's box: its cell that is filled, and what filled that, where boxes are kept. */
+tn_place_obstacle tn_obstacle_find(derivation *d, const tn_cell_box *box);
+
+/* Does an alternative fit? Where it does not, and was looked at step by step, d->refused says why. */
+tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits);
+tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits);
+
+#endif

@@ -1,0 +1,258 @@
+/* Derives a model: pending steps are a stack of places in alternatives, and each step is taken once. */
+#include "runtime/place/grow.h"
+
+#include <stdlib.h>
+
+#include "runtime/base/array.h"
+#include "runtime/place/derivation.h"
+
+enum { ASK_EVERY = 4096 };
+
+/* ---- expanding */
+
+static uint32_t draw(derivation *d, const tn_place_symbol *symbol)
+{
+    double u = tn_mersenne_draw(&d->random);
+    uint32_t chosen = 0;
+    d->model->counts.draws++;
+    while (chosen + 1 < symbol->count && !(d->rules->alternatives[symbol->first + chosen].share > u))
+        chosen++;
+    return symbol->first + chosen;
+}
+
+static void report(derivation *d, tn_place_outcome outcome, uint32_t alternative)
+{
+    if (!d->options.report)
+        return;
+    tn_place_event event = {.outcome = outcome,
+                            .alternative = alternative,
+                            .frame = d->frames.count ? &d->frames.items[d->frames.count - 1] : NULL,
+                            .parts = d->model->count};
+    if (outcome == TN_PLACE_REFUSED) {
+        event.step = d->refused.step;
+        event.obstacle = tn_obstacle_find(d, &d->refused.box);
+    }
+    d->options.report(d->options.context, &event);
+}
+
+/* One alternative alone is taken in any case: its lookahead is run only for what it does on the way. */
+static tn_status take_only(derivation *d, uint32_t alternative)
+{
+    bool fits, acts = d->traces.traces[alternative].bounds || tn_cells_count(d->cells) == 0;
+    d->model->counts.tries++;
+    tn_status status = acts ? tn_look_ahead(d, alternative, &fits) : TN_OK;
+    if (status == TN_OK)
+        report(d, TN_PLACE_TAKEN, alternative);
+    return status;
+}
+
+/* The first alternative that fits, else the last. */
+static tn_status choose(derivation *d, const tn_place_symbol *symbol, uint32_t *chosen)
+{
+    bool fits = false;
+    for (uint32_t i = 0; i < symbol->count; i++) {
+        d->model->counts.tries++;
+        *chosen = symbol->first + i;
+        tn_status status = tn_fits_here(d, *chosen, &fits);
+        if (status != TN_OK)
+            return status;
+        report(d, fits ? TN_PLACE_TAKEN : TN_PLACE_REFUSED, *chosen);
+        if (fits)
+            return TN_OK;
+    }
+    d->model->counts.fallbacks++;
+    report(d, TN_PLACE_FORCED, *chosen);
+    return TN_OK;
+}
+
+static tn_status expand(derivation *d, uint32_t index, uint32_t from)
+{
+    const tn_place_symbol *symbol = &d->rules->symbols[index];
+    uint32_t chosen = symbol->first;
+    tn_status status = TN_OK;
+    if (++d->idle > d->options.lookahead_limit)
+        return tn_no_end(d, from, false);
+    d->model->counts.expansions++;
+    if (symbol->drawn) {
+        chosen = draw(d, symbol);
+        report(d, TN_PLACE_DRAWN, chosen);
+    } else {
+        status = symbol->count == 1 ? take_only(d, chosen) : choose(d, symbol, &chosen);
+    }
+    return status == TN_OK ? tn_pending_push(d, &d->pending, chosen) : status;
+}
+
+/* ---- taking steps for good */
+
+static tn_status add_part(derivation *d, const tn_frame *frame, const tn_step *step)
+{
+    tn_placed_model *m = d->model;
+    if (m->count == d->options.part_limit)
+        return tn_past_limit(d, "parts", d->options.part_limit, "part-limit");
+    if (!tn_array_reserve(&m->parts, &m->capacity, m->count, 1, sizeof *m->parts))
+        return tn_fail_memory(d->error);
+    m->parts[m->count++] = (tn_placed_part){*frame, step->text};
+    return TN_OK;
+}
+
+/* Keeps what was filled, where somebody asks what is in the way. */
+static tn_status keep_box(derivation *d, const tn_cell_box *box, uint32_t step)
+{
+    filled_boxes *boxes = &d->boxes;
+    if (!d->options.watch)
+        return TN_OK;
+    if (!tn_array_reserve(&boxes->items, &boxes->capacity, boxes->count, 1, sizeof *boxes->items))
+        return tn_fail_memory(d->error);
+    boxes->items[boxes->count++] = (filled_box){*box, step, (uint32_t)d->model->count};
+    return TN_OK;
+}
+
+static tn_status fill(derivation *d, const tn_frame *frame, const tn_step *step, uint32_t index, uint32_t alternative)
+{
+    tn_cell_box box = tn_frame_box(frame, step);
+    if (step->kind == TN_STEP_FILL && tn_cells_any(d->cells, &box)) {
+        *d->fault = (tn_place_fault){true, index, alternative, tn_obstacle_find(d, &box)};
+        return tn_fail(d->error, TN_INVALID, E_PLACE_BLOCKED, "the place of this box is not free");
+    }
+    tn_status status = keep_box(d, &box, index);
+    if (status != TN_OK)
+        return status;
+    return tn_cells_fill(d->cells, &box, d->error);
+}
+
+/* Looks at the cells x, then y, then z ascending, and fills those before the first filled one, as the published program
+ * does. */
+static tn_status touch(derivation *d, const tn_frame *frame, const tn_step *step, uint32_t index, uint32_t alternative)
+{
+    tn_cell_box box = tn_frame_box(frame, step);
+    if (!tn_cells_any(d->cells, &box)) {
+        *d->fault = (tn_place_fault){.has_step = true, .step = index, .alternative = alternative};
+        return tn_fail(d->error, TN_INVALID, E_PLACE_BLOCKED, "there is nothing to touch here");
+    }
+    for (int32_t x = box.low[0]; x < box.high[0]; x++) {
+        for (int32_t z = box.low[2]; z < box.high[2]; z++) {
+            tn_cell_box one = {{x, box.low[1], z}, {x + 1, box.high[1], z + 1}};
+            if (tn_cells_any(d->cells, &one))
+                return TN_OK;
+            tn_status status = tn_cells_fill(d->cells, &one, d->error);
+            if (status != TN_OK)
+                return status;
+        }
+    }
+    return TN_OK;
+}
+
+static tn_status take_step(derivation *d, uint32_t index, uint32_t alternative)
+{
+    const tn_step *step = &d->rules->steps[index];
+    if (d->frames.count == 0)
+        return tn_no_frame(d, index, alternative);
+    tn_frame *frame = &d->frames.items[d->frames.count - 1];
+    switch (step->kind) {
+    case TN_STEP_PUSH:
+        return tn_frame_push(d, &d->frames, frame);
+    case TN_STEP_POP:
+        d->frames.count--;
+        return TN_OK;
+    case TN_STEP_PART:
+        return add_part(d, frame, step);
+    case TN_STEP_FILL:
+    case TN_STEP_FILL_OVER:
+        return fill(d, frame, step, index, alternative);
+    case TN_STEP_TOUCH:
+        return touch(d, frame, step, index, alternative);
+    case TN_STEP_BOUND_BOX:
+    case TN_STEP_BOUND_BALL:
+        return tn_set_bound(d, frame, step);
+    default:
+        return tn_frame_step(frame, step) ? TN_OK : tn_too_far(d, index, alternative);
+    }
+}
+
+static tn_status keep_step(derivation *d, uint32_t index)
+{
+    tn_placed_model *m = d->model;
+    size_t taken = (size_t)m->counts.steps;
+    if (!d->options.keep_steps)
+        return TN_OK;
+    if (!tn_array_reserve(&m->steps, &m->step_capacity, taken, 1, sizeof *m->steps))
+        return tn_fail_memory(d->error);
+    m->steps[taken] = index;
+    return TN_OK;
+}
+
+static tn_status derive(derivation *d)
+{
+    uint32_t index, alternative;
+    const tn_step *step;
+    uint64_t done = 0;
+    const tn_frame origin = {.colour = 1};
+    tn_status status = tn_frame_push(d, &d->frames, &origin);
+    if (status == TN_OK)
+        status = expand(d, 0, 0);
+    while (status == TN_OK && (step = tn_pending_next(d, &d->pending, &index, &alternative)) != NULL) {
+        if (++done % ASK_EVERY == 0 && d->options.stop && d->options.stop(d->options.context))
+            return tn_fail(d->error, TN_STOPPED, TN_CODE_NONE, "interrupted");
+        if (step->kind == TN_STEP_EXPAND) {
+            status = expand(d, step->index, alternative);
+            continue;
+        }
+        if (d->model->counts.steps == d->options.step_limit)
+            return tn_past_limit(d, "steps", d->options.step_limit, "step-limit");
+        status = take_step(d, index, alternative);
+        if (status == TN_OK)
+            status = tn_bound_empty_world(d);
+        if (status == TN_OK)
+            status = keep_step(d, index);
+        d->model->counts.steps += status == TN_OK;
+        d->idle = 0;
+    }
+    return status;
+}
+
+static uint64_t or_default(uint64_t value, uint64_t usual)
+{
+    return value ? value : usual;
+}
+
+static tn_place_options filled(const tn_place_options *options)
+{
+    tn_place_options o = options ? *options : (tn_place_options){0};
+    o.part_limit = or_default(o.part_limit, 1000000);
+    o.step_limit = or_default(o.step_limit, 1000000000);
+    o.frame_limit = or_default(o.frame_limit, 1000000);
+    o.lookahead_limit = or_default(o.lookahead_limit, 1000000);
+    o.memory_limit = or_default(o.memory_limit, UINT64_C(4) << 30);
+    return o;
+}
+
+tn_status tn_place_derive(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
+                          tn_place_fault *fault, tn_error *error)
+{
+    derivation d = {.rules = rules, .options = filled(options), .model = model, .fault = fault, .error = error};
+    *model = (tn_placed_model){0};
+    *fault = (tn_place_fault){0};
+    d.cells = tn_cells_new(d.options.memory_limit);
+    tn_status status = d.cells ? tn_traces_make(rules, &d.traces, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        tn_mersenne_seed(&d.random, d.options.seed);
+        status = derive(&d);
+        model->counts.parts = model->count;
+        model->counts.cells = tn_cells_count(d.cells);
+    }
+    tn_cells_free(d.cells);
+    tn_traces_clear(&d.traces);
+    free(d.frames.items);
+    free(d.trial.items);
+    free(d.pending.items);
+    free(d.ahead.items);
+    free(d.boxes.items);
+    return status;
+}
+
+void tn_placed_model_clear(tn_placed_model *model)
+{
+    free(model->parts);
+    free(model->steps);
+    *model = (tn_placed_model){0};
+}

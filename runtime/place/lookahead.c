@@ -1,0 +1,103 @@
+/* Looking ahead: does an alternative fit? Each symbol in it is replaced by its last alternative. */
+#include "runtime/place/derivation.h"
+
+/* The frame at hand of a lookahead: one of its own, or the derivation's. `kept` counts the derivation's frames that it
+ * did not drop. NULL where the last was dropped. */
+static tn_frame *trial_frame(derivation *d, size_t kept)
+{
+    if (d->trial.count > 0)
+        return &d->trial.items[d->trial.count - 1];
+    return kept > 0 ? &d->frames.items[kept - 1] : NULL;
+}
+
+/* One step of a lookahead on a frame of its own or of the derivation; *fits is set to false where a test fails. A frame
+ * of the derivation is copied before it is changed. */
+static tn_status try_step(derivation *d, uint32_t index, uint32_t alternative, size_t *kept, bool *fits)
+{
+    const tn_step *step = &d->rules->steps[index];
+    tn_frame *frame = trial_frame(d, *kept);
+    if (!frame)
+        return tn_no_frame(d, index, alternative);
+    switch (step->kind) {
+    case TN_STEP_PUSH:
+        return tn_frame_push(d, &d->trial, frame);
+    case TN_STEP_POP:
+        *(d->trial.count > 0 ? &d->trial.count : kept) -= 1;
+        return TN_OK;
+    case TN_STEP_FILL:
+    case TN_STEP_TOUCH: {
+        tn_cell_box box = tn_frame_box(frame, step);
+        *fits = tn_cells_any(d->cells, &box) == (step->kind == TN_STEP_TOUCH);
+        if (!*fits)
+            d->refused = (refusal){index, box};
+        return TN_OK;
+    }
+    case TN_STEP_BOUND_BOX:
+    case TN_STEP_BOUND_BALL:
+        return tn_set_bound(d, frame, step);
+    case TN_STEP_MOVE:
+    case TN_STEP_TURN:
+        if (d->trial.count == 0) { /* the derivation's own frame stays as it is */
+            tn_status status = tn_frame_push(d, &d->trial, frame);
+            if (status != TN_OK)
+                return status;
+            (*kept)--;
+            frame = trial_frame(d, *kept);
+        }
+        return tn_frame_step(frame, step) ? TN_OK : tn_too_far(d, index, alternative);
+    default:
+        return TN_OK;
+    }
+}
+
+/* Runs a lookahead step by step until something does not fit. */
+tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits)
+{
+    size_t kept = d->frames.count;
+    uint64_t taken = 0;
+    uint32_t index, of;
+    const tn_step *step;
+    d->trial.count = d->ahead.count = 0;
+    *fits = true;
+    tn_status status = tn_pending_push(d, &d->ahead, alternative);
+    while (status == TN_OK && *fits && (step = tn_pending_next(d, &d->ahead, &index, &of)) != NULL) {
+        if (++taken > d->options.lookahead_limit)
+            return tn_no_end(d, alternative, true);
+        if (step->kind == TN_STEP_EXPAND) {
+            const tn_place_symbol *symbol = &d->rules->symbols[step->index];
+            status = tn_pending_push(d, &d->ahead, symbol->first + symbol->count - 1);
+            continue;
+        }
+        status = try_step(d, index, of, &kept, fits);
+        if (status == TN_OK && *fits)
+            status = tn_bound_empty_world(d);
+    }
+    return status;
+}
+
+/* Does a trace that is known fit at a frame? */
+static bool trace_fits(derivation *d, const tn_trace *trace, const tn_frame *frame)
+{
+    for (uint32_t i = 0; i < trace->count; i++) {
+        const tn_trace_test *test = &d->traces.tests[trace->first + i];
+        tn_cell_box box = test->box[frame->heading];
+        for (int k = 0; k < 3; k++) {
+            box.low[k] += frame->at[k];
+            box.high[k] += frame->at[k];
+        }
+        if (tn_cells_any(d->cells, &box) != test->filled)
+            return false;
+    }
+    return true;
+}
+
+/* Does an alternative fit? Where no cell is filled yet, steps have the effect of bound_empty_world. */
+tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits)
+{
+    const tn_trace *trace = &d->traces.traces[alternative];
+    if (d->options.interpret || d->options.report || !trace->known || tn_cells_count(d->cells) == 0 ||
+        d->frames.count == 0)
+        return tn_look_ahead(d, alternative, fits);
+    *fits = trace_fits(d, trace, &d->frames.items[d->frames.count - 1]);
+    return TN_OK;
+}

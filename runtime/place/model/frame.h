@@ -1,0 +1,39 @@
+/* The head that walks while a model is placed: a frame, what a step does to it, and the cells that a step is about. */
+#ifndef TARTAN_PLACE_MODEL_FRAME_H
+#define TARTAN_PLACE_MODEL_FRAME_H
+
+#include "runtime/place/model/rules.h"
+
+/* A box of cells: low[k] <= coordinate < high[k]. Empty where a low is not below its high. */
+typedef struct tn_cell_box {
+    int32_t low[3], high[3];
+} tn_cell_box;
+
+static inline bool tn_cell_box_holds(const tn_cell_box *box, const int32_t cell[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (cell[k] < box->low[k] || cell[k] >= box->high[k])
+            return false;
+    return true;
+}
+
+typedef struct tn_frame {
+    int32_t at[3];
+    uint32_t heading; /* quarter turns, 0 to 3 */
+    int32_t colour;
+} tn_frame;
+
+/* Turns a step of (x, z) by a heading: 1 takes (x, z) to (-z, x). */
+static inline void tn_heading_turn(uint32_t heading, int32_t x, int32_t z, int32_t *to_x, int32_t *to_z)
+{
+    *to_x = heading == 0 ? x : heading == 1 ? -z : heading == 2 ? -x : z;
+    *to_z = heading == 0 ? z : heading == 1 ? x : heading == 2 ? -z : -x;
+}
+
+/* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
+bool tn_frame_step(tn_frame *frame, const tn_step *step);
+
+/* The cells of FILL, FILL_OVER and TOUCH at a frame. */
+tn_cell_box tn_frame_box(const tn_frame *frame, const tn_step *step);
+
+#endif

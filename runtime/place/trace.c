@@ -1,0 +1,132 @@
+/* Works out what the lookahead of each alternative tests. */
+#include "runtime/place/trace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+
+enum { STEPS_MAX = 4096, FRAMES_MAX = 64, DEPTH_MAX = 64 }; /* of a lookahead that is worked out beforehand */
+
+typedef struct tracer {
+    const tn_place_rules *rules;
+    tn_traces *traces;
+    tn_frame frames[4][FRAMES_MAX]; /* by the heading at the start */
+    uint32_t depth, steps;
+    bool known, failed;
+} tracer;
+
+void tn_traces_clear(tn_traces *traces)
+{
+    free(traces->traces);
+    free(traces->tests);
+    *traces = (tn_traces){0};
+}
+
+static void add_test(tracer *t, const tn_step *step)
+{
+    tn_traces *all = t->traces;
+    if (!tn_array_reserve(&all->tests, &all->test_capacity, all->test_count, 1, sizeof *all->tests)) {
+        t->failed = true;
+        return;
+    }
+    tn_trace_test *test = &all->tests[all->test_count++];
+    test->filled = step->kind == TN_STEP_TOUCH;
+    for (int h = 0; h < 4; h++)
+        test->box[h] = tn_frame_box(&t->frames[h][t->depth], step);
+}
+
+static void take_step(tracer *t, const tn_step *step)
+{
+    switch (step->kind) {
+    case TN_STEP_PUSH:
+        t->known &= t->depth + 1 < FRAMES_MAX;
+        if (t->known)
+            for (int h = 0; h < 4; h++)
+                t->frames[h][t->depth + 1] = t->frames[h][t->depth];
+        t->depth++;
+        break;
+    case TN_STEP_POP:
+        t->known &= t->depth > 0;
+        t->depth--;
+        break;
+    case TN_STEP_BOUND_BOX:
+    case TN_STEP_BOUND_BALL:
+        t->known = false;
+        break;
+    case TN_STEP_FILL:
+    case TN_STEP_TOUCH:
+        add_test(t, step);
+        break;
+    case TN_STEP_MOVE:
+    case TN_STEP_TURN:
+        for (int h = 0; h < 4; h++)
+            t->known &= tn_frame_step(&t->frames[h][t->depth], step);
+        break;
+    default:
+        break;
+    }
+}
+
+static void take_alternative(tracer *t, const tn_place_alternative *alternative, uint32_t depth)
+{
+    for (uint32_t i = 0; i < alternative->count && t->known && !t->failed; i++) {
+        const tn_step *step = &t->rules->steps[alternative->first + i];
+        t->known = ++t->steps <= STEPS_MAX && depth < DEPTH_MAX;
+        if (step->kind != TN_STEP_EXPAND) {
+            take_step(t, step);
+        } else if (t->known) {
+            const tn_place_symbol *symbol = &t->rules->symbols[step->index];
+            take_alternative(t, &t->rules->alternatives[symbol->first + symbol->count - 1], depth + 1);
+        }
+    }
+}
+
+/* Marks what a lookahead of the alternative can reach that sets bounds: found again and again until nothing changes. */
+static void find_bounds(const tn_place_rules *rules, tn_traces *traces)
+{
+    bool changed = true;
+    while (changed) {
+        changed = false;
+        for (uint32_t a = 0; a < rules->alternative_count; a++) {
+            const tn_place_alternative *alternative = &rules->alternatives[a];
+            bool bounds = false;
+            for (uint32_t i = 0; i < alternative->count; i++) {
+                const tn_step *step = &rules->steps[alternative->first + i];
+                bounds |= step->kind == TN_STEP_BOUND_BOX || step->kind == TN_STEP_BOUND_BALL;
+                if (step->kind == TN_STEP_EXPAND) {
+                    const tn_place_symbol *symbol = &rules->symbols[step->index];
+                    bounds |= traces->traces[symbol->first + symbol->count - 1].bounds;
+                }
+            }
+            changed |= bounds && !traces->traces[a].bounds;
+            traces->traces[a].bounds |= bounds;
+        }
+    }
+}
+
+tn_status tn_traces_make(const tn_place_rules *rules, tn_traces *traces, tn_error *error)
+{
+    *traces = (tn_traces){0};
+    traces->traces = calloc((size_t)rules->alternative_count + 1, sizeof *traces->traces);
+    if (!traces->traces)
+        return tn_fail_memory(error);
+    find_bounds(rules, traces);
+    for (uint32_t a = 0; a < rules->alternative_count; a++) {
+        tracer t = {.rules = rules, .traces = traces, .known = true};
+        for (uint32_t h = 0; h < 4; h++)
+            t.frames[h][0].heading = h;
+        size_t first = traces->test_count;
+        take_alternative(&t, &rules->alternatives[a], 0);
+        if (t.failed) {
+            tn_traces_clear(traces);
+            return tn_fail_memory(error);
+        }
+        if (!t.known)
+            traces->test_count = first;
+        traces->traces[a].known = t.known;
+        traces->traces[a].first = (uint32_t)first;
+        traces->traces[a].count = (uint32_t)(traces->test_count - first);
+    }
+    return TN_OK;
+}

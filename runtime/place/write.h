@@ -1,0 +1,33 @@
+/* A placed model as text: an LDraw file, a list of parts, and the program that made it. A failing stream is the
+ * caller's to notice. */
+#ifndef TARTAN_PLACE_WRITE_H
+#define TARTAN_PLACE_WRITE_H
+
+#include <stdio.h>
+
+#include "runtime/place/grow.h"
+
+/* One line a part and a step behind it, as the published program writes them: every r is left out of parts' names, and
+ * there is no header. */
+void tn_place_write_ldraw(const tn_placed_model *model, FILE *out);
+
+/* Parts by name and colour, in the order of their first: part,colour,number. */
+tn_status tn_place_write_list(const tn_placed_model *model, FILE *out, tn_error *error);
+
+/* The steps that were taken (kept), as the grammar's author wrote them, parted by blanks. */
+void tn_place_write_program(const tn_placed_model *model, const tn_place_rules *rules, FILE *out);
+
+/* A step as its author wrote it: `length` bytes of a source of the module; empty where the module does not say. */
+const char *tn_step_text(const tn_place_rules *rules, const tn_step *step, size_t *length);
+
+/* How many parts there are of a name and colour. */
+typedef struct tn_part_count {
+    const char *name;
+    int32_t colour;
+    uint64_t count;
+} tn_part_count;
+
+/* All of these, in the order of their first; *counts is the caller's to free. */
+tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error);
+
+#endif

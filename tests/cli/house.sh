@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Houses: lines read and written again, tables and models, and lines that are no houses.
+name=house
+. "$(dirname "$0")/golden.bash"
+
+golden line "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window\""
+golden bad_face "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window window door window\""
+golden short "tartan house cottage \"10' room:14' porch:5' | 14' room:14' none ; 2 shed(back,4:12) 1 flat ; living bedroom porch-deck | kitchen bedroom ; wall wall open window wall window wall window wall window window wall wall window ; bed.back counter.back bed.back.m\""
+golden rooms "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back\" -o $scratch/rooms.csv && cat $scratch/rooms.csv"
+golden no_plan "tartan house cottage ''"
+golden bad_value "tartan house cottage \"13' room:14' none\""
+golden no_section "tartan house cottage \"14' room:14' none\""
+golden bad_function "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; study\""
+golden too_many "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living living\""
+golden six_parts "tartan house cottage ';;;;;'"
+golden bad_tile "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; oven.back\""
+golden no_form "tartan house sheds.plan ''"
+golden no_format "tartan house cottage '' -o house.stl"
+golden too_near "tartan house near.plan \"9' open:9' | 9' open:9'6\\\" ; - ; hall | hall\""
+
+# Every part is a closed mesh: each edge is there twice, once in each direction.
+"$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o "$scratch/h.obj" \
+    -o "$scratch/h.json" -o "$scratch/h.ply" -o "$scratch/h.glb"
+is 'closed, and as large as its parts' "$(
+    python3 - "$scratch" <<'PY'
+import json, sys
+from collections import Counter
+from fractions import Fraction as F
+
+points, edges, volume = [], Counter(), F(0)
+for line in open(sys.argv[1] + "/h.obj"):
+    word, *rest = line.split() or [""]
+    if word == "v":
+        points.append([F(x) for x in rest])
+    if word == "f":
+        face = [int(x.split("/")[0]) - 1 for x in rest]
+        edges.update(zip(face, face[1:] + face[:1]))
+        for b, c in zip(face[1:], face[2:]):
+            p, q, r = points[face[0]], points[b], points[c]
+            volume += sum(p[i] * (q[i - 2] * r[i - 1] - q[i - 1] * r[i - 2]) for i in range(3)) / 6
+house = json.load(open(sys.argv[1] + "/h.json"))
+wanted = F(0)
+for s in house["solids"]:
+    x0, x1, y0, y1, z0, z1 = s["box"]
+    wanted += (x1 - x0) * (y1 - y0) * (z1 - z0)
+for r in house["roofs"]:
+    line = [(F(y), F(z) - r["base"]) for y, z in r["profile"]]
+    wanted += (r["x"][1] - r["x"][0]) * sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(line, line[1:]))
+closed = all(edges[b, a] == 1 == n for (a, b), n in edges.items())
+print(closed, abs(volume - wanted / 10**27) < F(1, 10**6))
+PY
+)" 'True True'
+finish

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# tartan mesh: the nine primitives have the measures that two other implementations found; files, limits, wrong use.
+name=mesh
+source "$(dirname "$0")/golden.bash"
+
+# name vertices triangles volume area, at 50 samples and at 256
+primitives='sphere 5712 11420 522.791008007 313.922120781 156240 312476 523.568092974 314.150225590
+torus 4672 9344 201.142049973 252.379322172 121032 242064 202.091655689 252.651058950
+crosscap 3720 7436 195.186182330 208.801894562 103752 207500 196.303906983 214.348477780
+heart 3448 6892 226.403069093 189.564978316 93836 187668 227.048096970 189.998086141
+hunt 4376 8708 183.415109755 257.742669068 132744 264244 185.604400801 283.298760118
+klein 4792 9620 226.003263840 260.544869016 130168 260492 226.689298356 261.351356700
+roman 5712 11408 164.158245606 313.826239649 156240 312464 166.568598173 319.067207145
+tetrahedral 8112 16208 371.798243305 434.627231843 219672 439328 373.787095433 436.045802596
+blobby 7536 15088 237.282528710 403.117809643 203088 406192 239.464410913 403.742203498'
+
+# measures WANTED SURFACE OPTION...: the counts exactly, the sums to eleven digits.
+measures() {
+    local wanted=$1 said
+    shift
+    said=$("$TARTAN" mesh primitives --surface "$@" --stats json 2>/dev/null | python3 -c '
+import json, sys
+m, wanted = json.load(sys.stdin), [float(word) for word in sys.argv[1].split()]
+got = [m[name] for name in ("vertices", "triangles", "volume", "area")]
+print("" if got[:2] == wanted[:2] and all(abs(a - b) < 1e-11 * b for a, b in zip(got, wanted)) else got)' "$wanted")
+    [ -z "$said" ] || fail "$*: $said, not $wanted"
+}
+while read -r surface v50 t50 volume50 area50 v256 t256 volume256 area256; do
+    measures "$v50 $t50 $volume50 $area50" "$surface" --threads 4
+    measures "$v50 $t50 $volume50 $area50" "$surface" --engine vm
+    measures "$v256 $t256 $volume256 $area256" "$surface" --grid 256
+done <<<"$primitives"
+
+cd "$scratch"
+printf 'x*x + y*y + z*z - 9\n' >ball.field
+printf 'surface cut = x*x + y*y - 4\nsurface wall = 1/x\nsurface specks = noise(9*x, 9*y, 9*z) + 0.45\ngrid 20\n' >odd.field
+printf 'abs(distance("hull.obj")) - 0.4\n' >shell.field
+printf 'fn f(a) = a\n' >library.field
+printf 'sqrt(x*x + y*y + z*z - 400) - 1\n' >none.field
+golden ball "tartan mesh $scratch/ball.field --grid 30 --stats"
+golden cut "tartan mesh $scratch/odd.field --surface cut"
+golden wall "tartan mesh $scratch/odd.field --surface wall --stats json"
+golden none "tartan mesh $scratch/none.field --grid 20"
+golden specks "tartan mesh $scratch/odd.field --surface specks"
+golden open "tartan mesh $scratch/odd.field --surface cut --open --stats json"
+golden jumps_open "tartan mesh $scratch/odd.field --surface wall --jumps open --stats json"
+golden unknown_surface "tartan mesh $scratch/odd.field --surface wal"
+golden no_surface "tartan mesh $scratch/library.field"
+golden no_field "tartan mesh square"
+golden samples "tartan mesh $scratch/ball.field --grid 200 --max-samples 1000000"
+golden triangles "tartan mesh $scratch/ball.field --max-triangles 1000"
+golden missing_mesh "tartan mesh $scratch/shell.field"
+golden wrong_output "tartan mesh $scratch/ball.field -o $scratch/ball.svg"
+golden wrong_normals "tartan mesh $scratch/ball.field -o $scratch/ball.stl --normals"
+golden points "printf '0 0 0\n3 0 0\n1,2,3\n' >$scratch/places && tartan mesh $scratch/ball.field --points $scratch/places"
+golden wrong_points "printf '0 0\n' >$scratch/places && tartan mesh $scratch/ball.field --points $scratch/places"
+golden werror "tartan mesh primitives --surface heart --grid 12 --werror --stats json"
+
+# A shell of a mesh that was written before; a module does as its file does.
+"$TARTAN" mesh ball.field -o hull.obj || fail "a mesh is not written"
+golden shell "tartan mesh $scratch/shell.field --grid 40"
+"$TARTAN" build ball.field -o ball.tnb
+for format in obj ply stl off om glb; do
+    "$TARTAN" mesh ball.field --grid 20 -o a.$format && "$TARTAN" mesh ball.tnb --grid 20 -o b.$format
+    cmp a.$format b.$format || fail "the module gives another $format"
+    printf 'abs(distance("a.%s")) - 0.3\n' "$format" >again.field
+    [ "$format" = glb ] || exits 0 "$TARTAN" mesh again.field --grid 10
+done
+finish

@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# tartan place: models from connection grammars, and what is said where a run cannot go on.
+name=place
+source "$(dirname "$0")/golden.bash"
+
+wall=../../../examples/brick-wall/wall.pcfg bricks=../../../examples/brick-wall/bricks.pcfg
+golden summary "tartan place $wall $bricks --seed 3"
+golden stats "tartan place $wall $bricks --seed 3 --stats"
+golden stats_json "tartan place $wall $bricks --seed 3 --stats json"
+golden list "tartan place $wall $bricks --seed 3 -o $scratch/wall.csv && cat $scratch/wall.csv"
+golden header "tartan place $wall $bricks --header -o - | head -n 4 | sed 's/tartan .*/tartan/'"
+golden trace "tartan place $wall $bricks --trace | head -n 60"
+golden disasm "tartan build $wall $bricks -o $scratch/wall.tnb && tartan disasm $scratch/wall.tnb | tail -n +3"
+golden no_rule_alone "tartan check $wall"
+golden wrong_order "tartan check $bricks $wall"
+golden format "printf \" Wall   ->'Place(1)'[.5]\\n\\n\\n  # why\\nWall ->  'Place(2)'|[.5]\\n\" | tartan fmt --notation pcfg -"
+golden format_lost "printf \"Wall -> 'Place(1)' [.5] \\nWall -> 'Place(2)' | [.5]\\n\" | tartan fmt --notation pcfg -"
+
+# Both ways of looking ahead, a module and its sources: the same bytes.
+cd "$scratch"
+source=$OLDPWD
+wall=("$source/examples/brick-wall/wall.pcfg" "$source/examples/brick-wall/bricks.pcfg")
+for seed in 0 1 4294967295; do
+    "$TARTAN" place "${wall[@]}" --seed $seed -o auto.ldr -o auto.csv --program auto.txt
+    "$TARTAN" place "${wall[@]}" --seed $seed -o vm.ldr --engine vm --program vm.txt
+    "$TARTAN" place wall.tnb --seed $seed -o module.ldr --program module.txt
+    for one in vm module; do
+        cmp auto.ldr $one.ldr || fail "seed $seed: $one is another model"
+        cmp auto.txt $one.txt || fail "seed $seed: $one is another program"
+    done
+done
+is 'parts of the list' "$(awk -F, 'NR > 1 {n += $3} END {print n}' auto.csv)" "$(grep -c '^1 ' auto.ldr)"
+# The program, as a grammar of one rule, makes the model again.
+sed "s/[^ ]*/'&'/g; s/^/All -> /" auto.txt >again.pcfg
+"$TARTAN" place again.pcfg -o again.ldr
+cmp auto.ldr again.ldr || fail 'a program placed again is another model'
+# No two bricks of the wall take the same room, and none lies outside or in a window.
+awk '$1 == 1 {wide = $NF == "3010.dat" ? 8 : $NF == "3004.dat" ? 4 : 2
+    for (x = $3 / 10 - wide / 2; x < $3 / 10 + wide / 2; x++) {
+        if (filled[x, $4 / 8]++ || x < -20 || x >= 20) exit 1
+        if (x >= -14 && x < -6 && ($4 / 8 == -3 || $4 / 8 == 0)) exit 1
+    }}' auto.ldr || fail 'bricks overlap, or lie where they must not'
+
+# ---- what cannot go on
+write() { cat >"$scratch/$1.pcfg"; }
+write blocked <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'FillRect(4,3,4)' 'Place(3003)' 'Move(1,1,0)' A
+A -> 'FillRect(2,3,2)' 'Place(3005)' [1]
+X
+write bound <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' 'Move(4,0,0)' 'FillRect(2,3,2)'
+X
+write touch <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' 'AssertFilled()'
+X
+write frame <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' '(' ')' ')' 'Move(1,0,0)'
+X
+write nothing <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Move(1,0,0)'
+X
+write forced <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' A
+A -> 'Move(4,0,0)' 'FillRect(2,3,2)' | 'FillRectNoCheck(2,3,2)' 'AssertFilled()'
+X
+write lookahead <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' A
+A -> 'Move(0,0,1)' B | 'Move(0,0,0)' B
+B -> 'Rotate(90)' A
+X
+write idle <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' A
+A -> B |
+B -> A |
+X
+write endless <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' A
+A -> 'Place(3003)' A |
+X
+write far <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' 'Move(67108864,0,0)' 'Move(1,0,0)'
+X
+write large <<'X'
+Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' 'FillRectNoCheck(1000000,1000000,1000000)'
+X
+for name_ in blocked bound touch frame nothing forced lookahead idle far; do
+    golden "$name_" "tartan place $scratch/$name_.pcfg -o $scratch/none.ldr"
+done
+golden parts "tartan place $scratch/endless.pcfg --part-limit 100"
+golden steps "tartan place $scratch/endless.pcfg --step-limit 100"
+golden memory "tartan place $scratch/large.pcfg --memory-limit 4"
+[ ! -e "$scratch/none.ldr" ] || rm "$scratch/none.ldr" # of `forced`, which is written
+golden keep_partial "tartan place $scratch/blocked.pcfg --keep-partial -o $scratch/partial.ldr; cat $scratch/partial.ldr"
+golden other_file "tartan place ../../../stdlib/square.hemls"
+golden not_joined "tartan place $scratch/touch.pcfg ../../../stdlib/square.hemls"
+golden map_places "tartan map $scratch/touch.pcfg --genome 1"
+golden missing "tartan place $scratch/tuch.pcfg"
+golden output_ending "tartan place $scratch/touch.pcfg -o $scratch/x.txt"
+golden output_twice "tartan place $scratch/touch.pcfg -o - --stats"
+golden header_alone "tartan place $scratch/touch.pcfg --header"
+
+# ---- the published program
+if [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/place/model.py" ]; then
+    oracle=$TARTAN_ORACLES/place
+    published() {
+        local model=$1 seed=$2 figures=$3 said
+        shift 3
+        said=$(cd "$oracle/grammars" && "$TARTAN" place "$@" --seed "$seed" -o "$scratch/$model.ldr" --program "$scratch/$model.txt" \
+            --stats json 2>"$scratch/$model.err") || fail "$model does not end"
+        cmp "$scratch/$model.ldr" "$oracle/expected/$model.ldr" || fail "$model is not the published program's"
+        [ ! -e "$oracle/expected/$model.program.txt" ] || cmp "$scratch/$model.txt" "$oracle/expected/$model.program.txt" ||
+            fail "$model has another program"
+        is "figures of $model" "$(sed -E 's/.*"elements":([0-9]+),"terminals":([0-9]+),.*"tries":([0-9]+),.*/\1 \2 \3/' <<<"$said")" "$figures"
+        is "alternatives of $model that miss their place" "$(grep -c 'W187' "$scratch/$model.err")" 2
+    }
+    published box 0 '83 3455 1942' box_constraints.pcfg brick.pcfg brick_defs.pcfg close.pcfg
+    published sphere8 0 '24 782 1026' sphere8.pcfg brick.pcfg brick_defs.pcfg close.pcfg
+    published castle_plain 0 '310 5888 6193' castle/wall_constraints.pcfg brick.pcfg brick_defs.pcfg tile.pcfg close.pcfg
+    published castle_s0 0 '321 6310 6182' castle/wall_constraints.pcfg brick.pcfg castle/brick_defs.pcfg tile.pcfg close.pcfg
+    python3 -B "$source/tests/place_oracle.py" "$oracle/model.py" "$TARTAN" 0 60 || fail 'random grammars differ'
+fi
+exit "$failures"
