@@ -31,8 +31,8 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(base, clause, operation, library->classes, library->min, library->max, "library", &bounds,
-                         count, error);
+    return tn_count_both(base, clause, operation, library->classes->size, library->min, library->max, "library",
+                         &bounds, count, error);
 }
 
 static tn_status save(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
@@ -94,8 +94,8 @@ static tn_status count_only(const tn_counting_alone *counting, size_t number, mp
     else if (status == TN_OK)
         status = tn_sparse_apply(&base, clause, operation, sequence->what, &bounds, error);
     if (status == TN_OK && number + 1 < sequence->count)
-        status = tn_sequence_count(sequence, number + 1, library->classes, library->min, library->max, &bounds, &last,
-                                   &base, only, error);
+        status = tn_sequence_count(sequence, number + 1, library->classes->size, library->min, library->max, &bounds,
+                                   &last, &base, only, error);
     tn_sparse_free(base);
     return status;
 }
