@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/growth/grow.h"
 #include "runtime/growth/surface.h"
 
@@ -173,6 +174,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
         note_depth(job, views[i]);
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
                                .caption = caption,
+                               .watch = tn_interrupt_waiting(),
                                .columns = (uint32_t)settings->columns.value,
                                .dpi = (uint32_t)settings->dpi.value,
                                .system = tn_growth_rules(growth)};
@@ -192,6 +194,7 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
     tn_view_options options = {.title =
                                    tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
+                               .watch = tn_interrupt_waiting(),
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .system = tn_growth_rules(growth)};
     tn_picture to = picture_to(path, format);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 
@@ -220,7 +221,7 @@ static void write_all(tn_text_out *out, joining *j, const tn_mesh_style *style)
     write_tables(out, j->mesh);
     write_pair(out, "0", "SECTION");
     write_pair(out, "2", "ENTITIES");
-    for (uint32_t line = 0; line < j->mesh->line_count; line++) {
+    for (uint32_t line = 0; line < j->mesh->line_count && !tn_watch_stopped_at(j->mesh->watch, line); line++) {
         bool closed;
         if (j->done[line])
             continue;
@@ -247,5 +248,5 @@ tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FIL
         write_all(out, &j, style);
     clear_joining(&j);
     free(out);
-    return status;
+    return status == TN_OK ? tn_watch_check(mesh->watch, error) : status;
 }

@@ -34,6 +34,7 @@ typedef struct tn_view_options {
     const char *const *labels; /* below each view; NULL: its step, if there are several */
     uint32_t dpi;
     const tn_growth_system *system; /* names of labels, for the legend */
+    tn_watch *watch;                /* or NULL: drawing gives up (TN_STOPPED) once this says so */
 } tn_view_options;
 
 /* Draws views side by side, all to one scale. */

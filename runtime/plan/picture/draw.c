@@ -323,7 +323,7 @@ static double spread(double room, double cell, size_t count, double gap)
     return fmax(gap, fmin(even, 3 * gap));
 }
 
-/* The page whose first cell is `first`. */
+/* The page whose first cell is `first`; not to its end where nobody waits for it any more. */
 static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t page, size_t pages)
 {
     size_t on_page = d->columns * d->rows, left = slots(d) - first, here = left < on_page ? left : on_page;
@@ -336,7 +336,8 @@ static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t p
     double x0 = MARGIN + INSET + fmax(0, (across - used) / 2);
     double y0 = MARGIN + INSET + (pages == 1 ? fmax(0, (down - used_down) / 2) : 0);
     draw_frame(d, context, page, pages);
-    for (size_t i = 0, slot = SIZE_MAX; i < d->count; i++) {
+    tn_watch *watch = d->roles.schema->module->watch;
+    for (size_t i = 0, slot = SIZE_MAX; i < d->count && !tn_watch_stopped(watch); i++) {
         slot = next_slot(d, slot, &d->plans[i]);
         size_t at = slot - first; /* wraps where it is on an earlier page */
         if (at < here)
@@ -353,6 +354,9 @@ static tn_status draw_pages(const drawing *d, tn_canvas *canvas, tn_error *error
         if (status != TN_OK)
             return status;
         draw_page(d, tn_canvas_context(canvas), page * on_page, page + 1, pages);
+        status = tn_watch_check(d->roles.schema->module->watch, error);
+        if (status != TN_OK)
+            return status;
     }
     return tn_canvas_commit(canvas, error);
 }
