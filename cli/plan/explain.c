@@ -20,7 +20,7 @@ typedef struct explain_settings {
     tn_option_list rules;
     bool full, json;
     const char *output;
-    tn_option_number nearest, dpi;
+    tn_option_number nearest, dpi, max_boxes;
 } explain_settings;
 
 static const explain_settings *settings_of(const tn_job *job)
@@ -308,7 +308,8 @@ static int run(const tn_command *command, const tn_settings *common)
     bool alone = common->operands.count == 1 && !settings_of(&job)->plan_file; /* a design of boxes needs no plan */
     bool open = alone && tn_job_open(&job, common->operands.items[0]);
     if (open && job.opened.module->SOLID_count)
-        tn_job_explain_solid(&job, settings_of(&job)->solid, settings_of(&job)->json);
+        tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
+                             settings_of(&job)->json);
     else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
         explain(&job);
     return tn_job_end(&job);
@@ -328,6 +329,7 @@ static const tn_option options[] = {
     OPTION_INPUT_FORMAT,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
 };
 
 const tn_command tn_command_explain = {

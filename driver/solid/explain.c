@@ -40,11 +40,11 @@ static void write_history(const tn_module *module, uint32_t solid, const tn_buil
         fputs("]\n", out);
 }
 
-tn_status tn_solid_explain(tn_opened *opened, uint32_t solid, bool json, FILE *out)
+tn_status tn_solid_explain(tn_opened *opened, uint32_t solid, uint32_t most, bool json, FILE *out)
 {
     tn_built built;
     tn_error error;
-    tn_status status = tn_built_make(opened->module, solid, &built, &error);
+    tn_status status = tn_built_make(opened->module, solid, most, &built, &error);
     if (status == TN_OK || status == TN_INVALID)
         write_history(opened->module, solid, &built, json, out);
     tn_built_clear(&built);
