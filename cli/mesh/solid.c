@@ -5,16 +5,6 @@
 #include "driver/solid/solid.h"
 #include "runtime/geometry/union/union.h"
 
-/* y is up in designs, and z in files: (x, y, z) becomes (x, -z, y). */
-static void turn_up(tn_mesh *mesh)
-{
-    for (size_t v = 0; v < mesh->vertex_count; v++) {
-        double *p = mesh->positions + 3 * v, y = p[1];
-        p[1] = -p[2];
-        p[2] = y;
-    }
-}
-
 static const char *name_of(const tn_job *job, uint32_t solid, const tn_built *built, uint32_t cell, bool image,
                            tn_box_words *words)
 {
@@ -112,7 +102,7 @@ static tn_status write_mesh(tn_job *job, uint32_t solid, tn_mesh *mesh, tn_out_f
     if (status != TN_OK)
         return status;
     tn_mesh_note(job, job->opened.module->SOLID_records[solid].name, note, sizeof note);
-    turn_up(mesh);
+    tn_solid_turn_up(mesh);
     tn_mesh_write(job, mesh, format, note);
     return TN_OK;
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "driver/open/findings.h"
+#include "runtime/scene/view.h"
 #include "runtime/solid/measure.h"
 
 /* The design of this name, or the file's only one where that is NULL. What is wrong is reported (E1513). */
@@ -32,6 +33,36 @@ typedef struct tn_box_words {
 } tn_box_words;
 
 tn_box_words tn_box_named(const tn_module *module, uint32_t solid, uint32_t box, uint32_t image);
+
+/* A squash in a line: "leg  by top  high y  7.4 -> 7". */
+typedef struct tn_squash_words {
+    char text[2 * sizeof(tn_box_words) + 80];
+} tn_squash_words;
+
+tn_squash_words tn_squash_told(const tn_module *module, uint32_t solid, const tn_squash *squash);
+
+/* y is up in designs, and z in meshes and pictures: (x, y, z) becomes (x, -z, y). */
+void tn_solid_turn_up(tn_mesh *mesh);
+
+/* What is drawn of a design. */
+typedef enum tn_solid_views {
+    TN_SOLID_VIEW,     /* the design as it is built */
+    TN_SOLID_EXPLODED, /* its boxes moved apart */
+    TN_SOLID_BEFORE,   /* its boxes as they are written, beside what is built */
+    TN_SOLID_SHEET,    /* plan, elevations and a view */
+    TN_SOLID_HISTORY,  /* each step of squashing, in order */
+} tn_solid_views;
+
+typedef struct tn_solid_drawing {
+    tn_solid_views views;
+    tn_camera camera;
+    const char *title;     /* NULL: the design's name and text */
+    uint32_t columns, dpi; /* 0: as it suits; the default */
+    uint32_t most;
+} tn_solid_drawing;
+
+/* Draws a design; what is wrong with it is reported. */
+tn_status tn_solid_draw(tn_opened *opened, uint32_t solid, const tn_solid_drawing *drawing, tn_picture *to);
 
 /* Reports an error about a design at its name. Returns the error's status. */
 tn_status tn_solid_fail(tn_opened *opened, uint32_t solid, const tn_error *error);

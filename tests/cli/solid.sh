@@ -105,6 +105,34 @@ SOLID
 "$TARTAN" check --test --json seen.solid 2>/dev/null | python3 -c 'import json, sys; r = json.load(sys.stdin); assert r["passed"] == 5 and r["solids"][0]["measures"]["overhang"] == 3' || fail 'check --test --json'
 [ "$("$TARTAN" check --test seen.solid 2>/dev/null)" = "$("$TARTAN" test seen.solid)" ] || fail 'check --test and test differ'
 
+# Pictures: of every kind, the same bytes twice; what is drawn of a module is what is drawn of its source.
+if "$TARTAN" draw table -o one.svg 2>err; then
+    for what in '' --sheet --before --exploded '--azimuth 30 --elevation 10 --width 200 --dpi 72'; do
+        for kind in svg png pdf; do
+            "$TARTAN" draw table $what -o one.$kind && "$TARTAN" draw table $what -o two.$kind
+            cmp -s one.$kind two.$kind || fail "two pictures .$kind of $what differ"
+        done
+    done
+    "$TARTAN" explain table -o steps.svg
+    python3 -c 'import sys, xml.etree.ElementTree as t; [t.parse(f) for f in sys.argv[1:]]' one.svg steps.svg || fail 'a picture is no XML'
+    "$TARTAN" build table -o table.tnb
+    "$TARTAN" draw table.tnb -o module.svg && "$TARTAN" draw table -o one.svg
+    sed 's/rules [0-9a-f]*//' module.svg | cmp -s - <(sed 's/rules [0-9a-f]*//' one.svg) || fail 'a module is drawn otherwise'
+    for wrong in '--sheet --before' '--paper a3' '--scale 10' '--solid chair' '--library x'; do
+        status=0
+        "$TARTAN" draw table $wrong -o no.svg 2>err || status=$?
+        [ "$status" != 0 ] && [ -s err ] && [ ! -e no.svg ] || fail "draw table $wrong gives $status"
+    done
+    status=0
+    "$TARTAN" draw lahave-houses --sample 2 --exploded -o no.svg 2>err || status=$?
+    [ "$status" = 2 ] && grep -q 'designs of boxes' err || fail "plans that are moved apart: $(cat err)"
+    status=0
+    "$TARTAN" explain table --json -o no.svg 2>err || status=$?
+    [ "$status" = 2 ] || fail 'explain --json -o'
+else
+    grep -q 'E0907' err || fail "drawing: $(cat err)"
+fi
+
 # A module does what its source does; one that was tampered with is refused.
 "$TARTAN" build table -o table.tnb
 "$TARTAN" mesh table.tnb -o module.obj && cmp -s one.obj module.obj || fail 'the module gives another mesh'
