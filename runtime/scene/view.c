@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/base/numeric.h"
-#include "runtime/base/share.h"
 #include "runtime/geometry/hidden.h"
 #include "runtime/geometry/vector.h"
 #include "runtime/scene/view_parts.h"
@@ -148,7 +148,7 @@ static tn_status look(tn_sight *sight, const viewpoint *eye, prospect *seen, tn_
                        .scene = {.points = sight->points,
                                  .first = sight->first,
                                  .face_count = sight->face_count,
-                                 .threads = sight->threads > 0 ? sight->threads : tn_thread_count(),
+                                 .threads = sight->threads > 0 ? sight->threads : (int)tn_crew_default(),
                                  .watch = sight->watch},
                        .light = light};
     measure(seen, sight->first[sight->face_count]);
