@@ -124,8 +124,8 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
     const tn_view_options options = {.title = drawing.title ? drawing.title : growth->study.title,
                                      .caption = drawing.caption,
                                      .dpi = drawing.dpi,
-                                     .system = growth->system};
-    tn_status drawn = tn_view_take(growth->growth, &camera, &view, &found);
+                                     .legend = tn_growth_legend(growth->system)};
+    tn_status drawn = tn_growth_view(growth->growth, &camera, &view, &found);
     if (drawn == TN_OK) {
         drawn = tn_views_draw(&view, 1, &options, &to, &found);
         tn_view_free(view);
