@@ -4,7 +4,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/base/share.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/pass/interpret.h"

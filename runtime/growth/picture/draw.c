@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/base/share.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
