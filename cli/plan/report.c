@@ -54,7 +54,8 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *folde
     const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
                                           .max_states = options.max_states,
                                           .imported = true};
-    const tn_plan_analysis_options analysis = {.max_states = options.max_states, .library = ready->library};
+    const tn_plan_analysis_options analysis = {
+        .max_states = options.max_states, .library = ready->library, .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses = {0};
     tn_covered covered = {0};
     tn_status status = tn_plan_analyse(&job->opened, &analysis, &analyses);

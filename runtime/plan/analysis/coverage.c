@@ -25,15 +25,15 @@ struct tn_coverage {
     size_t count;
     uint32_t min, max, max_states;
     uint8_t **reaches; /* [count][FUNCTION records]: what a clause's function calls, directly or not, and itself */
-    tn_dfa **with, **without; /* [count] */
-    bool *changed;            /* [count]: is the clause another one without the part? */
-    bool *base_of;            /* [count]: the clauses that the base leaves out */
-    tn_sparse *base;          /* of all other clauses; NULL: not made */
+    tn_dfa **with, **without;                    /* [count] */
+    bool *changed;                               /* [count]: is the clause another one without the part? */
+    bool *base_of;                               /* [count]: the clauses that the base leaves out */
+    tn_sparse *base;                             /* of all other clauses; NULL: not made */
     tn_difference differences[DIFFERENCES_KEPT]; /* of this base */
     size_t difference_count;
-    tn_sequence sequence;     /* of all clauses, requirements first */
-    size_t *place;            /* [count]: of each clause in the sequence */
-    bool sequenced;           /* is it made? */
+    tn_sequence sequence; /* of all clauses, requirements first */
+    size_t *place;        /* [count]: of each clause in the sequence */
+    bool sequenced;       /* is it made? */
 };
 
 /* Marks in `reached` the function and what it calls. Callees have lower numbers: one pass downwards finds them all. */
@@ -279,8 +279,8 @@ static tn_status count_of_base(tn_coverage *c, tn_dfa *plans, mpz_t count, tn_er
             mpz_set(count, c->differences[i].count);
             return TN_OK;
         }
-    tn_status status =
-        tn_count_both(c->base, plans, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, count, error);
+    tn_status status = tn_count_both(c->base, plans, TN_DFA_AND, c->classes->size, c->min, c->max, "difference",
+                                     &bounds, count, error);
     if (status == TN_OK && c->difference_count < DIFFERENCES_KEPT) {
         tn_difference *kept = &c->differences[c->difference_count++];
         kept->plans = tn_dfa_share(plans);
