@@ -91,7 +91,8 @@ static int run(const tn_command *command, const tn_settings *common)
         const char *path = common->operands.items[i];
         if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
             continue;
-        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, &report.counts));
+        tn_job_status(&job,
+                      tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, NULL, &report.counts));
         if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }

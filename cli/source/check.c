@@ -63,7 +63,7 @@ static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
     tn_output output;
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, NULL, &counts));
     tn_job_show(job);
     if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
         return;

@@ -1,9 +1,9 @@
+/* Runs test blocks by both engines, and says why cases fail. */
 #include "driver/plan/tests.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
@@ -257,15 +257,16 @@ static void note_why(const block *b, const tn_test_case *test, tn_diagnostic *di
 }
 
 /* A case marked `todo` that comes out: the mark has served. */
-static void report_done(const block *b, const tn_test_case *test)
+static const char *report_done(const block *b, const tn_test_case *test)
 {
     tn_diagnostics *list = &b->opened->compilation.diagnostics;
     tn_diagnostic *d =
         tn_report(list, E_TEST_FAILED, test->span, "this test of `%s` is marked `todo` and passes", b->tests->subject);
     tn_help(list, d, "take `todo` away: it is done");
+    return d->message;
 }
 
-static void report_failure(const block *b, const tn_test_case *test)
+static const char *report_failure(const block *b, const tn_test_case *test)
 {
     tn_diagnostics *list = &b->opened->compilation.diagnostics;
     tn_buffer sentence = {0}, plan = {0};
@@ -280,34 +281,42 @@ static void report_failure(const block *b, const tn_test_case *test)
     note_why(b, test, diagnostic);
     free(sentence.data);
     free(plan.data);
+    return diagnostic->message;
 }
 
-static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts, tn_error *error)
+/* Counts a case that was run, reports it where it failed, and tells whoever looks on. */
+static void judge(const block *b, const tn_test_case *test, const tn_test_watcher *watcher, tn_test_counts *counts)
+{
+    bool good = comes_out(b, test);
+    tn_test_outcome outcome =
+        good ? (test->todo ? TN_TEST_DONE : TN_TEST_PASSED) : (test->todo ? TN_TEST_TODO : TN_TEST_FAILED);
+    const char *message = outcome == TN_TEST_DONE     ? report_done(b, test)
+                          : outcome == TN_TEST_FAILED ? report_failure(b, test)
+                                                      : NULL;
+    counts->passed += outcome == TN_TEST_PASSED;
+    counts->todo += outcome == TN_TEST_TODO;
+    counts->failed += outcome == TN_TEST_FAILED || outcome == TN_TEST_DONE;
+    if (watcher)
+        watcher->seen(watcher->context, b->tests, test, outcome, message);
+}
+
+static tn_status run_block(block *b, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts,
+                           tn_error *error)
 {
     tn_status status = block_new(b, max_states, error);
     for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
         const tn_test_case *test = &b->tests->cases[i];
-        status = match(b, test, error);
-        if (status != TN_OK)
-            break;
-        bool good = comes_out(b, test);
-        if (good && !test->todo) {
-            counts->passed++;
-        } else if (!good && test->todo) {
-            counts->todo++;
-        } else if (good) {
-            counts->failed++;
-            report_done(b, test);
-        } else {
-            counts->failed++;
-            report_failure(b, test);
-        }
+        status = tn_watch_check(b->module->watch, error);
+        if (status == TN_OK)
+            status = match(b, test, error);
+        if (status == TN_OK)
+            judge(b, test, watcher, counts);
     }
     block_free(b);
     return status;
 }
 
-tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *counts)
+tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
     if (!opened->compiled) {
@@ -329,7 +338,7 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *c
         tn_error error;
         if (b.tests->imported)
             continue;
-        tn_status status = run_block(&b, max_states, counts, &error);
+        tn_status status = run_block(&b, max_states, watcher, counts, &error);
         if (status != TN_OK) {
             tn_finding_error(opened, &error);
             return status;

@@ -220,7 +220,7 @@ static void write_all(tn_text_out *out, joining *j, const tn_mesh_style *style)
     write_tables(out, j->mesh);
     write_pair(out, "0", "SECTION");
     write_pair(out, "2", "ENTITIES");
-    for (uint32_t line = 0; line < j->mesh->line_count; line++) {
+    for (uint32_t line = 0; line < j->mesh->line_count && !out->failed; line++) {
         bool closed;
         if (j->done[line])
             continue;
