@@ -8,7 +8,7 @@
 
 static bool is_picture(tn_out_format format)
 {
-    return format >= TN_OUT_SVG;
+    return format >= TN_OUT_SVG && format <= TN_OUT_PDF;
 }
 
 /* Options that say something about some formats only: used with another one they would do nothing. */
@@ -78,7 +78,7 @@ bool tn_grow_format_of(tn_job *job, tn_out_format *format)
         return check_use(job, TN_OUT_NONE);
     if (*format == TN_OUT_NONE)
         *format = tn_out_format_of(path);
-    if (*format == TN_OUT_NONE) {
+    if (*format == TN_OUT_NONE || *format > TN_OUT_PDF) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
                 "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");

@@ -7,6 +7,7 @@
 #include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
+#include "cli/solid/solid.h"
 #include "driver/plan/explain.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/utf8.h"
@@ -15,7 +16,7 @@ typedef struct explain_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_input_settings input;
-    const char *plan_file;
+    const char *plan_file, *solid;
     tn_option_list rules;
     bool full, json;
     const char *output;
@@ -304,7 +305,11 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     tn_job job;
     tn_job_begin(&job, common);
-    if (check_options(&job) && tn_job_open(&job, common->operands.items[0]))
+    bool alone = common->operands.count == 1 && !settings_of(&job)->plan_file; /* a design of boxes needs no plan */
+    bool open = alone && tn_job_open(&job, common->operands.items[0]);
+    if (open && job.opened.module->SOLID_count)
+        tn_job_explain_solid(&job, settings_of(&job)->solid, settings_of(&job)->json);
+    else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
         explain(&job);
     return tn_job_end(&job);
 }
@@ -314,6 +319,8 @@ static const tn_option options[] = {
     TEXT("plan", 0, "FILE", plan_file, "explain every plan of FILE; - is standard input"),
     LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
     OPTION_LIBRARY,
+    TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
+    OPTION_WHERE,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),
@@ -327,7 +334,7 @@ static const tn_option options[] = {
 const tn_command tn_command_explain = {
     .name = "explain",
     .summary = "say why a plan is kept or dropped, and by which trays",
-    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME",
+    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME]",
     .description =
         "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
         "with "
@@ -337,7 +344,8 @@ const tn_command tn_command_explain = {
         "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
         "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
         "the "
-        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.",
+        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
+        "Of a design of boxes it says how they were squashed, pair by pair.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -5,6 +5,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
+#include "cli/solid/solid.h"
 #include "driver/breed/grammar_report.h"
 
 typedef struct check_settings {
@@ -29,6 +30,16 @@ static void report_grammar(tn_job *job)
         tn_job_fail(job, &error);
 }
 
+/* What a person who placed boxes may not have meant; with --test also what the designs require. */
+static void report_solids(tn_job *job)
+{
+    tn_solid_tally tally = {0};
+    if (!settings_of(job)->no_analysis)
+        tn_job_status(job, tn_solid_report(&job->opened));
+    if (settings_of(job)->with_tests)
+        free(tn_job_test_solids(job, false, &tally));
+}
+
 static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
 {
     tn_relations_options options = {.json = settings_of(job)->json, .examples = settings_of(job)->examples};
@@ -48,7 +59,8 @@ static void analyse(tn_job *job, const tn_library *library)
 {
     const check_settings *settings = settings_of(job);
     const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                              .library = library};
+                                              .library = library,
+                                              .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses;
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
@@ -94,7 +106,8 @@ static void compare(tn_job *job, const tn_ready_library *after)
 static bool make_library(tn_job *job, tn_ready_library *ready)
 {
     const check_settings *settings = settings_of(job);
-    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value};
+    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                        .threads = tn_job_threads(&settings->plans)};
     *ready = (tn_ready_library){0};
     if (!settings->with_counts && !settings->before)
         return true;
@@ -154,6 +167,8 @@ static void check(tn_job *job, const char *path)
         report_grammar(job);
     else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
         return;
+    else if (module->SOLID_count)
+        report_solids(job);
     else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
     else
@@ -189,10 +204,8 @@ static int run(const tn_command *command, const tn_settings *common)
 {
     bool joined = false;
     (void)command;
-    const check_settings *settings = (const check_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    tn_job_threads(&settings->plans);
     bool going = check_options(&job);
     for (size_t i = 0; going && i < common->operands.count; i++) {
         const char *path = common->operands.items[i];
@@ -234,9 +247,10 @@ const tn_command tn_command_check = {
         "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
         "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
         "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. Connection grammars (.pcfg) are "
-        "one "
-        "grammar together, in the order given. "
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end, and of a design of boxes (.solid) "
+        "where "
+        "boxes are squashed, clipped away or apart. "
+        "Connection grammars (.pcfg) are one grammar together, in the order given. "
         "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
         "testing, "
         "counting and comparing have in common is worked out once, so that after an edit this is faster than one "

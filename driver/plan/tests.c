@@ -1,6 +1,8 @@
 /* Runs test blocks by both engines, and says why cases fail. */
 #include "driver/plan/tests.h"
 
+#include "driver/plan/value_tests.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,6 +145,7 @@ static bool comes_out(const block *b, const tn_test_case *test)
     case TN_EXPECT_KEEP:
         return !is_dropped(b, test);
     case TN_EXPECT_DROP:
+    case TN_EXPECT_VALUE: /* value_tests.c */
         break;
     }
     for (size_t i = 0; i < test->by_count; i++)
@@ -284,18 +287,17 @@ static const char *report_failure(const block *b, const tn_test_case *test)
     return diagnostic->message;
 }
 
-/* Counts a case that was run, reports it where it failed, and tells whoever looks on. */
-static void judge(const block *b, const tn_test_case *test, const tn_test_watcher *watcher, tn_test_counts *counts)
+/* Counts a case, and tells whoever looks on. message: why it failed, where that is reported already. */
+static void count_case(const block *b, const tn_test_case *test, bool good, const char *message,
+                       const tn_test_watcher *watcher, tn_test_counts *counts)
 {
-    bool good = comes_out(b, test);
     tn_test_outcome outcome =
         good ? (test->todo ? TN_TEST_DONE : TN_TEST_PASSED) : (test->todo ? TN_TEST_TODO : TN_TEST_FAILED);
-    const char *message = outcome == TN_TEST_DONE     ? report_done(b, test)
-                          : outcome == TN_TEST_FAILED ? report_failure(b, test)
-                                                      : NULL;
     counts->passed += outcome == TN_TEST_PASSED;
     counts->todo += outcome == TN_TEST_TODO;
     counts->failed += outcome == TN_TEST_FAILED || outcome == TN_TEST_DONE;
+    if (outcome == TN_TEST_DONE)
+        message = report_done(b, test);
     if (watcher)
         watcher->seen(watcher->context, b->tests, test, outcome, message);
 }
@@ -309,10 +311,30 @@ static tn_status run_block(block *b, uint32_t max_states, const tn_test_watcher 
         status = tn_watch_check(b->module->watch, error);
         if (status == TN_OK)
             status = match(b, test, error);
-        if (status == TN_OK)
-            judge(b, test, watcher, counts);
+        if (status != TN_OK)
+            break;
+        bool good = comes_out(b, test);
+        count_case(b, test, good, good || test->todo ? NULL : report_failure(b, test), watcher, counts);
     }
     block_free(b);
+    return status;
+}
+
+/* A measure's cases: each plan's value, found by the interpreter. */
+static tn_status run_values(block *b, const tn_test_watcher *watcher, tn_test_counts *counts, tn_error *error)
+{
+    tn_value_tests values = {0};
+    tn_status status = tn_value_tests_new(&values, b->opened, b->tests, error);
+    for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
+        bool good;
+        const char *message;
+        status = tn_watch_check(b->module->watch, error);
+        if (status == TN_OK)
+            status = tn_value_test(&values, i, &good, &message, error);
+        if (status == TN_OK)
+            count_case(b, &b->tests->cases[i], good, message, watcher, counts);
+    }
+    tn_value_tests_clear(&values);
     return status;
 }
 
@@ -338,7 +360,8 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_wat
         tn_error error;
         if (b.tests->imported)
             continue;
-        tn_status status = run_block(&b, max_states, watcher, counts, &error);
+        tn_status status = b.tests->is_measure ? run_values(&b, watcher, counts, &error)
+                                               : run_block(&b, max_states, watcher, counts, &error);
         if (status != TN_OK) {
             tn_finding_error(opened, &error);
             return status;

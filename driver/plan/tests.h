@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_PLAN_TESTS_H
 #define TARTAN_DRIVER_PLAN_TESTS_H
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/open/findings.h"
 
 typedef struct tn_test_counts {

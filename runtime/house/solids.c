@@ -4,25 +4,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static tn_wide gcd(tn_wide a, tn_wide b)
+static tn_int128 gcd(tn_int128 a, tn_int128 b)
 {
     while (b) {
-        tn_wide rest = a % b;
+        tn_int128 rest = a % b;
         a = b;
         b = rest;
     }
     return a < 0 ? -a : a;
 }
 
-tn_fraction tn_fraction_new(tn_wide top, tn_wide bottom)
+tn_fraction tn_fraction_new(tn_int128 top, tn_int128 bottom)
 {
-    tn_wide common = gcd(top, bottom);
+    tn_int128 common = gcd(top, bottom);
     return (tn_fraction){top / common, bottom / common};
 }
 
 double tn_fraction_value(tn_fraction fraction)
 {
-    tn_wide whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
+    tn_int128 whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
     return (double)whole + (double)rest / (double)fraction.bottom;
 }
 

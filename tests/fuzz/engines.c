@@ -8,6 +8,7 @@
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/place/grow.h"
+#include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
 enum { DRAWN_ONE_IN = 8, FORMS = 8, FORM_CODES = 4096 };
@@ -119,4 +120,20 @@ void fuzz_engines(const tn_module *module)
     list(module);
 #define ENGINE(NAME, FUZZ) FUZZ(module);
 #include "runtime/engines.def"
+}
+
+/* Small designs only: the mapping, the boundary and everything that is measured. */
+void fuzz_solid(const tn_module *module)
+{
+    enum { DESIGNS = 4, BOXES = 40 };
+    for (uint32_t i = 0; i < module->SOLID_count && i < DESIGNS; i++) {
+        tn_built built;
+        tn_error error;
+        double values[TN_SOLID_MEASURED_COUNT] = {0};
+        if (module->SOLID_records[i].box_count > BOXES)
+            continue;
+        if (tn_built_make(module, i, &built, &error) == TN_OK)
+            tn_built_measure(&built, UINT64_MAX, values, &error);
+        tn_built_clear(&built);
+    }
 }

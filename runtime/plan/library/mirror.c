@@ -34,6 +34,8 @@ static tn_status count_both(const tn_library *library, mpz_t *counts, tn_error *
     tn_bounds bounds = tn_library_bounds(library);
     tn_status status = tn_lowering_new(library->classes, library->max_states, &lowering, error);
     if (status == TN_OK)
+        tn_lowering_within(lowering, library->max);
+    if (status == TN_OK)
         status = tn_sparse_copy(library->live, &both, error);
     for (size_t i = 0; status == TN_OK && i < library->record->clause_count; i++)
         status = apply_turned(library, lowering, i, &bounds, &both, error);
