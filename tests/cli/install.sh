@@ -52,6 +52,12 @@ exported() {
 exported $libraries >"$scratch/exported"
 cmp "$scratch/declared" "$scratch/exported" || fail "the header and the libraries differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
 diff -u tests/cli/install/exported "$scratch/exported" || fail 'the libraries export other functions than tests/cli/install/exported says'
+while read -r name; do
+    grep -q "\`$name\`" docs/c-interface.md || fail "docs/c-interface.md does not name $name"
+done <"$scratch/exported"
+grep -oE '\`tartan_[a-z_]+\`' docs/c-interface.md | tr -d '\`' | grep -vE '^tartan_(status|error|watch)$' | sort -u | comm -23 - "$scratch/exported" >"$scratch/gone"
+[ ! -s "$scratch/gone" ] || fail "docs/c-interface.md names $(cat "$scratch/gone")"
+
 # Who has which: a program links the parts that it needs.
 has() { # LIBRARY PATTERN
     exported "$1.so" >"$scratch/has"
@@ -120,6 +126,12 @@ for program in shared static build/with_cmake build/with_cmake_static; do
 done
 grep -q '^corridor matches 8' "$scratch/out.shared" || fail 'the program did not match the plan'
 grep -qE '^[0-9]+ plans, three of them:$' "$scratch/out.shared" || fail 'the program did not count the library'
+
+# So does the program of the page.
+sed -n '/^```c$/,/^```$/p' docs/c-interface.md | sed '/^```/d' >"$scratch/count.c"
+"$CC" "${flags[@]}" -std=c99 -Wall -Wextra -Wpedantic "$scratch/count.c" "${by_pkg_config[@]}" -o "$scratch/count"
+[ "$("$scratch/count" "$scratch/narrow.plan" "$stdlib")" = "$(sed -n 's/ plans, three of them:/ plans/p' "$scratch/out.shared")" ] ||
+    fail 'the program of docs/c-interface.md counts otherwise'
 
 # The programs of the other examples: a surface with its mesh and picture, and a run that is saved and goes on.
 for name in growth evolution; do
