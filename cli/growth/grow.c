@@ -293,7 +293,7 @@ static tn_status prepare(run_state *run, tn_error *error)
     }
     tn_status status = tn_growth_system_read(opened->module, &run->system, error);
     if (status == TN_OK)
-        status = tn_study_read(opened->module, opened->path, tn_openmesh_read, &run->study, error);
+        status = tn_study_read(opened->module, opened->path, &tn_openmesh_reader, &run->study, error);
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;

@@ -50,7 +50,7 @@ tn_status tn_open_field_of(tn_job *job, tn_open_field *open, tn_error *error)
         surface++;
     if (surface >= module->SURFACE_count)
         return no_surface(&job->opened, name, error);
-    tn_status status = tn_field_meshes_read(module, tn_openmesh_read, job->opened.path, &open->meshes, error);
+    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, job->opened.path, &open->meshes, error);
     if (status == TN_OK)
         status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
     return status;
