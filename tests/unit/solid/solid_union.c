@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
 #include "runtime/base/random.h"
 #include "runtime/geometry/union/union.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
 
 enum { BOXES = 12 };
