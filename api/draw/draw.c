@@ -127,9 +127,9 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
     const tn_view_options options = {.title = drawing.title ? drawing.title : growth->study.title,
                                      .caption = drawing.caption,
                                      .dpi = drawing.dpi,
-                                     .system = growth->system};
+                                     .legend = tn_growth_legend(growth->system)};
     tn_growth_watch(growth->growth, &watch);
-    tn_status drawn = tn_view_take(growth->growth, &camera, &view, &found);
+    tn_status drawn = tn_growth_view(growth->growth, &camera, &view, &found);
     tn_growth_watch(growth->growth, NULL);
     if (drawn == TN_OK) {
         drawn = tn_views_draw(&view, 1, &options, &to, &found);

@@ -208,7 +208,6 @@ static void set(const tartan_growth_options *options, tn_growth_options *o)
     o->explain = options->explain;
     o->seed = options->seed;
     o->edge_limit = options->edge_limit;
-    o->memory_limit = options->memory_limit;
     o->threads = (int)(options->threads > TARTAN_THREADS_MAX ? TARTAN_THREADS_MAX : options->threads);
 }
 

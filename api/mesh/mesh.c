@@ -80,7 +80,7 @@ static tn_status write_to_memory(const tn_mesh *mesh, const tn_mesh_style *style
     bool failed = ferror(out) != 0;
     failed |= fclose(out) != 0;
     if (status == TN_OK && failed)
-        status = m.full || !tn_watch_stopped(watch) ? tn_fail_memory(error) : tn_fail_stopped(error);
+        status = m.full || !tn_watch_stopped(watch) ? tn_fail_memory(error) : tn_fail_stopped(watch, error);
     if (status == TN_OK) {
         *bytes = (unsigned char *)m.bytes;
         *size = m.size;
@@ -109,7 +109,7 @@ static tn_status write_mesh(const tn_mesh *mesh, tartan_mesh_format format, cons
                             unsigned char **bytes, size_t *size, tn_error *error)
 {
     if (tn_watch_stopped(watch))
-        return tn_fail_stopped(error);
+        return tn_fail_stopped(watch, error);
     switch (format) {
     case TARTAN_OBJ:
         return write_to_memory(mesh, style, tn_mesh_write_obj, watch, bytes, size, error);

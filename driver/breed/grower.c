@@ -247,7 +247,7 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const
         rules compiled;
         status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
         if (status == TN_OK)
-            status = tn_view_take(growth, &camera, &views[drawn++], error);
+            status = tn_growth_view(growth, &camera, &views[drawn++], error);
         rules_clear(&compiled);
     }
     tn_view_options options = {.title = title, .labels = labels};

@@ -61,7 +61,6 @@ typedef struct tartan_growth_options {
     bool bare;            /* without the study's own forces and boundaries */
     uint64_t seed;        /* of weighted rules */
     uint64_t edge_limit;  /* 0: 2^30 */
-    uint64_t memory_limit;      /* bytes; 0: none */
     uint32_t threads;           /* 0: one a processor */
     const tartan_force *forces; /* besides the study's own */
     size_t force_count;

@@ -293,7 +293,7 @@ static void discard_memory(tn_canvas *canvas)
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
 {
     if (tn_canvas_stopped(canvas))
-        return tn_fail_stopped(error);
+        return tn_fail_stopped(canvas->watch, error);
     cairo_show_page(canvas->context);
     cairo_status_t drawn = cairo_status(canvas->context);
     if (drawn == CAIRO_STATUS_SUCCESS && canvas->format == TN_CANVAS_PNG)
@@ -302,7 +302,7 @@ tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
     if (drawn == CAIRO_STATUS_SUCCESS)
         drawn = cairo_surface_status(canvas->surface);
     if (tn_canvas_stopped(canvas))
-        return tn_fail_stopped(error);
+        return tn_fail_stopped(canvas->watch, error);
     /* A write error is left to the commit, which knows the reason. */
     if (drawn != CAIRO_STATUS_SUCCESS && drawn != CAIRO_STATUS_WRITE_ERROR)
         return cairo_failed(canvas, drawn, error);

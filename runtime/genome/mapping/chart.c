@@ -414,7 +414,7 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
             continue;
         tn_watch_tell(c->watch, c->furthest, c->length);
         if (tn_watch_stopped(c->watch))
-            return tn_fail_stopped(error);
+            return tn_fail_stopped(c->watch, error);
     }
     if (c->out_of_memory)
         return tn_fail_memory(error);

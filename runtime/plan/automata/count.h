@@ -53,6 +53,16 @@ tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_c
 
 void tn_count_row_clear(tn_count_row *row);
 
+/* Bytes of the counts of one state for the lengths behind `length` and up to `max`, as far as their limbs grow as they
+ * did since half of that length, when there were `half`. Counts grow evenly in the long run: asked at powers of two
+ * (tn_count_forecasts), which are long enough. */
+uint64_t tn_count_to_come(size_t half, size_t limbs, uint32_t length, uint32_t max);
+
+static inline bool tn_count_forecasts(uint32_t length)
+{
+    return length >= 512 && (length & (length - 1)) == 0;
+}
+
 static inline const mp_limb_t *tn_count_row_at(const tn_count_row *row, uint32_t state)
 {
     return row->value + (size_t)state * row->limbs;

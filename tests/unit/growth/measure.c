@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"

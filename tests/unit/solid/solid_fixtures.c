@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/solid/measure.h"
 
