@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "compiler/plan/syntax/program.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"
 
 /* One finding being reported. */
@@ -261,12 +262,36 @@ static tn_status tell_vacuous(const teller *t)
     return note_plan(t, d, NULL, t->finding->plans, "the shortest plan where it holds");
 }
 
+/* The field of which the specifier lets in no value at all; NULL where it is the schema's `forbid`s that leave none. */
+static const char *contradicted(const teller *t)
+{
+    tn_instruction code = tn_code_read(t->module->code, t->finding->offset);
+    for (uint32_t f = 0; code.opcode == TN_OP_TRAY && f < t->schema->field_count; f++) {
+        bool any = false;
+        for (uint32_t v = 0; v < t->schema->fields[f].value_count; v++) {
+            uint32_t bit = t->schema->value_start[f] + v;
+            any |= tn_spec_word(t->module, (uint32_t)code.first, bit / 64) >> bit % 64 & 1;
+        }
+        if (!any)
+            return tn_text(t->module, t->schema->fields[f].name);
+    }
+    return NULL;
+}
+
 static tn_status tell_no_tray(const teller *t)
 {
     tn_span span;
     if (!tn_code_span(t->opened, t->finding->offset, &span) || is_allowed(t, W_NO_LEGAL_TRAY, span))
         return TN_OK;
     const char *schema = tn_text(t->module, t->schema->record->name);
+    const char *field = contradicted(t);
+    if (field) {
+        tn_diagnostic *d =
+            tn_report(list_of(t), W_NO_LEGAL_TRAY, span,
+                      "no tray is like this: all items have to hold, and those about `%s` exclude each other", field);
+        tn_help(list_of(t), d, "alternatives are joined by `or`: `tray(%s a or b)`", field);
+        return TN_OK;
+    }
     tn_diagnostic *d =
         tn_report(list_of(t), W_NO_LEGAL_TRAY, span, "no legal tray is like this: schema `%s` forbids them", schema);
     tn_span place = {t->schema->record->file, t->schema->record->begin, t->schema->record->end};

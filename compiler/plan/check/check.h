@@ -265,8 +265,9 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
 void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
 /* A value that the field does not have: E0303. */
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
-void tn_report_unit(tn_check *check, const tn_ast_word *number); /* E0008 */
-bool tn_word_is(const tn_ast_word *word, const char *text);      /* case does not count */
+/* E0008; schema: the one whose lengths are meant, or NULL. */
+void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *number);
+bool tn_word_is(const tn_ast_word *word, const char *text); /* case does not count */
 
 /* ---- spec.c */
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
@@ -323,6 +324,10 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: repor
 #define TN_PARAMETERS_MAX 16                                      /* of a rule */
 
 /* ---- check.c */
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
 void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
 
 /* ---- warnings.c */
