@@ -130,8 +130,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {find_schemas,   tn_check_settle, tn_check_libraries, tn_check_forms,
-                                                tn_check_asked, tn_check_tests,  tn_check_allowances};
+    static void (*const steps[])(tn_check *) = {find_schemas,   tn_check_settle,    tn_check_libraries,
+                                                tn_check_forms, tn_check_asked,     tn_check_unused,
+                                                tn_check_tests, tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

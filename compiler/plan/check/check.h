@@ -128,13 +128,14 @@ typedef struct tn_checked_rule {
     tn_ast_expr *written;                /* the body before anything was written out */
     bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
-    bool hidden;                  /* made of a call: it has no record of its own */
-    bool about_plan;              /* has a comparison that speaks of the whole plan */
-    bool failed;                  /* of a template: a call of it was wrong inside */
-    const tn_ast_expr *call;      /* what a hidden rule was made for first, or NULL */
-    struct tn_checked_rule *of;   /* the template that a hidden rule was made of */
-    tn_checked_sum *sum;          /* of a measure; NULL: already reported */
-    uint32_t serial;              /* among all that is checked as rules are */
+    bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
+    bool hidden;                /* made of a call: it has no record of its own */
+    bool about_plan;            /* has a comparison that speaks of the whole plan */
+    bool failed;                /* of a template: a call of it was wrong inside */
+    const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
+    struct tn_checked_rule *of; /* the template that a hidden rule was made of */
+    tn_checked_sum *sum;        /* of a measure; NULL: already reported */
+    uint32_t serial;            /* among all that is checked as rules are */
     uint32_t index, whole, holds; /* emitted: of its record and functions */
 } tn_checked_rule;
 
@@ -338,7 +339,8 @@ void tn_check_order(tn_check *check); /* orders the rules, callees first; report
 
 /* ---- library.c */
 void tn_check_libraries(tn_check *check);
-void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
+void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
+void tn_check_asked(tn_check *check);  /* adds what the command line asks to the library that it is about */
 
 /* ---- form.c */
 void tn_check_forms(tn_check *check);

@@ -9,8 +9,10 @@
 static void add_use(tn_check *check, tn_ast_expr *expr)
 {
     tn_checked_rule *rule = check->rule;
-    if (!rule)
+    if (!rule) { /* in a library */
+        expr->rule->used = true;
         return;
+    }
     if (rule->use_count == rule->use_capacity) {
         size_t capacity = rule->use_capacity ? rule->use_capacity * 2 : 4;
         tn_checked_rule **uses = TN_NEW_ARRAY(check->arena, tn_checked_rule *, capacity);

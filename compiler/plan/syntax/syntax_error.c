@@ -176,6 +176,12 @@ static bool opens_call(const tn_parse *parse)
     return end > begin;
 }
 
+/* Does a digit come directly after the token at hand? */
+static bool digit_follows(const tn_parse *parse)
+{
+    return parse->last_span.end < parse->size && isdigit((unsigned char)parse->text[parse->last_span.end]);
+}
+
 /* What was likely meant by a mark that other notations have there, or that stands in a wrong place. */
 static const char *mark_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -199,7 +205,7 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
         return "numbers in a row are written `n in 2..4`, others `n = 2 or n = 5`";
     if (is_arithmetic(found) && expects(e, "`>`") && !expects(e, "`*`"))
         return "a condition compares with one number; sums are compared outside: `sum(width) > 2m + 1m`";
-    if (strcmp(found, "`,`") == 0 && comes_after_number(parse) && expects(e, "`*`"))
+    if (strcmp(found, "`,`") == 0 && comes_after_number(parse) && expects(e, "`*`") && digit_follows(parse))
         return "a number is written without marks between its digits: `1200`";
     if (strcmp(found, "`)`") == 0 && comes_after(parse, "(") && expects(e, "`tray`"))
         return opens_call(parse) ? "a rule without parameters is named alone, without parentheses"
