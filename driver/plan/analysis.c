@@ -5,6 +5,7 @@
 
 #include "compiler/plan/syntax/program.h"
 #include "runtime/module/code.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/text.h"
 
 /* One finding being reported. */
@@ -337,10 +338,29 @@ static bool is_concerned(const tn_module *module, uint32_t schema)
     for (size_t r = 0; r < module->RULE_count; r++)
         if (module->RULE_records[r].schema == schema && !(module->RULE_records[r].flags & TN_IMPORTED))
             return true;
+    for (size_t m = 0; m < module->MEASURE_count; m++)
+        if (module->MEASURE_records[m].schema == schema && !(module->MEASURE_records[m].flags & TN_IMPORTED))
+            return true;
     for (size_t l = 0; l < module->LIBRARY_count; l++)
         if (module->LIBRARY_records[l].schema == schema && !(module->LIBRARY_records[l].flags & TN_IMPORTED))
             return true;
     return false;
+}
+
+/* The sums of the schema can be made: no tray that they count divides by zero, and their numbers have a step. */
+static tn_status check_sums(const tn_schema *schema, tn_error *error)
+{
+    const tn_module *module = schema->module;
+    for (uint32_t i = 0; i < module->SUM_count; i++) {
+        tn_sum *sum;
+        if (&module->SCHEMA_records[module->SUM_records[i].schema] != schema->record)
+            continue;
+        tn_status status = tn_sum_new(schema, i, &sum, error);
+        if (status != TN_OK)
+            return status;
+        tn_sum_free(sum);
+    }
+    return TN_OK;
 }
 
 static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan_analysis_options *options,
@@ -351,6 +371,9 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan
     if (status != TN_OK)
         return status;
     analyses->count++;
+    status = check_sums(analyses->schemas[at], error);
+    if (status != TN_OK)
+        return status;
     status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
         teller t = {opened, opened->module, analyses->schemas[at], tn_plan_analysis_get(analyses->items[at], i)};

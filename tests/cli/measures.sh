@@ -23,6 +23,8 @@ golden complete_none 'tartan complete measures.plan -l strips "store | ?"'
 golden where 'tartan count measures.plan -l strips --where "area <= 20m2" --where "plan [room | ... | store]"'
 golden prolog_left_out 'tartan export measures.plan --prolog -l strips'
 
+golden regex_sum 'tartan export measures.plan --regex --rule few-stores'
+golden explain_call 'tartan explain measures.plan --rule crowded "3m store none | 2m store none" --full'
 golden no_measure 'tartan count measures.plan -l strips --by arae'
 golden wrong_step 'tartan count measures.plan -l strips --by area --step 2m2'
 golden fine_step 'tartan count measures.plan -l strips --by area --step 0.00001'
