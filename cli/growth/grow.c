@@ -127,7 +127,7 @@ static tn_status note_step(run_state *run, tn_error *error)
     }
     if (settings->sheet) {
         tn_camera camera = tn_grow_camera(settings);
-        tn_status status = tn_view_take(run->growth, &camera, &run->views[run->view_count], error);
+        tn_status status = tn_growth_view(run->growth, &camera, &run->views[run->view_count], error);
         if (status != TN_OK)
             return status;
         run->view_count++;
@@ -293,7 +293,7 @@ static tn_status prepare(run_state *run, tn_error *error)
     }
     tn_status status = tn_growth_system_read(opened->module, &run->system, error);
     if (status == TN_OK)
-        status = tn_study_read(opened->module, opened->path, tn_openmesh_read, &run->study, error);
+        status = tn_study_read(opened->module, opened->path, &tn_openmesh_reader, &run->study, error);
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;

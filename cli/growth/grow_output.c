@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/interrupt.h"
 #include "cli/growth/grow.h"
 #include "runtime/growth/surface.h"
 
@@ -174,10 +173,9 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
         note_depth(job, views[i]);
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
                                .caption = caption,
-                               .watch = tn_interrupt_waiting(),
                                .columns = (uint32_t)settings->columns.value,
                                .dpi = (uint32_t)settings->dpi.value,
-                               .system = tn_growth_rules(growth)};
+                               .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(settings->output, format);
     if (count && tn_views_draw(views, count, &options, &to, &error) != TN_OK)
         tn_job_fail(job, &error);
@@ -194,11 +192,10 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
     tn_view_options options = {.title =
                                    tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
-                               .watch = tn_interrupt_waiting(),
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
-                               .system = tn_growth_rules(growth)};
+                               .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(path, format);
-    tn_status status = tn_view_take(growth, &camera, &view, &error);
+    tn_status status = tn_growth_view(growth, &camera, &view, &error);
     if (status == TN_OK)
         note_depth(job, view);
     if (status == TN_OK)

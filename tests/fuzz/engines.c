@@ -136,7 +136,7 @@ void fuzz_solid(const tn_module *module)
         double values[TN_SOLID_MEASURED_COUNT] = {0};
         if (module->SOLID_records[i].box_count > BOXES)
             continue;
-        if (tn_built_make(module, i, &built, &error) == TN_OK)
+        if (tn_built_make(module, i, 0, &built, &error) == TN_OK)
             tn_built_measure(&built, UINT64_MAX, values, &error);
         tn_built_clear(&built);
     }

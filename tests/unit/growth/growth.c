@@ -11,14 +11,14 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/memory.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 #include "runtime/load.h"
-#include "tests/support/compile_file.h"
-#include "runtime/base/memory.h"
 #include "runtime/mesh/openmesh.h"
+#include "tests/support/compile_file.h"
 
 typedef struct grown {
     tn_compilation compilation;
@@ -41,7 +41,7 @@ static void plant_text(grown *g, const char *path, const char *text)
     if (status == TN_OK)
         status = tn_growth_system_read(g->module, &g->system, &error);
     if (status == TN_OK)
-        status = tn_study_read(g->module, path, tn_openmesh_read, &g->study, &error);
+        status = tn_study_read(g->module, path, &tn_openmesh_reader, &g->study, &error);
     if (status == TN_OK)
         status = tn_growth_new(g->system, &g->study.environment, &g->study.options, &g->growth, &error);
     if (status != TN_OK)
