@@ -36,6 +36,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %union {
     tn_ast_word *word;
     tn_ast_list list;
+    tn_ast_literal literal;
     tn_ast_range range;
     tn_operator op;
     tn_ast_cond *cond;
@@ -54,7 +55,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token END_OF_FILE 0 "the end of the file"
 %token <word> NAME "a name" FIELD_NAME "a field" NUMBER "a number" LENGTH "a length" STRING "a text in quotes"
 %token <word> CLAUSE_NAME "a clause's name"
-%token <word> AREA "an area"
+%token <word> AREA "an area" HOUSE "a house"
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
@@ -63,7 +64,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
-%token IN "`in`" MOD "`mod`"
+%token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
@@ -80,8 +81,10 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <rule> rule_head
 %type <library> library_head
 %type <word> doc role using constant operand spec_word literal_word clause_name expectation
-%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names plan trays words
+%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts sum_field total_field
+%type <list> by_kinds walk_by
+%type <literal> plan
 %type <range> range
 %type <op> comparison
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
@@ -93,6 +96,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
 %type <word> size outside_side
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
+%type <expr> through
 %type <expr> expression ors and ands not primary
 
 %%
@@ -283,8 +287,30 @@ primary
     | SUM OPEN sum_field COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
     | SUM OPEN sum_field OF expression COMMA condition CLOSE
                                                 { $$ = tn_ast_sum(parse, @$, $3, $5, $7); }
+    | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
+    | ROOM OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_ROOM, @$, $3); }
+    | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
+    | TOUCH OPEN cells COMMA cells by_kinds CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_TOUCH, @$, tn_ast_append(tn_ast_one($3), $5), $6); }
+    | APART OPEN cells COMMA FROM cells through walk_by CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $7), $8); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
+    ;
+
+by_kinds
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | BY or_names                               { $$ = $2; }
+    ;
+
+through
+    : %empty                                    { $$ = NULL; }
+    | COMMA THROUGH cells                       { $$ = $3; }
+    ;
+
+walk_by
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | COMMA BY or_names                         { $$ = $3; }
     ;
 
 parts
@@ -344,6 +370,7 @@ operand
 constant
     : NUMBER
     | LENGTH
+    | AREA
     | DASH NUMBER                               { $$ = tn_ast_negative(parse, @$, $2); }
     | DASH LENGTH                               { $$ = tn_ast_negative(parse, @$, $2); }
     ;
@@ -368,6 +395,7 @@ comparison
 library_head
     : library NAME doc using                    { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4}; }
     | library NAME doc FROM NAME                { $$ = (tn_ast_library){.name = $2, .doc = $3, .from = $5}; }
+    | library NAME doc FROM NAME IN NAME        { $$ = (tn_ast_library){.name = $2, .doc = $3, .from = $5, .in = $7}; }
     ;
 
 clauses
@@ -675,7 +703,8 @@ expectation
     ;
 
 plan
-    : OPEN_BRACKET trays CLOSE_BRACKET          { $$ = $2; }
+    : OPEN_BRACKET trays CLOSE_BRACKET          { $$ = (tn_ast_literal){.trays = $2}; }
+    | OPEN_BRACKET HOUSE CLOSE_BRACKET          { $$ = (tn_ast_literal){.house = $2}; }
     ;
 
 trays
