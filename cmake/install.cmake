@@ -14,12 +14,6 @@ file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_I
 
 # What links a program with threads, without CMake.
 set(TARTAN_PC_THREADS "-pthread -lm")
-if(CMAKE_C_COMPILER_ID STREQUAL GNU AND OpenMP_C_FOUND)
-  string(PREPEND TARTAN_PC_THREADS "-lgomp ")
-elseif(OpenMP_C_FOUND)
-  list(JOIN OpenMP_C_LIBRARIES " " openmp)
-  string(PREPEND TARTAN_PC_THREADS "${openmp} ")
-endif()
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.
 set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -84,7 +78,7 @@ foreach(folder ${folders})
   endif()
 endforeach()
 
-set(threads ${TARTAN_OPENMP} Threads::Threads m)
+set(threads Threads::Threads m)
 tartan_library(tartan-runtime FOLDERS ${TARTAN_RUNTIME_FOLDERS} NEEDS PkgConfig::GMP PkgConfig::XXHASH ${threads} MODULES gmp libxxhash)
 tartan_library(tartan-growth FOLDERS ${TARTAN_GROWTH_FOLDERS} USES tartan-runtime NEEDS PkgConfig::XXHASH ${threads} MODULES libxxhash)
 set(parts "")

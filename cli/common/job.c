@@ -42,7 +42,12 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
 
 bool tn_job_open(tn_job *job, const char *path)
 {
-    worsen(job, tn_exit_code(tn_open(path, job->settings->werror, &job->opened)));
+    return tn_job_open_asking(job, path, NULL);
+}
+
+bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *questions)
+{
+    worsen(job, tn_exit_code(tn_open_asking(path, job->settings->werror, questions, &job->opened)));
     if (job->opened.module)
         job->opened.module->watch = tn_interrupt_waiting();
     return job->opened.module != NULL;

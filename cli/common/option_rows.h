@@ -56,6 +56,12 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, tn_option_real, TN_OPTION_REAL, HELP)                                \
     }
 
+/* FIELD keeps the names and words of all such options of the command, in their order. */
+#define WISH(NAME, FIELD, HELP)                                                                                        \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, 0, "MEASURE", FIELD, tn_option_list, TN_OPTION_WISH, HELP)                                    \
+    }
+
 #define OPTION_WERROR FLAG("werror", 0, common.werror, "treat warnings as errors")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")

@@ -42,6 +42,7 @@ typedef enum tn_option_kind {
     TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the
                          first */
     TN_OPTION_REAL,   /* tn_option_real */
+    TN_OPTION_WISH, /* tn_option_list: adds the option's name and its word, so that several options keep their order */
 } tn_option_kind;
 
 typedef struct tn_option {

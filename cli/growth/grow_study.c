@@ -69,8 +69,7 @@ static bool open_options(tn_job *job, const char *text, size_t size)
     tn_error error;
     tn_status status = tn_stdlib_dirs_find(&dirs, &error);
     tn_files_begin(&files, &dirs);
-    tn_compile_options options = {.resolver = tn_files_resolver(&files),
-                                  .warnings_are_errors = job->settings->werror};
+    tn_compile_options options = {.resolver = tn_files_resolver(&files), .warnings_are_errors = job->settings->werror};
     if (status == TN_OK)
         tn_job_status(job, tn_open_text(TN_NOTATION(study), "<options>", text, size, &options, &job->opened));
     else

@@ -342,6 +342,7 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTION_LIBRARY,
+    OPTION_WHERE,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),

@@ -320,6 +320,7 @@ static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
     OPTION_LIBRARY,
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
+    OPTION_WHERE,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),

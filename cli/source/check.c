@@ -59,7 +59,8 @@ static void analyse(tn_job *job, const tn_library *library)
 {
     const check_settings *settings = settings_of(job);
     const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                              .library = library};
+                                              .library = library,
+                                              .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses;
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
@@ -105,7 +106,8 @@ static void compare(tn_job *job, const tn_ready_library *after)
 static bool make_library(tn_job *job, tn_ready_library *ready)
 {
     const check_settings *settings = settings_of(job);
-    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value};
+    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                        .threads = tn_job_threads(&settings->plans)};
     *ready = (tn_ready_library){0};
     if (!settings->with_counts && !settings->before)
         return true;
@@ -202,10 +204,8 @@ static int run(const tn_command *command, const tn_settings *common)
 {
     bool joined = false;
     (void)command;
-    const check_settings *settings = (const check_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    tn_job_threads(&settings->plans);
     bool going = check_options(&job);
     for (size_t i = 0; going && i < common->operands.count; i++) {
         const char *path = common->operands.items[i];

@@ -22,6 +22,8 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
+/* The same, with what the command line asks of a .plan file. A module takes no such questions. */
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened);
 /* Opens files that are one text together, in this order (tn_front.joins); one alone is opened by tn_open. Otherwise as
  * there. */
 tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened);

@@ -1,9 +1,11 @@
 #include "driver/plan/tests.h"
 
+#include "driver/plan/value_tests.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
@@ -143,6 +145,7 @@ static bool comes_out(const block *b, const tn_test_case *test)
     case TN_EXPECT_KEEP:
         return !is_dropped(b, test);
     case TN_EXPECT_DROP:
+    case TN_EXPECT_VALUE: /* value_tests.c */
         break;
     }
     for (size_t i = 0; i < test->by_count; i++)
@@ -282,6 +285,15 @@ static void report_failure(const block *b, const tn_test_case *test)
     free(plan.data);
 }
 
+static void count_case(const block *b, const tn_test_case *test, bool good, tn_test_counts *counts)
+{
+    counts->passed += good && !test->todo;
+    counts->todo += !good && test->todo;
+    counts->failed += good == test->todo;
+    if (good && test->todo)
+        report_done(b, test);
+}
+
 static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts, tn_error *error)
 {
     tn_status status = block_new(b, max_states, error);
@@ -291,19 +303,26 @@ static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts
         if (status != TN_OK)
             break;
         bool good = comes_out(b, test);
-        if (good && !test->todo) {
-            counts->passed++;
-        } else if (!good && test->todo) {
-            counts->todo++;
-        } else if (good) {
-            counts->failed++;
-            report_done(b, test);
-        } else {
-            counts->failed++;
+        count_case(b, test, good, counts);
+        if (!good && !test->todo)
             report_failure(b, test);
-        }
     }
     block_free(b);
+    return status;
+}
+
+/* A measure's cases: each plan's value, found by the interpreter. */
+static tn_status run_values(block *b, tn_test_counts *counts, tn_error *error)
+{
+    tn_value_tests values = {0};
+    tn_status status = tn_value_tests_new(&values, b->opened, b->tests, error);
+    for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
+        bool good;
+        status = tn_value_test(&values, i, &good, error);
+        if (status == TN_OK)
+            count_case(b, &b->tests->cases[i], good, counts);
+    }
+    tn_value_tests_clear(&values);
     return status;
 }
 
@@ -329,7 +348,8 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *c
         tn_error error;
         if (b.tests->imported)
             continue;
-        tn_status status = run_block(&b, max_states, counts, &error);
+        tn_status status =
+            b.tests->is_measure ? run_values(&b, counts, &error) : run_block(&b, max_states, counts, &error);
         if (status != TN_OK) {
             tn_finding_error(opened, &error);
             return status;

@@ -80,7 +80,7 @@ echo '#include <tartan/tartan.h>' >"$scratch/alone.c"
 cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
 c++ -x c++ -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$scratch/alone.c"
 
-# A sanitized library needs a sanitized program, and one compiler's OpenMP is not the other's.
+# A sanitized library needs a sanitized program.
 CC=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
 export CC
 read -ra flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:[^=]*=//p' "$build/CMakeCache.txt")"

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/share.h"
 #include "runtime/base/watch.h"
 #include "runtime/growth/pass/axes.h"
 #include "runtime/growth/pass/rewrite.h"
@@ -350,15 +349,13 @@ static tn_status rewrite_singly(tn_pass *pass, tn_error *error)
     single_rewrite r = {.pass = pass, .counts = calloc((size_t)chunks * groups, sizeof *r.counts)};
     if (!r.counts)
         return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    if (!tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, count_piece, &r))
-        status = tn_fail_stopped(error);
+    tn_status status = tn_crew_share(tn_pass_crew(pass), chunks, count_piece, &r, error);
     if (status == TN_OK) {
         tn_rewrite_tally total = number(pass, r.counts, chunks, groups);
         status = tn_rewrite_make_room(pass, &total, error);
     }
-    if (status == TN_OK && !tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, rewrite_piece, &r))
-        status = tn_fail_stopped(error);
+    if (status == TN_OK)
+        status = tn_crew_share(tn_pass_crew(pass), chunks, rewrite_piece, &r, error);
     pass->out_of_range = r.out_of_range;
     free(r.counts);
     return status;

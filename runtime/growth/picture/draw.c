@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/base/numeric.h"
-#include "runtime/base/share.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 #include "runtime/geometry/hidden.h"
@@ -199,7 +199,7 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
     tn_status status = look(map, &eye, &seen, error);
     int threads = tn_growth_settings(growth)->threads;
     seen.scene.watch = tn_growth_settings(growth)->watch;
-    seen.scene.threads = threads > 0 ? threads : tn_thread_count();
+    seen.scene.threads = threads > 0 ? threads : (int)tn_crew_default();
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)

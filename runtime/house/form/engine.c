@@ -227,12 +227,22 @@ static void list_area(tn_lister *lister, const tn_instruction *instruction)
 
 /* ---- rules and libraries of plans do not ask for houses */
 
-static bool asks_for_houses(const tn_module *module, const tn_function_record *function, const bool *asking)
+static bool sum_asks(const tn_module *module, const tn_sum_record *sum, const bool *asking)
+{
+    for (uint32_t i = 0; i < sum->term_count; i++)
+        if (asking[module->TERM_records[sum->term_first + i].part])
+            return true;
+    return false;
+}
+
+static bool code_asks(const tn_module *module, const tn_function_record *function, const bool *asking)
 {
     for (uint32_t at = function->code_begin; at < function->code_end;) {
         tn_instruction instruction = tn_code_read(module->code, at);
-        bool call = instruction.opcode == TN_OP_CALL || instruction.opcode == TN_OP_MIRROR;
-        if (tn_code_asks_house(instruction.opcode) || (call && asking[instruction.first]))
+        tn_operands operands = tn_code_operands((uint8_t)instruction.opcode);
+        if (tn_code_asks_house(instruction.opcode) ||
+            (operands == TN_OPERANDS_FUNC && asking[instruction.first]) ||
+            (operands == TN_OPERANDS_SUMMED && sum_asks(module, &module->SUM_records[instruction.first], asking)))
             return true;
         at += instruction.length;
     }
@@ -247,13 +257,16 @@ static tn_status verify_after(const tn_checker *checker)
     tn_status status = asking ? TN_OK : tn_fail_memory(checker->error);
     for (size_t i = 0; asking && i < module->FUNCTION_count; i++)
         asking[i] = tn_function_kinds[module->FUNCTION_records[i].kind].code == TN_CODE_RULE &&
-                    asks_for_houses(module, &module->FUNCTION_records[i], asking);
+                    code_asks(module, &module->FUNCTION_records[i], asking);
     for (uint32_t i = 0; status == TN_OK && i < module->RULE_count; i++)
         if (asking[module->RULE_records[i].whole] || asking[module->RULE_records[i].holds])
             status = tn_refuse(checker, "rule %u is about plans and asks for houses", i);
     for (uint32_t i = 0; status == TN_OK && i < module->CLAUSE_count; i++)
         if (asking[module->CLAUSE_records[i].holds])
             status = tn_refuse(checker, "clause %u is about plans and asks for houses", i);
+    for (uint32_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
+        if (sum_asks(module, &module->SUM_records[module->MEASURE_records[i].sum], asking))
+            status = tn_refuse(checker, "measure %u is about plans and asks for houses", i);
     free(asking);
     return status;
 }

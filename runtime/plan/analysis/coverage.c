@@ -25,16 +25,29 @@ struct tn_coverage {
     size_t count;
     uint32_t min, max, max_states;
     uint8_t **reaches; /* [count][FUNCTION records]: what a clause's function calls, directly or not, and itself */
-    tn_dfa **with, **without; /* [count] */
-    bool *changed;            /* [count]: is the clause another one without the part? */
-    bool *base_of;            /* [count]: the clauses that the base leaves out */
-    tn_sparse *base;          /* of all other clauses; NULL: not made */
+    tn_dfa **with, **without;                    /* [count] */
+    bool *changed;                               /* [count]: is the clause another one without the part? */
+    bool *base_of;                               /* [count]: the clauses that the base leaves out */
+    tn_sparse *base;                             /* of all other clauses; NULL: not made */
     tn_difference differences[DIFFERENCES_KEPT]; /* of this base */
     size_t difference_count;
-    tn_sequence sequence;     /* of all clauses, requirements first */
-    size_t *place;            /* [count]: of each clause in the sequence */
-    bool sequenced;           /* is it made? */
+    tn_sequence sequence; /* of all clauses, requirements first */
+    size_t *place;        /* [count]: of each clause in the sequence */
+    bool sequenced;       /* is it made? */
 };
+
+static bool compares_sums(tn_opcode opcode)
+{
+    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
+}
+
+/* Marks what the terms of a sum count. */
+static void mark_terms(const tn_module *module, uint32_t sum, uint8_t *reached)
+{
+    const tn_sum_record *record = &module->SUM_records[sum];
+    for (uint32_t i = 0; i < record->term_count; i++)
+        reached[module->TERM_records[record->term_first + i].part] = 1;
+}
 
 /* Marks in `reached` the function and what it calls. Callees have lower numbers: one pass downwards finds them all. */
 static void mark_reached(const tn_module *module, uint32_t function, uint8_t *reached)
@@ -46,6 +59,8 @@ static void mark_reached(const tn_module *module, uint32_t function, uint8_t *re
             tn_instruction code = tn_code_read(module->code, offset);
             if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
                 reached[code.first] = 1;
+            else if (compares_sums(code.opcode))
+                mark_terms(module, (uint32_t)code.first, reached);
             offset += code.length;
         }
     }
@@ -67,6 +82,8 @@ static tn_status lower_all(tn_coverage *c, tn_error *error)
 {
     tn_lowering *lowering = NULL;
     tn_status status = tn_lowering_new(c->classes, c->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, c->max);
     for (size_t i = 0; status == TN_OK && i < c->count; i++)
         status = tn_lower(lowering, c->clauses[i].function, &c->with[i], error);
     tn_lowering_free(lowering);
@@ -153,6 +170,8 @@ tn_status tn_coverage_without(tn_coverage *c, const uint32_t *offsets, size_t co
     tn_status status = tn_lowering_new(c->classes, c->max_states, &lowering, error);
     if (status == TN_OK)
         tn_lowering_disable(lowering, offsets, count);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, c->max);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         tn_dfa_free(c->without[i]);
         c->without[i] = NULL;
@@ -279,8 +298,8 @@ static tn_status count_of_base(tn_coverage *c, tn_dfa *plans, mpz_t count, tn_er
             mpz_set(count, c->differences[i].count);
             return TN_OK;
         }
-    tn_status status =
-        tn_count_both(c->base, plans, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, count, error);
+    tn_status status = tn_count_both(c->base, plans, TN_DFA_AND, c->classes->size, c->min, c->max, "difference",
+                                     &bounds, count, error);
     if (status == TN_OK && c->difference_count < DIFFERENCES_KEPT) {
         tn_difference *kept = &c->differences[c->difference_count++];
         kept->plans = tn_dfa_share(plans);

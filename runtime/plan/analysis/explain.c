@@ -342,6 +342,7 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
         return tn_explain_part(e, tn_child(who, part->first), at, TN_ASKED_SINGLES, node, &made);
     case TN_PART_DISTANCE:
         return tn_explain_distance(e, who, node, at);
+    case TN_PART_COMPARISON:
     case TN_PART_KIND_COUNT:
         break;
     }

@@ -66,8 +66,8 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     library->hash_room = malloc((library->kept->columns + 2 * (size_t)states + 1) * sizeof *library->hash_room);
     if (!library->hash_room || !library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
-    tn_status status =
-        tn_column_weights(library->classes, library->kept->column, library->kept->columns, &weights, error);
+    tn_status status = tn_column_weights(library->classes->size, library->classes->count, library->kept->column,
+                                         library->kept->columns, &weights, error);
     if (status == TN_OK)
         status = tn_edges_of(&edges, library->kept, weights, error);
     if (status == TN_OK)
@@ -91,7 +91,7 @@ static tn_status make_totals(tn_library *library, tn_error *error)
         if (length >= library->min)
             tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
     }
-    return tn_count_lengths(library->generator, library->classes, library->max, library->generated, error);
+    return tn_count_lengths(library->generator, library->classes->size, library->max, library->generated, error);
 }
 
 /* Marks how many trays of each column have passed, every so many trays. */
