@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/judged.h"
 #include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
@@ -300,6 +301,17 @@ static void explain(tn_job *job)
     tn_chosen_rules_clear(&e.rules);
 }
 
+static void explain_plan_or_house(tn_job *job)
+{
+    const explain_settings *settings = settings_of(job);
+    const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : "";
+    if (tn_is_house_line(text))
+        tn_job_explain_house(job, settings->plans.library, &settings->rules, text, settings->full, settings->json,
+                             tn_job_max_length(&settings->plans));
+    else
+        explain(job);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -310,7 +322,7 @@ static int run(const tn_command *command, const tn_settings *common)
     if (open && job.opened.module->SOLID_count)
         tn_job_explain_solid(&job, settings_of(&job)->solid, settings_of(&job)->json);
     else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
-        explain(&job);
+        explain_plan_or_house(&job);
     return tn_job_end(&job);
 }
 
@@ -334,7 +346,7 @@ static const tn_option options[] = {
 const tn_command tn_command_explain = {
     .name = "explain",
     .summary = "say why a plan is kept or dropped, and by which trays",
-    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME]",
+    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME]",
     .description =
         "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
         "with "
@@ -345,6 +357,8 @@ const tn_command tn_command_explain = {
         "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
         "the "
         "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
+        "HOUSE is a house line (docs/houses.md): which clauses of a library of houses drop it, and whether its plan "
+        "is one of the library's; the tiles may be left out. "
         "Of a design of boxes it says how they were squashed, pair by pair.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,

@@ -13,6 +13,7 @@
 #include "runtime/plan/text/text.h"
 
 #define TN_NO_CELL UINT32_MAX
+#define TN_HOUSE_TRAYS_DEFAULT 4096u /* the longest plan that is read, where nobody says another limit */
 #define TN_NO_FUNCTION UINT32_MAX
 #define TN_FACE_KINDS_MAX (TN_FACE_KIND_COUNT + TN_OPENINGS_MAX)
 
@@ -97,6 +98,11 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
  * out. E1611 with its columns where it is no house of the form; errors of the plan as tn_plan_parse_line has them. */
 tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
                         tn_error *error);
+
+/* The same where the tiles may be left out, whatever choice they leave: no rule asks for them. Each cell then has the
+ * first that fits, if any does. */
+tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                             tn_house *house, tn_error *error);
 
 /* Appends the house's line. TN_MEMORY. */
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);

@@ -9,8 +9,8 @@ static void find_schema(tn_check *check, tn_checked_rule *rule)
     const tn_ast_word *using = rule->ast->using;
     bool schema = !using || tn_names_get(&check->schemas, using->text);
     rule->form = schema ? NULL : tn_check_form_named(check, rule->unit, using->text);
-    rule->schema = rule->form ? rule->form->schema
-                              : tn_check_schema_for(check, rule->unit, using, rule->ast->name->node.span);
+    rule->schema =
+        rule->form ? rule->form->schema : tn_check_schema_for(check, rule->unit, using, rule->ast->name->node.span);
 }
 
 static void find_schemas(tn_check *check)
@@ -108,8 +108,8 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {tn_check_forms,     find_schemas,   tn_check_settle,
-                                                tn_check_libraries, tn_check_asked, tn_check_number_records,
+    static void (*const steps[])(tn_check *) = {tn_check_forms,     find_schemas,       tn_check_settle,
+                                                tn_check_libraries, tn_check_asked,     tn_check_number_records,
                                                 tn_check_tests,     tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);

@@ -232,6 +232,7 @@ typedef struct tn_check {
     tn_checked_schema *schema;
     tn_checked_rule *rule;        /* NULL in a library */
     struct tn_checked_form *form; /* of a library of houses */
+    bool form_wrong;              /* it has another one than it says, which was reported */
     tn_ast_list allow;
 } tn_check;
 

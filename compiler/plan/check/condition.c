@@ -124,8 +124,7 @@ static int64_t counted(tn_condition_builder *b, const tn_ast_word *word)
 static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
 {
     if (word->kind != TN_WORD_NAME)
-        return (b->field == TN_AREAS ? check_area(b->check, word)
-                                     : check_unit(b->check, word, b->field != TN_NONE)) ||
+        return (b->field == TN_AREAS ? check_area(b->check, word) : check_unit(b->check, word, b->field != TN_NONE)) ||
                fail(b);
     if (!word->broken) {
         tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,

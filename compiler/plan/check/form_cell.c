@@ -63,8 +63,8 @@ bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode
     bool areas = opcode != TN_OP_ROOM_CELLS;
     const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
     const tn_ast_word *other = sign ? (const tn_ast_word *)sign->node.next : NULL;
-    if (!sign || sign->kind != TN_WORD_OPERATOR || !other ||
-        other->kind != (areas ? TN_WORD_AREA : TN_WORD_NUMBER) || other->node.next)
+    if (!sign || sign->kind != TN_WORD_OPERATOR || !other || other->kind != (areas ? TN_WORD_AREA : TN_WORD_NUMBER) ||
+        other->node.next)
         return areas ? bad_cell(check, word->node.span, "an area is compared with another",
                                 "write `area < 90sf` or `area >= 8.5m2`")
                      : bad_cell(check, word->node.span, "the number of cells is compared with a whole number",
@@ -145,8 +145,7 @@ static bool read_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span 
 bool tn_form_cell_words(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, tn_span span,
                         tn_item_context *context, tn_decision *decision)
 {
-    tn_cell_reader reader = {
-        .check = check, .form = form, .decision = decision, .decided = true, .context = *context};
+    tn_cell_reader reader = {.check = check, .form = form, .decision = decision, .decided = true, .context = *context};
     bool good = read_words(&reader, word, span);
     *context = reader.context;
     return good;

@@ -1,6 +1,7 @@
 /* Reads what is asked of rooms: the items of `room(...)`, as code that decides on one room.
  *
- * An item is what each of its cells is, `by` and a kind of face that it has, its `area`, or the number of its `cells`. */
+ * An item is what each of its cells is, `by` and a kind of face that it has, its `area`, or the number of its `cells`.
+ */
 #include <string.h>
 
 #include "compiler/plan/check/form.h"
@@ -24,8 +25,8 @@ static bool read_kind(tn_room_reader *reader, const tn_ast_word *word)
     const tn_ast_word *kind = tn_word_is(word, "by") ? (const tn_ast_word *)word->node.next : word;
     reader->by = true;
     if (!kind || kind->kind != TN_WORD_NAME || kind->node.next) {
-        tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span,
-                                     "`by` is followed by one kind of face");
+        tn_diagnostic *d =
+            tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span, "`by` is followed by one kind of face");
         tn_help(reader->check->diagnostics, d, "write `by` and an opening, `open`, `wall` or `stair`");
         return false;
     }

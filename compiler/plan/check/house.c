@@ -19,10 +19,10 @@ tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const c
 
 static tn_checked_form *no_form(tn_check *check, tn_span place)
 {
-    if (check->incomplete)
+    if (check->incomplete || (!check->rule && check->form_wrong))
         return NULL;
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_NO_FORM, place, "this asks for cells of houses, and no form says what they are");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
+                                 "this asks for cells of houses, and no form says what they are");
     if (!check->rule)
         tn_help(check->diagnostics, d, "a library of houses is one `from` a library of plans `in` a form");
     else
@@ -79,7 +79,7 @@ void tn_check_same_form(tn_check *check, const tn_ast_expr *name)
         no_form(check, name->node.span);
         return;
     }
-    if (form == other)
+    if (form == other || (!check->rule && check->form_wrong))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, name->node.span,
                                  "`%s` is about houses of form `%s`, and this is about those of `%s`", name->rule->name,
@@ -119,7 +119,8 @@ static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask 
         ask->kinds[ask->kind_count++] = kind;
         if (expr->kind != TN_EXPR_APART || is_passable(ask->form, kind))
             continue;
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, word->node.span, "nobody walks through `%s`", word->text);
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_CELL, word->node.span, "nobody walks through `%s`", word->text);
         tn_help(check->diagnostics, d, "a walk goes by `open`, `stair` and the openings that are a `passage`");
         good = false;
     }
@@ -128,8 +129,7 @@ static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask 
 
 static bool read_meeting(tn_check *check, const tn_ast_expr *expr, tn_checked_ask *ask)
 {
-    const tn_ast_expr *first = (const tn_ast_expr *)expr->parts.first,
-                      *second = (const tn_ast_expr *)first->node.next,
+    const tn_ast_expr *first = (const tn_ast_expr *)expr->parts.first, *second = (const tn_ast_expr *)first->node.next,
                       *through = (const tn_ast_expr *)second->node.next;
     bool good = tn_form_cell(check, ask->form, first, true, &ask->first);
     good &= tn_form_cell(check, ask->form, second, true, &ask->second);

@@ -275,6 +275,7 @@ static void check_library(tn_check *check, tn_checked_library *library)
     check->schema = library->schema;
     check->rule = NULL;
     check->form = library->form;
+    check->form_wrong = ast->in && (!library->form || strcmp(library->form->name, ast->in->text) != 0);
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
         if (clause->form != TN_FORM_ALLOW)
             continue;
@@ -372,6 +373,7 @@ void tn_check_asked(tn_check *check)
     check->schema = library->schema;
     check->rule = NULL;
     check->form = library->form;
+    check->form_wrong = false;
     check->allow = library->allow;
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);

@@ -59,7 +59,7 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
 struct tn_decision;
 void tn_emit_forms(tn_emit *emit); /* before what asks for their houses */
 uint32_t tn_emit_decision(tn_emit *emit, const struct tn_checked_form *form, struct tn_decision *decision,
-                          const char *name, tn_function_kind kind); /* the function */
+                          const char *name, tn_function_kind kind);             /* the function */
 uint32_t tn_emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t count); /* the first HOUSE_ITEM record */
 
 /* ---- house.c */

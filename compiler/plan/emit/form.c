@@ -96,7 +96,7 @@ static void emit_rules(tn_emit *emit, tn_checked_form *form)
         tn_checked_cell_rule *rule = &form->rules[i];
         const char *name = rule->ast->name ? rule->ast->name->text : words[rule->kind];
         uint32_t decides = tn_emit_decision(emit, form, &rule->decision, name,
-                                         rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
+                                            rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
         tn_builder_add_CELL_RULE(emit->builder, &(tn_cell_rule_record){.name = text(emit, rule->ast->name),
                                                                        .doc = text(emit, rule->ast->doc),
                                                                        .kind = rule->kind,

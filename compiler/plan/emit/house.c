@@ -9,16 +9,16 @@ static uint32_t emit_meeting(tn_emit *emit, const tn_ast_expr *expr, tn_checked_
     const char *name = expr->kind == TN_EXPR_TOUCH ? "touch" : "apart";
     uint32_t first = tn_emit_decision(emit, ask->form, &ask->first, name, TN_FUNCTION_CELL);
     uint32_t second = tn_emit_decision(emit, ask->form, &ask->second, name, TN_FUNCTION_CELL);
-    uint32_t through = ask->has_through
-                           ? tn_emit_decision(emit, ask->form, &ask->through, name, TN_FUNCTION_CELL)
-                           : TN_NO_RECORD;
+    uint32_t through =
+        ask->has_through ? tn_emit_decision(emit, ask->form, &ask->through, name, TN_FUNCTION_CELL) : TN_NO_RECORD;
     uint32_t index = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MEETING);
-    tn_builder_add_MEETING(emit->builder, &(tn_meeting_record){.first = first,
-                                                               .second = second,
-                                                               .through = through,
-                                                               .kind_first = tn_emit_items(emit, ask->kinds, ask->kind_count),
-                                                               .kind_count = ask->kind_count,
-                                                               PLACE(expr->node.span)});
+    tn_builder_add_MEETING(emit->builder,
+                           &(tn_meeting_record){.first = first,
+                                                .second = second,
+                                                .through = through,
+                                                .kind_first = tn_emit_items(emit, ask->kinds, ask->kind_count),
+                                                .kind_count = ask->kind_count,
+                                                PLACE(expr->node.span)});
     return index;
 }
 
@@ -85,12 +85,12 @@ void tn_emit_house_library(tn_emit *emit, const tn_checked_library *library)
     for (size_t i = 0; i < library->clause_count; i++) {
         tn_checked_clause *clause = library->clauses[i];
         uint32_t holds = tn_emit_clause(emit, clause, library->schema->index);
-        tn_builder_add_HOUSE_CLAUSE(
-            emit->builder, &(tn_house_clause_record){.name = tn_builder_string(emit->builder, clause->name),
-                                                     .doc = tn_builder_string(emit->builder, clause->doc),
-                                                     .kind = clause->kind,
-                                                     .holds = holds,
-                                                     PLACE(clause->span)});
+        tn_builder_add_HOUSE_CLAUSE(emit->builder,
+                                    &(tn_house_clause_record){.name = tn_builder_string(emit->builder, clause->name),
+                                                              .doc = tn_builder_string(emit->builder, clause->doc),
+                                                              .kind = clause->kind,
+                                                              .holds = holds,
+                                                              PLACE(clause->span)});
     }
     tn_builder_add_HOUSE_LIBRARY(
         emit->builder, &(tn_house_library_record){.name = tn_builder_string(emit->builder, library->name),

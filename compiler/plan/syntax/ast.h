@@ -427,7 +427,8 @@ tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_e
 void *tn_ast_case_todo(void *test_case);
 void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_literal literal,
                       const tn_ast_word *doc, tn_ast_list by);
-void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value, const tn_ast_word *doc);
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value,
+                        const tn_ast_word *doc);
 void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words);
 
 #endif

@@ -271,7 +271,8 @@ void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, t
     return made;
 }
 
-void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value, const tn_ast_word *doc)
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value,
+                        const tn_ast_word *doc)
 {
     tn_ast_word *word = tn_ast_expect(parse, span, "value", TN_EXPECT_VALUE);
     tn_ast_case *made =

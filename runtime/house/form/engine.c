@@ -240,8 +240,7 @@ static bool code_asks(const tn_module *module, const tn_function_record *functio
     for (uint32_t at = function->code_begin; at < function->code_end;) {
         tn_instruction instruction = tn_code_read(module->code, at);
         tn_operands operands = tn_code_operands((uint8_t)instruction.opcode);
-        if (tn_code_asks_house(instruction.opcode) ||
-            (operands == TN_OPERANDS_FUNC && asking[instruction.first]) ||
+        if (tn_code_asks_house(instruction.opcode) || (operands == TN_OPERANDS_FUNC && asking[instruction.first]) ||
             (operands == TN_OPERANDS_SUMMED && sum_asks(module, &module->SUM_records[instruction.first], asking)))
             return true;
         at += instruction.length;
@@ -271,11 +270,11 @@ static tn_status verify_after(const tn_checker *checker)
     return status;
 }
 
-static const tn_section sections[] = {TN_SECTION_FORM,       TN_SECTION_STOREY,    TN_SECTION_CHOICE,
-                                      TN_SECTION_SHAPE,      TN_SECTION_CELL_RULE, TN_SECTION_OPENING,
-                                      TN_SECTION_FACE_LINE,  TN_SECTION_TILE,      TN_SECTION_TILE_BOX,
-                                      TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-                                      TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING, TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,
+                                      TN_SECTION_SHAPE,        TN_SECTION_CELL_RULE,  TN_SECTION_OPENING,
+                                      TN_SECTION_FACE_LINE,    TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
+                                      TN_SECTION_HOUSE_ITEM,   TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+                                      TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
                                             {TN_OPERANDS_DECISION, check_decision, NULL},

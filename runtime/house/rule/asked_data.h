@@ -9,7 +9,7 @@
 typedef struct tn_room_span {
     uint32_t room; /* its lowest cell */
     uint32_t begin, end;
-    uint32_t cells;  /* without voids */
+    uint32_t cells; /* without voids */
     tn_int128 area; /* likewise, in square nanometres */
 } tn_room_span;
 

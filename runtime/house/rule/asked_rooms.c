@@ -48,9 +48,8 @@ static bool has_face(const tn_asked_room *asked, int64_t kind)
     const uint32_t *room_of = asked->rules->room_of;
     for (size_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        if ((int64_t)face->kind == kind &&
-            (room_of[face->first] == asked->room->room ||
-             (face->second != TN_NO_CELL && room_of[face->second] == asked->room->room)))
+        if ((int64_t)face->kind == kind && (room_of[face->first] == asked->room->room ||
+                                            (face->second != TN_NO_CELL && room_of[face->second] == asked->room->room)))
             return true;
     }
     return false;
