@@ -1,4 +1,4 @@
-/* tartan pareto: what can be had by two or three measures at once. */
+/* tartan pareto: lists the best trade-offs of two or three measures. */
 #include <jansson.h>
 #include <stdlib.h>
 
