@@ -176,6 +176,7 @@ static void read_genomes(mapping_run *run, const char *path)
         fail(run, &error);
         return;
     }
+    tn_file_state before = tn_file_state_of(fileno(in));
     char *text = NULL;
     size_t capacity = 0;
     uint64_t line = 0;
@@ -186,9 +187,11 @@ static void read_genomes(mapping_run *run, const char *path)
         if (length == 0 || text[0] != '#')
             read_genome(run, path, line, text, (size_t)length);
     }
+    tn_error error;
     if (ferror(in) && !run->stop) {
-        tn_error error;
         tn_cannot_read(path, errno, &error);
+        fail(run, &error);
+    } else if (!run->stop && tn_file_state_same(&before, fileno(in), path, &error) != TN_OK) {
         fail(run, &error);
     }
     free(text);
