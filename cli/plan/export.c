@@ -150,12 +150,11 @@ const tn_command tn_command_export = {
     .summary = "write rules in other notations",
     .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME",
     .description =
-        "Writes rules for other engines. --prolog: a program of ISO Prolog that stands alone, in which a plan is a "
-        "list "
-        "of terms tray(V1, ..., Vn) of the values that a plan line has. --regex: an expression that matches exactly "
-        "the "
-        "plans that the rule matches, written with a letter for each tray; the legend says which letter is which. It "
-        "is made from the minimal automaton, and refused where it would pass 2,000 characters or 62 letters.",
+        "Writes rules for other programs. --prolog writes a complete program in ISO Prolog, in which a plan is a "
+        "list of terms tray(V1, ..., Vn) with the values of a plan line. --regex writes a regular expression with "
+        "a letter for each tray, which matches exactly the plans that the rule matches; a legend says which "
+        "letter is which. It is made from the minimal automaton, and refused if it would need more than 2,000 "
+        "characters or 62 letters.",
     .example =
         "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
     .options = options,

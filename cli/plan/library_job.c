@@ -2,14 +2,12 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/share.h"
+#include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
-int tn_job_threads(const tn_plan_settings *plans)
+unsigned tn_job_threads(const tn_plan_settings *plans)
 {
-    if (plans->threads.given)
-        tn_threads_limit((int)plans->threads.value);
-    return tn_thread_count();
+    return plans->threads.given ? (unsigned)plans->threads.value : tn_crew_default();
 }
 
 size_t tn_job_max_length(const tn_plan_settings *plans)
@@ -39,7 +37,6 @@ static bool ready_library(tn_job *job, const char *path, const tn_plan_settings 
                           const tn_library_options *options, tn_ready_library *ready)
 {
     *ready = (tn_ready_library){0};
-    tn_job_threads(plans);
     if (!open_asking(job, path, plans, pattern))
         return false;
     tn_status status = tn_library_ready(&job->opened, plans->library, options, ready);
@@ -59,7 +56,8 @@ bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_setti
                                   .override_trays = plans->trays.given,
                                   .trays_min = (uint32_t)plans->trays.low,
                                   .trays_max = (uint32_t)plans->trays.high,
-                                  .max_length = (uint32_t)plans->max_length.value};
+                                  .max_length = (uint32_t)plans->max_length.value,
+                                  .threads = tn_job_threads(plans)};
     return ready_library(job, path, plans, pattern, &options, ready);
 }
 

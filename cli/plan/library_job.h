@@ -48,8 +48,8 @@ bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_setti
 /* The same, but only the schema: for commands that match plans against the clauses. */
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 
-/* How many threads the options ask for; sets it for the library's own parallel loops too. */
-int tn_job_threads(const tn_plan_settings *plans);
+/* How many threads the options ask for. */
+unsigned tn_job_threads(const tn_plan_settings *plans);
 
 /* The longest plan that the options accept. */
 size_t tn_job_max_length(const tn_plan_settings *plans);

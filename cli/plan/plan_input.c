@@ -84,7 +84,7 @@ bool tn_job_sift(tn_sifting *s)
     tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
     if (opened)
         begin_progress(s);
-    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
+    if (opened && tn_sift(reader, s->rules, (int)tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }

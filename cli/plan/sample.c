@@ -136,20 +136,21 @@ static const tn_option options[] = {
 
 const tn_command tn_command_sample = {
     .name = "sample",
-    .summary = "draw plans evenly from a library",
+    .summary = "choose random plans of a library",
     .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]",
     .description =
-        "Draws N different plans of the library, every plan as likely as every other, and writes them in "
-        "the order of their ranks. "
-        "Nearly all plans of a library have its greatest number of trays, and so have samples: --length and "
-        "--per-length "
-        "draw from the others. --diverse draws the first plan; each next is the one of 1,000 fresh draws "
-        "that is farthest from those before, as `explain` measures: a changed field counts 1, a tray more or "
-        "less as many as it has fields. The same file, seed and options give the same plans on every machine.",
+        "Draws N different plans of the library at random, each with the same probability, and writes them in the "
+        "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
+        "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
+        "plan is the one of 1,000 fresh draws that is "
+        "farthest from those before. A changed field counts 1, a tray more or less counts as many as it has fields. "
+        "The same file, seed and options "
+        "give the same plans on every machine.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer plans",
     .operands = "a FILE and a number N",
     .operands_min = 1,
     .operands_max = 2,

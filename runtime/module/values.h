@@ -217,6 +217,35 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
 #define TN_PLACE_COLOUR_MAX INT32_MAX
 
+/* ---- solids */
+
+#define TN_SOLID_COORDINATE_MAX 1e9 /* of a box's faces and sizes */
+#define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
+
+/* Flags of a design. */
+#define TN_SOLID_SYMMETRY_X 1u
+#define TN_SOLID_SYMMETRY_Y 2u
+#define TN_SOLID_SYMMETRY_Z 4u
+#define TN_SOLID_SYMMETRY 7u
+#define TN_SOLID_FLAT 8u
+#define TN_SOLID_NOCLIP 16u
+#define TN_SOLID_PENETRATION 32u
+#define TN_SOLID_IMPORTED 64u
+#define TN_SOLID_FLAGS 127u
+
+/* Flags of a box. */
+#define TN_BOX_RIGID 1u
+#define TN_BOX_CLIPPED 2u
+#define TN_BOX_FLAGS 3u
+
+typedef enum tn_solid_model {
+    TN_MODEL_NONE,
+    TN_MODEL_MILLIMETRES,
+    TN_MODEL_CENTIMETRES,
+    TN_MODEL_METRES,
+    TN_SOLID_MODEL_COUNT
+} tn_solid_model;
+
 /* Flags of grammars. */
 #define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
 

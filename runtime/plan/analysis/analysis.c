@@ -277,7 +277,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_o
     analysis->max_joint = max_states ? max_states : JOINT_STATES_DEFAULT;
     analysis->library = options->library;
     analysis->memory = options->memory;
-    tn_status status = prepare(analysis, error);
+    analysis->crew = tn_crew_new(options->threads, schema->module->watch);
+    tn_status status = analysis->crew ? prepare(analysis, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_plan_analysis_rules(analysis, error);
     if (status == TN_OK)
@@ -286,6 +287,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_o
         status = tn_plan_analysis_libraries(analysis, error);
     analysis->library = NULL;
     analysis->memory = NULL;
+    tn_crew_free(analysis->crew);
+    analysis->crew = NULL;
     if (status != TN_OK) {
         tn_plan_analysis_free(analysis);
         return status;

@@ -2,6 +2,7 @@
 #ifndef TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 #define TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 
+#include "runtime/base/crew.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/automata/search.h"
 #include "runtime/plan/match/lower.h"
@@ -26,6 +27,7 @@ struct tn_plan_analysis {
     uint32_t max_joint;        /* tuples of a search over the clauses of a library */
     const tn_library *library; /* as in tn_plan_analysis_options, while the analysis is made */
     tn_plan_memory *memory;
+    tn_crew *crew; /* the same */
     tn_classes *classes;
     tn_lowering *lowering;
     tn_plan_vm *vm;

@@ -286,22 +286,31 @@ typedef struct verdict {
     tn_error error;
 } verdict;
 
+typedef struct trying {
+    const work *quick;
+    verdict *verdicts;
+} trying;
+
+static void try_one(void *context, uint32_t i)
+{
+    const trying *t = context;
+    verdict *own = &t->verdicts[i];
+    tn_key word = {0};
+    own->needed = true;
+    if (is_own(t->quick, i))
+        own->status = drops_alone(t->quick, i, &word, &own->needed, &own->error);
+    free(word.data);
+}
+
 /* Most clauses are needed, and a plan that shows it is found after looking at few others: clause by clause, as far as
  * that is quick. */
-static void try_each(const work *w, verdict *verdicts)
+static tn_status try_each(const work *w, verdict *verdicts, tn_error *error)
 {
     work quick = *w;
     quick.max_work = QUICK_WORK;
     quick.max_asked = QUICK_CLAUSES;
-#pragma omp parallel for schedule(dynamic)
-    for (size_t i = 0; i < w->count; i++) {
-        verdicts[i].needed = true;
-        if (!is_own(w, i))
-            continue;
-        tn_key word = {0};
-        verdicts[i].status = drops_alone(&quick, i, &word, &verdicts[i].needed, &verdicts[i].error);
-        free(word.data);
-    }
+    trying t = {&quick, verdicts};
+    return tn_crew_share(w->analysis->crew, (uint32_t)w->count, try_one, &t, error);
 }
 
 /* The clauses for which that was not quick, all together. */
@@ -348,8 +357,8 @@ static tn_memory_key make_key(const work *w, tn_memory_part *parts)
 
 static tn_status find_verdicts(const work *w, verdict *verdicts, tn_error *error)
 {
-    try_each(w, verdicts);
-    return try_rest(w, verdicts, error);
+    tn_status status = try_each(w, verdicts, error);
+    return status == TN_OK ? try_rest(w, verdicts, error) : status;
 }
 
 static void keep_verdicts(const work *w, tn_memory_key key, kept_verdicts *kept, const verdict *verdicts,

@@ -298,8 +298,8 @@ static tn_status count_of_base(tn_coverage *c, tn_dfa *plans, mpz_t count, tn_er
             mpz_set(count, c->differences[i].count);
             return TN_OK;
         }
-    tn_status status =
-        tn_count_both(c->base, plans, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, count, error);
+    tn_status status = tn_count_both(c->base, plans, TN_DFA_AND, c->classes->size, c->min, c->max, "difference",
+                                     &bounds, count, error);
     if (status == TN_OK && c->difference_count < DIFFERENCES_KEPT) {
         tn_difference *kept = &c->differences[c->difference_count++];
         kept->plans = tn_dfa_share(plans);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/library/sequence.h"
 
@@ -30,8 +31,8 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(base, clause, operation, library->classes, library->min, library->max, "library", &bounds,
-                         count, error);
+    return tn_count_both(base, clause, operation, library->classes->size, library->min, library->max, "library",
+                         &bounds, count, error);
 }
 
 static tn_status save(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
@@ -93,8 +94,8 @@ static tn_status count_only(const tn_counting_alone *counting, size_t number, mp
     else if (status == TN_OK)
         status = tn_sparse_apply(&base, clause, operation, sequence->what, &bounds, error);
     if (status == TN_OK && number + 1 < sequence->count)
-        status = tn_sequence_count(sequence, number + 1, library->classes, library->min, library->max, &bounds, &last,
-                                   &base, only, error);
+        status = tn_sequence_count(sequence, number + 1, library->classes->size, library->min, library->max, &bounds,
+                                   &last, &base, only, error);
     tn_sparse_free(base);
     return status;
 }
@@ -108,24 +109,40 @@ static void show_limit(const tn_library *library, size_t clause, tn_error *error
     tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-states");
 }
 
+typedef struct resting {
+    tn_counting_alone *counting;
+    tn_status started; /* TN_OK, or why no clause can be counted */
+    tn_error failure;
+} resting;
+
+static void count_clause(void *context, uint32_t i)
+{
+    const resting *r = context;
+    const tn_library *library = r->counting->library;
+    size_t clause = r->started == TN_OK ? r->counting->order[i] : library->applied[i];
+    tn_effect *effect = &r->counting->effects[clause];
+    if (effect->status != TN_LIMIT)
+        return;
+    effect->status = r->started;
+    if (r->started == TN_OK)
+        effect->status = count_only(r->counting, i, effect->only, &effect->error);
+    else
+        effect->error = r->failure;
+    if (effect->status == TN_LIMIT)
+        show_limit(library, clause, &effect->error);
+}
+
 /* What is not counted yet, in at most so many steps a clause as the bounds have. */
 static tn_status count_rest(tn_counting_alone *counting, bool within, tn_error *error)
 {
     const tn_library *library = counting->library;
-    tn_error failure;
-    tn_status started = begin(counting, within, &failure), status = TN_OK;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (size_t i = 0; i < library->applied_count; i++) {
-        size_t clause = started == TN_OK ? counting->order[i] : library->applied[i];
-        tn_effect *effect = &counting->effects[clause];
-        if (effect->status != TN_LIMIT)
-            continue;
-        if (started != TN_OK)
-            effect->error = failure;
-        effect->status = started == TN_OK ? count_only(counting, i, effect->only, &effect->error) : started;
-        if (effect->status == TN_LIMIT)
-            show_limit(library, clause, &effect->error);
-    }
+    resting r = {.counting = counting};
+    tn_crew *crew = tn_crew_new(library->threads, library->schema->module->watch);
+    if (!crew)
+        return tn_fail_memory(error);
+    r.started = begin(counting, within, &r.failure);
+    tn_status status = tn_crew_share(crew, (uint32_t)library->applied_count, count_clause, &r, error);
+    tn_crew_free(crew);
     for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
         const tn_effect *effect = &counting->effects[library->applied[i]];
         if (effect->status == TN_OK || effect->status == TN_LIMIT)

@@ -297,6 +297,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->max_states = options->max_states ? options->max_states : TN_STATES_DEFAULT;
     library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
+    library->threads = options->threads;
     library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
     library->memory = options->memory;
     tn_status status = set_lengths(library, options, error);

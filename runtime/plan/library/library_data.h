@@ -5,8 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
+#include "runtime/plan/automata/count.h"
 #include "runtime/plan/automata/sparse.h"
-#include "runtime/plan/library/count.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
 
@@ -49,11 +49,12 @@ struct tn_library {
     tn_bounds bounds;     /* of combining the clauses */
     uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
     uint64_t max_eager;
+    unsigned threads;
     tn_plan_memory *memory; /* or NULL */
     mpz_t *generated;       /* [max + 1]: by length */
     uint32_t *tray_column;  /* [trays]: column of `kept` */
     tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
-    tn_count_row *rows;           /* [max + 1]: kept plans by trays to come */
+    tn_count_row *rows;     /* [max + 1]: kept plans by trays to come */
     double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
@@ -119,8 +120,8 @@ tn_status tn_library_order(const tn_library *library, const tn_sparse *base, siz
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
                         tn_library **library, tn_error *error);
 
-/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map: the
- * library's tray for each of theirs, or NULL where trays are the same. */
+/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map:
+ * the library's tray for each of theirs, or NULL where trays are the same. */
 tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
                               const tn_tray *map, tn_sparse **out, tn_error *error);
 

@@ -53,8 +53,8 @@ static tn_status count_both(const tn_library *library, const tn_classes *classes
                             const tn_dfa *rule, mpz_t matched, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    tn_status status =
-        tn_count_both(plans, rule, TN_DFA_AND, classes, library->min, library->max, "library", &bounds, matched, error);
+    tn_status status = tn_count_both(plans, rule, TN_DFA_AND, classes->size, library->min, library->max, "library",
+                                     &bounds, matched, error);
     if (status == TN_LIMIT)
         mpz_set_si(matched, -1);
     return status == TN_LIMIT ? TN_OK : status;

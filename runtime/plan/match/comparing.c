@@ -79,12 +79,12 @@ static tn_status find_bounds(tn_comparing *comparing, uint32_t max_trays, tn_err
     return TN_OK;
 }
 
-tn_status tn_marked_compare(const tn_marked *marked, const tn_sum *sum, tn_dfa *const *parts, bool reversed,
-                            tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error)
+tn_status tn_relate_sum(const tn_marked *marked, const tn_classes *classes, const tn_sum *sum, tn_dfa *const *parts,
+                        bool reversed, tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error)
 {
     tn_comparing comparing = {.opcode = opcode, .constant = sum->constant};
     tn_key start = {0};
-    tn_status status = tn_summing_make(&comparing.summing, sum, marked, parts, reversed, error);
+    tn_status status = tn_summing_make(&comparing.summing, sum, marked, classes, parts, reversed, error);
     if (status == TN_OK)
         status = find_bounds(&comparing, max_trays, error);
     if (status == TN_OK &&

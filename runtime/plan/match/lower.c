@@ -3,10 +3,11 @@
 #include <stdlib.h>
 
 #include "runtime/module/code.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/match/marked.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/summing.h"
+#include "runtime/plan/match/tray_relations.h"
 
 /* The forms in which a function may be needed: of the plan as a whole (PLAIN: over the classes), or as a relation (over
  * marked words); each as it is written or with the plan reversed. */
@@ -60,7 +61,7 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
     lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
     lowering->local = calloc(lowering->module->FUNCTION_count + 1, 1);
     tn_status status = lowering->lowered && lowering->local
-                           ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
+                           ? tn_marked_make(&lowering->marked, classes->count, &lowering->bounds, error)
                            : tn_fail_memory(error);
     if (status != TN_OK) {
         tn_lowering_free(lowering);
@@ -206,10 +207,11 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
                                 tn_dfa **out, tn_error *error)
 {
     const tn_marked *marked = &lowering->marked;
+    const tn_classes *classes = lowering->classes;
     uint32_t first = (uint32_t)node->code.first, second = (uint32_t)node->code.second;
     switch (node->code.opcode) {
     case TN_OP_TRAY:
-        return tn_marked_tray(marked, first, out, error);
+        return tn_relate_tray(marked, classes, first, out, error);
     case TN_OP_SOMEWHERE:
         return tn_marked_somewhere(marked, in[0], out, error);
     case TN_OP_NONEMPTY:
@@ -226,13 +228,13 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
     case TN_OP_MANY:
         return tn_marked_many(marked, in[0], out, error);
     case TN_OP_QUANTITY:
-        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
+        return tn_relate_count(marked, classes, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
     case TN_OP_SUM:
-        first -= lowering->classes->schema->record->field_first;
-        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, second, first, out, error);
+        first -= classes->schema->record->field_first;
+        return tn_relate_count(marked, classes, in[0], TN_TALLY_SINGLES, second, first, out, error);
     case TN_OP_OCCURRENCES:
-        return tn_marked_count(marked, in[0], reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS, first, TN_NO_FIELD, out,
-                               error);
+        return tn_relate_count(marked, classes, in[0], reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS, first, TN_NO_FIELD,
+                               out, error);
     case TN_OP_DISTANCE:
         return tn_marked_distance(marked, in[0], in[1], in[2], reversed, out, error);
     default:
@@ -278,8 +280,8 @@ static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, ui
         if (needs_part(lowering, term))
             parts[i] = lowering->lowered[part_wanted(term, form)].dfa;
     }
-    status = tn_marked_compare(&lowering->marked, sum, parts, form & FORM_REVERSED, node->code.opcode,
-                               lowering->max_trays, out, error);
+    status = tn_relate_sum(&lowering->marked, lowering->classes, sum, parts, form & FORM_REVERSED, node->code.opcode,
+                           lowering->max_trays, out, error);
     free(parts);
     return status;
 }

@@ -6,8 +6,7 @@
 #ifndef TARTAN_PLAN_MATCH_LOWER_H
 #define TARTAN_PLAN_MATCH_LOWER_H
 
-#include "runtime/plan/automata/dfa.h"
-#include "runtime/plan/match/marked.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 
 typedef struct tn_lowering tn_lowering;

@@ -130,7 +130,7 @@ static void find_range(tn_summing *summing)
     }
 }
 
-static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
+static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts,
                            bool reversed, tn_error *error)
 {
     for (uint32_t i = 0; i < sum->count; i++) {
@@ -148,18 +148,18 @@ static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_mark
             return status;
         for (uint32_t c = 0; c < summing->join.columns; c++)
             if (c != summing->marker)
-                term->weight[c] = weight_of(&sum->terms[i], marked->classes->representative[summing->join.letter[c]]);
+                term->weight[c] = weight_of(&sum->terms[i], classes->representative[summing->join.letter[c]]);
     }
     return TN_OK;
 }
 
-static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
-                      const int64_t *local, tn_error *error)
+static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
+                      tn_dfa *const *parts, const int64_t *local, tn_error *error)
 {
     uint32_t count = 0;
     uint32_t *extra = calloc(marked->letters, sizeof *extra);
     const tn_dfa **dfas = calloc((size_t)sum->count + 1, sizeof *dfas);
-    bool ok = extra && dfas && number_weights(sum, marked->classes, parts, local, extra);
+    bool ok = extra && dfas && number_weights(sum, classes, parts, local, extra);
     for (uint32_t i = 0; ok && i < sum->count; i++)
         if (parts[i])
             dfas[count++] = parts[i];
@@ -179,16 +179,16 @@ static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *m
     return status;
 }
 
-tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
-                          bool reversed, tn_error *error)
+tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
+                          tn_dfa *const *parts, bool reversed, tn_error *error)
 {
     *summing = (tn_summing){0};
-    int64_t *local = calloc((size_t)marked->classes->count + 1, sizeof *local);
-    tn_status status = local ? find_local(sum, marked->classes, parts, local, error) : tn_fail_memory(error);
+    int64_t *local = calloc((size_t)classes->count + 1, sizeof *local);
+    tn_status status = local ? find_local(sum, classes, parts, local, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = join(summing, sum, marked, parts, local, error);
+        status = join(summing, sum, marked, classes, parts, local, error);
     if (status == TN_OK)
-        status = add_terms(summing, sum, marked, parts, reversed, error);
+        status = add_terms(summing, sum, classes, parts, reversed, error);
     if (status == TN_OK)
         find_range(summing);
     free(local);

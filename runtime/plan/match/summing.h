@@ -9,7 +9,9 @@
 #define TARTAN_PLAN_MATCH_SUMMING_H
 
 #include "runtime/module/opcodes.h"
-#include "runtime/plan/match/guesses.h"
+#include "runtime/plan/automata/guesses.h"
+#include "runtime/plan/automata/marked.h"
+#include "runtime/plan/schema/classes.h"
 #include "runtime/plan/schema/sum.h"
 
 typedef struct tn_summing_term {
@@ -41,8 +43,8 @@ bool tn_summing_is_local(const tn_module *module, uint32_t function, uint8_t *kn
 
 /* parts: the automaton of each term's part, [sum->count]; NULL for singles whose part is local, and for `matches`,
  * which is left out. reversed: the automata are of the reversed plan. */
-tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, tn_dfa *const *parts,
-                          bool reversed, tn_error *error);
+tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
+                          tn_dfa *const *parts, bool reversed, tn_error *error);
 void tn_summing_clear(tn_summing *summing);
 
 /* Appends the state before everything to the key; false where out of memory. */
@@ -60,7 +62,7 @@ int64_t tn_summing_rest(const tn_summing *summing, const uint32_t *key, size_t s
 
 /* The stretches on which the sum, with its constant, compares so with 0: opcode is BELOW, ZERO or ABOVE. max_trays: of
  * the plans that will be asked about, or 0 where that is not known: then sums that rise and fall are E0802. */
-tn_status tn_marked_compare(const tn_marked *marked, const tn_sum *sum, tn_dfa *const *parts, bool reversed,
-                            tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error);
+tn_status tn_relate_sum(const tn_marked *marked, const tn_classes *classes, const tn_sum *sum, tn_dfa *const *parts,
+                        bool reversed, tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error);
 
 #endif

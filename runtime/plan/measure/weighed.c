@@ -68,7 +68,8 @@ static tn_status make_summing(tn_weighed *w, weight *m, tn_error *error)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < m->sum->count; i++)
         parts[i] = m->sum->terms[i].kind == TN_SUM_MATCHES ? NULL : m->parts[i];
-    tn_status status = tn_summing_make(&m->summing, m->sum, tn_lowering_marked(w->lowering), parts, false, error);
+    tn_status status =
+        tn_summing_make(&m->summing, m->sum, tn_lowering_marked(w->lowering), w->classes, parts, false, error);
     free(parts);
     return status;
 }
