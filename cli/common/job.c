@@ -42,6 +42,8 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
 
 bool tn_job_open(tn_job *job, const char *path)
 {
+    if (job->opened.module && job->opened.path == path)
+        return true;
     worsen(job, tn_exit_code(tn_open(path, job->settings->werror, &job->opened)));
     if (job->opened.module)
         job->opened.module->watch = tn_interrupt_waiting();

@@ -1,9 +1,10 @@
-/* tartan draw: plans as a picture sheet, rules as a picture. */
+/* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/mesh/draw_surface.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
 #include "driver/open/digits.h"
@@ -17,6 +18,7 @@ typedef struct draw_settings {
     tn_plan_settings plans;
     tn_input_settings input;
     tn_sampled_settings sampled;
+    tn_surface_settings surface;
     const char *output, *title, *paper;
     tn_option_list rules;
     tn_option_number sample, scale, columns, dpi, max_plans;
@@ -317,23 +319,61 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+/* Options that say something about surfaces only, or about plans only. */
+static bool check_use(tn_job *job)
+{
+    const draw_settings *s = settings_of(job);
+    bool field = tn_job_has_surface(job);
+    const struct {
+        bool given, field;
+        const char *name;
+    } uses[] = {{s->surface.surface != NULL, true, "surface"},
+                {s->surface.grid.given, true, "grid"},
+                {s->surface.azimuth.given, true, "azimuth"},
+                {s->surface.elevation.given, true, "elevation"},
+                {s->surface.width.given, true, "width"},
+                {s->rules.count > 0, false, "rule"},
+                {s->plans.library != NULL, false, "library"},
+                {s->sample.given, false, "sample"},
+                {s->sampled.per_length.given, false, "per-length"},
+                {s->paper != NULL, false, "paper"},
+                {s->scale.given, false, "scale"},
+                {s->columns.given, false, "columns"},
+                {s->max_plans.given, false, "max-plans"}};
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++)
+        if (uses[i].given && uses[i].field != field) {
+            tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, field ? "a field" : "plans");
+            tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
+                    field ? "plans" : "fields (.field)");
+            return false;
+        }
+    return true;
+}
+
+static void draw_plans(tn_job *job)
+{
+    const char *path = is_sampled(settings_of(job)) ? NULL : tn_job_plans_path(job);
+    if (path)
+        draw_file(job, path);
+    else if (job->exit_code == TN_EXIT_DONE)
+        draw_sample(job);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const draw_settings *settings = (const draw_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_options(&job))
+    if (!check_options(&job) || !tn_job_open(&job, common->operands.items[0]) || !check_use(&job))
         return tn_job_end(&job);
-    if (settings->rules.count) {
+    if (tn_job_has_surface(&job))
+        tn_job_draw_surface(&job, &settings->surface, settings->title, (uint32_t)settings->dpi.value,
+                            (unsigned)settings->plans.threads.value, settings->output);
+    else if (settings->rules.count)
         draw_rules(&job);
-    } else {
-        const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
-        if (path)
-            draw_file(&job, path);
-        else if (job.exit_code == TN_EXIT_DONE)
-            draw_sample(&job);
-    }
+    else
+        draw_plans(&job);
     return tn_job_end(&job);
 }
 
@@ -353,6 +393,7 @@ static const tn_option options[] = {
     NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    OPTIONS_SURFACE,
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
     OPTION_TRAYS,
@@ -363,8 +404,9 @@ static const tn_option options[] = {
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans on a sheet, to scale",
-    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg",
+    .summary = "draw plans on a sheet, to scale, or an implicit surface",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
+             "FILE.field [--surface NAME] [--grid N] -o FORM.png",
     .description =
         "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
         "zones, marks and "
@@ -372,13 +414,16 @@ const tn_command tn_command_draw = {
         "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
         "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
         "of "
-        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.",
+        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.\n"
+        "Of a field, a surface is meshed and drawn, shaded: a PNG of any size, an SVG or PDF of at most 300,000 "
+        "triangles.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
-               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
+               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
+               "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
-    .operands = "a rule file and a file of plans",
+    .operands = "a rule file and a file of plans, or one FILE.field",
     .operands_min = 1,
     .operands_max = 2,
     .run = run,

@@ -1,4 +1,5 @@
-/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, polyhedra for OpenSCAD, and lines as DXF. */
+/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, polyhedra for OpenSCAD, and
+ * lines as DXF. */
 #ifndef TARTAN_GEOMETRY_WRITE_H
 #define TARTAN_GEOMETRY_WRITE_H
 

@@ -2,11 +2,6 @@
 #include "runtime/base/part.h"
 #include "runtime/growth/picture/draw.h"
 
-tn_camera tn_camera_default(void)
-{
-    return (tn_camera){0};
-}
-
 tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error)
 {
     (void)growth, (void)camera;

@@ -11,7 +11,6 @@
 #include "runtime/geometry/hidden.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/geometry/vector.h"
-#include "runtime/numeric/numeric.h"
 
 #define NO_EDGE UINT16_MAX /* where a face was cut */
 
@@ -32,11 +31,6 @@ struct tn_view {
     uint32_t by_depth;
 };
 
-tn_camera tn_camera_default(void)
-{
-    return (tn_camera){-60, 30, 480};
-}
-
 void tn_view_free(tn_view *view)
 {
     if (!view)
@@ -48,25 +42,6 @@ void tn_view_free(tn_view *view)
 }
 
 /* ---- taking */
-
-typedef struct viewpoint {
-    tn_vector right, up, towards;
-} viewpoint;
-
-static viewpoint place_eye(const tn_camera *camera)
-{
-    double ca = tn_cos_degrees(camera->azimuth), sa = tn_sin_degrees(camera->azimuth);
-    double ce = tn_cos_degrees(camera->elevation), se = tn_sin_degrees(camera->elevation);
-    return (viewpoint){{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
-}
-
-/* Light from over the eye's left shoulder; both sides of a surface are lit. */
-static float light_on(const viewpoint *eye, tn_vector normal)
-{
-    tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
-    double facing = tn_dot(normal, eye->towards) < 0 ? -1 : 1;
-    return (float)(0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp)));
-}
 
 /* A surface as it lies before the eye. */
 typedef struct prospect {
@@ -84,22 +59,19 @@ static void clear_prospect(prospect *p)
     free(p->labels);
 }
 
-static void see_face(const tn_map *map, const viewpoint *eye, uint32_t face, prospect *seen, uint32_t *corner)
+static void see_face(const tn_map *map, const tn_eye *eye, uint32_t face, prospect *seen, uint32_t *corner)
 {
     uint32_t first = map->face_first[face], size = tn_face_size(map, face), number = seen->scene.face_count++;
     tn_vector normal = {0, 0, 0}, origin = tn_vector_at(map->positions + 3 * (size_t)map->origin[first]), before = {0};
     seen->scene.first[number] = *corner;
     for (uint32_t d = first; d < first + size; d++) {
         tn_vector p = tn_vector_at(map->positions + 3 * (size_t)map->origin[d]), r = tn_sub(p, origin);
-        double *at = seen->scene.points[*corner];
-        at[0] = tn_dot(p, eye->right);
-        at[1] = tn_dot(p, eye->up);
-        at[2] = tn_dot(p, eye->towards);
+        tn_vector_put(seen->scene.points[*corner], tn_eye_sees(eye, p));
         seen->labels[(*corner)++] = (uint16_t)tn_state_label(map->states[map->side[d] / 2]);
         normal = tn_add(normal, tn_cross(before, r));
         before = r;
     }
-    seen->light[number] = light_on(eye, tn_normalised(normal));
+    seen->light[number] = (float)tn_eye_light(eye, tn_normalised(normal));
 }
 
 /* Moves and scales the scene to about the unit cube, as tn_scene wants it. */
@@ -121,7 +93,7 @@ static void measure(prospect *seen, uint32_t corners)
             seen->scene.points[c][k] = (seen->scene.points[c][k] - seen->middle[k]) / seen->size;
 }
 
-static tn_status look(const tn_map *map, const viewpoint *eye, prospect *seen, tn_error *error)
+static tn_status look(const tn_map *map, const tn_eye *eye, prospect *seen, tn_error *error)
 {
     size_t corners = 2 * (size_t)map->edge_count - tn_face_size(map, TN_OUTER_FACE);
     *seen = (prospect){0};
@@ -193,7 +165,7 @@ tn_status tn_view_take(const tn_growth *growth, const tn_camera *camera, tn_view
         return tn_fail_memory(error);
     view->width = camera->width > 0 ? camera->width : 480;
     view->step = tn_growth_steps(growth);
-    viewpoint eye = place_eye(camera);
+    tn_eye eye = tn_camera_eye(camera);
     prospect seen;
     tn_painting painting = {0};
     tn_status status = look(map, &eye, &seen, error);

@@ -3,18 +3,10 @@
 #define TARTAN_GROWTH_PICTURE_DRAW_H
 
 #include "runtime/base/picture.h"
+#include "runtime/geometry/camera.h"
 #include "runtime/growth/growth.h"
 
 #define TN_DRAWN_FACES_MAX 2000000u
-
-typedef struct tn_camera {
-    double azimuth;   /* degrees about z, from the x axis; the camera looks from there */
-    double elevation; /* degrees above the ground: 90 looks straight down */
-    double width;     /* of a view, in points */
-} tn_camera;
-
-/* Azimuth -60, elevation 30, 480 points wide. */
-tn_camera tn_camera_default(void);
 
 /* One view: what is drawn may be thrown away afterwards. */
 typedef struct tn_view tn_view;
