@@ -93,7 +93,7 @@ void tn_job_mesh_solid(tn_job *job, tn_out_format format)
         char note[240];
         tn_mesh_note(job, job->opened.module->SOLID_records[solid].name, note, sizeof note);
         turn_up(&u.mesh);
-        tn_mesh_write(job, &u.mesh, format, note);
+        tn_mesh_write(job, &u.mesh, &(tn_mesh_file){.format = format, .note = note});
     }
     tn_union_clear(&u);
     tn_built_clear(&built);

@@ -79,7 +79,7 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
         return tn_fail_memory(error);
     out->stream = stream;
     out->used = 0;
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK) {
         write_header(mesh, style, stream, large);
         for (size_t v = 0; v < mesh->vertex_count; v++) {
