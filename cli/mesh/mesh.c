@@ -12,8 +12,8 @@
 
 /* The formats of --format's words. */
 static const tn_out_format formats[] = {TN_OUT_NONE, TN_OUT_OBJ, TN_OUT_PLY,  TN_OUT_STL, TN_OUT_OFF,
-                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_3MF};
-#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|3mf"
+                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_3MF, TN_OUT_DXF};
+#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|3mf|dxf"
 
 static tn_out_format format_of(const tn_mesh_settings *s)
 {
@@ -34,7 +34,7 @@ static bool check_format(tn_job *job, tn_out_format *format)
     if (*format == TN_OUT_NONE) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say which mesh is to be written", s->output);
         tn_help(tn_job_diagnostics(job), d,
-                "end its name in .obj, .ply, .stl, .off, .om, .glb, .3mf or .scad, or say --format");
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf, or say --format");
         return false;
     }
     bool normals = *format == TN_OUT_OBJ || *format == TN_OUT_PLY || *format == TN_OUT_GLB;
@@ -45,6 +45,11 @@ static bool check_format(tn_job *job, tn_out_format *format)
                 s->normals && !normals  ? "only .obj, .ply and .glb hold normals of vertices"
                 : *format == TN_OUT_GLB ? "a .glb has y up always"
                                         : "a .3mf has z up always");
+        return false;
+    }
+    if (s->exact && *format != TN_OUT_STL) {
+        tn_diagnostic *d = tn_job_usage(job, "--exact does nothing for this kind of file");
+        tn_help(tn_job_diagnostics(job), d, "only an .stl tells vertices by their places");
         return false;
     }
     if (strcmp(s->output, "-") == 0 && s->stats) {
@@ -74,6 +79,8 @@ static bool check_use(tn_job *job)
         {s->threads.given, false, "threads"},
         {s->solid != NULL, true, "solid"},
         {s->cells, true, "cells"},
+        {s->exact, true, "exact"},
+        {s->max_boxes.given, true, "max-boxes"},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
         if (!uses[i].given || uses[i].solid == solid)
@@ -127,6 +134,22 @@ static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
                     m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
 }
 
+static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
+{
+    static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_mesh_stats stats = {
+        .what = "surface",
+        .name = tn_text(open->field.module, open->field.record->name),
+        .unit = units[open->field.record->unit],
+        .mesh = &c->mesh,
+        .measures = m,
+        .closed = !s->open && s->jumps != 1,
+        .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
+        .count_count = 3};
+    tn_mesh_stats_write(stdout, s->stats == 2, &stats);
+}
+
 static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_format format, tn_error *error)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
@@ -147,7 +170,7 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
         tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
         warn_of_specks(job, &measures);
         if (s->stats || !s->output)
-            tn_mesh_stats_write(stdout, s->stats == 2, open, &contour, &measures, !s->open && s->jumps != 1);
+            write_stats(job, open, &contour, &measures);
         if (s->output) {
             char note[240];
             tn_mesh_note(job, open->field.record->name, note, sizeof note);
@@ -193,12 +216,15 @@ static int run(const tn_command *command, const tn_settings *common)
 
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output,
-         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .3mf or .scad; - is standard output"),
+         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf; - is standard output"),
     CHOICE("format", 'f', "FORMAT", format, FORMAT_WORDS, "what is written, where the name of FILE does not say it"),
     TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
     FLAG("cells", 0, cells,
          "of a design of boxes: each box closed by itself, as a group with its name, instead of one surface of all"),
+    FLAG("exact", 0, exact,
+         "of a design of boxes as .stl: leave vertices where they are, though some share a place; otherwise these move "
+         "into their own boxes by 0.00001 of the diagonal"),
     NUMBER("grid", 'n', "N", grid, 2, 8192,
            "samples on the longest side of the box (default: what the file says, or 50)"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json", "write what the mesh measures to standard output"),
@@ -218,6 +244,7 @@ static const tn_option options[] = {
     NUMBER("max-samples", 0, "N", max_samples, 8, 1ull << 36, "the most samples of a grid (default 2000000000)"),
     NUMBER("max-triangles", 0, "N", max_triangles, 1, UINT32_MAX / 3,
            "the most triangles of a mesh (default 100000000)"),
+    OPTION_MAX_BOXES(max_boxes),
     CHOICE("engine", 0, "ENGINE", engine, "tape|vm",
            "tape (the default) evaluates rows of samples and skips what is proven; vm interprets the code at every "
            "sample: the same mesh, more slowly"),
@@ -245,6 +272,7 @@ const tn_command tn_command_mesh = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer samples with --grid",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

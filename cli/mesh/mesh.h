@@ -15,9 +15,9 @@ typedef struct tn_mesh_settings {
     int stats;  /* 0 not asked for, 1 table, 2 json */
     int up;     /* 0 z, 1 y */
     int jumps;  /* 0 closed, 1 open */
-    bool open, normals, cells;
+    bool open, normals, cells, exact;
     tn_out_changes changes;
-    tn_option_number grid, max_samples, max_triangles, threads;
+    tn_option_number grid, max_samples, max_triangles, max_boxes, threads;
 } tn_mesh_settings;
 
 /* Those of the job, which is one of `tartan mesh`. */
@@ -44,9 +44,23 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file);
 /* Meshes a design of boxes of the file that is open, and reports what fails. */
 void tn_job_mesh_solid(tn_job *job, tn_out_format format);
 
-/* Writes what the mesh measures to a stream: a table, or JSON. */
-void tn_mesh_stats_write(FILE *out, bool json, const tn_open_field *open, const tn_contour *contour,
-                         const tn_mesh_measures *measures, bool closed);
+/* What there is to say of a mesh. */
+typedef struct tn_mesh_stats {
+    const char *what, *name; /* "surface" or "solid", and what it is called */
+    const char *unit;        /* or "" */
+    const tn_mesh *mesh;
+    const tn_mesh_measures *measures;
+    bool closed; /* otherwise it has no volume */
+    struct {
+        const char *key;
+        uint64_t count;
+        bool json_only;
+    } counts[3]; /* what only surfaces, or only designs of boxes, have */
+    size_t count_count;
+} tn_mesh_stats;
+
+/* Writes it to a stream: a table, or JSON. */
+void tn_mesh_stats_write(FILE *out, bool json, const tn_mesh_stats *stats);
 
 /* Does --points: f, its gradient and whether it is inside, for each line of a file. */
 void tn_mesh_points(tn_job *job, const tn_open_field *open);

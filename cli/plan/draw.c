@@ -7,6 +7,7 @@
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
+#include "cli/solid/solid.h"
 #include "driver/open/digits.h"
 #include "runtime/base/array.h"
 #include "runtime/base/picture.h"
@@ -18,10 +19,14 @@ typedef struct draw_settings {
     tn_plan_settings plans;
     tn_input_settings input;
     tn_sampled_settings sampled;
-    tn_surface_settings surface;
     const char *output, *title, *paper;
     tn_option_list rules;
     tn_option_number sample, scale, columns, dpi, max_plans;
+    /* of forms */
+    const char *solid, *surface;
+    bool sheet, before, exploded;
+    tn_option_real azimuth, elevation;
+    tn_option_number width, max_boxes, grid;
 } draw_settings;
 
 static const draw_settings *settings_of(const tn_job *job)
@@ -231,7 +236,7 @@ static void draw_file(tn_job *job, const char *path)
     tn_schema *schema = NULL;
     uint32_t index, library = UINT32_MAX;
     tn_error error;
-    if (!tn_job_open(job, job->settings->operands.items[0]))
+    if (!job->opened.module && !tn_job_open(job, job->settings->operands.items[0]))
         return;
     tn_status status = tn_schema_choose(&job->opened, settings_of(job)->plans.library, &index, &library);
     tn_job_status(job, status);
@@ -319,41 +324,110 @@ static bool check_options(tn_job *job)
     return false;
 }
 
-/* Options that say something about surfaces only, or about plans only. */
-static bool check_use(tn_job *job)
+/* ---- forms */
+
+/* What a file says: plans, a design of boxes, or a surface. */
+typedef enum subject { PLANS, SOLID, FIELD, SUBJECT_COUNT } subject;
+
+static subject subject_of(const tn_job *job)
+{
+    return tn_job_has_surface(job) ? FIELD : job->opened.module->SOLID_count > 0 ? SOLID : PLANS;
+}
+
+/* Options that say something about one or two of the subjects only. */
+static bool check_use(tn_job *job, subject asked)
+{
+    enum { OF_PLANS = 1 << PLANS, OF_SOLIDS = 1 << SOLID, OF_FIELDS = 1 << FIELD };
+    static const char *const subjects[] = {"plans and rules", "a design of boxes", "a field"};
+    static const char *const files[] = {"",
+                                        "plans (.plan)",
+                                        "designs of boxes (.solid)",
+                                        "plans and designs of boxes",
+                                        "fields (.field)",
+                                        "plans and fields",
+                                        "designs of boxes and fields"};
+    const draw_settings *s = settings_of(job);
+    const struct {
+        bool given;
+        unsigned of;
+        const char *name;
+    } uses[] = {
+        {s->rules.count > 0, OF_PLANS, "rule"},
+        {s->plans.library != NULL, OF_PLANS, "library"},
+        {s->sample.given, OF_PLANS, "sample"},
+        {s->sampled.per_length.given, OF_PLANS, "per-length"},
+        {s->paper != NULL, OF_PLANS, "paper"},
+        {s->scale.given, OF_PLANS, "scale"},
+        {s->max_plans.given, OF_PLANS, "max-plans"},
+        {s->columns.given, OF_PLANS | OF_SOLIDS, "columns"},
+        {s->solid != NULL, OF_SOLIDS, "solid"},
+        {s->sheet, OF_SOLIDS, "sheet"},
+        {s->before, OF_SOLIDS, "before"},
+        {s->exploded, OF_SOLIDS, "exploded"},
+        {s->max_boxes.given, OF_SOLIDS, "max-boxes"},
+        {s->azimuth.given, OF_SOLIDS | OF_FIELDS, "azimuth"},
+        {s->elevation.given, OF_SOLIDS | OF_FIELDS, "elevation"},
+        {s->width.given, OF_SOLIDS | OF_FIELDS, "width"},
+        {s->surface != NULL, OF_FIELDS, "surface"},
+        {s->grid.given, OF_FIELDS, "grid"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || uses[i].of >> asked & 1)
+            continue;
+        tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, subjects[asked]);
+        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name, files[uses[i].of]);
+        return false;
+    }
+    if (s->sheet + s->before + s->exploded > 1) {
+        tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
+        return false;
+    }
+    return true;
+}
+
+static tn_camera camera_of(const draw_settings *settings)
+{
+    tn_camera camera = tn_camera_default();
+    if (settings->azimuth.given)
+        camera.azimuth = settings->azimuth.value;
+    if (settings->elevation.given)
+        camera.elevation = settings->elevation.value;
+    if (settings->width.given)
+        camera.width = (double)settings->width.value;
+    return camera;
+}
+
+static void draw_solid(tn_job *job)
 {
     const draw_settings *s = settings_of(job);
-    bool field = tn_job_has_surface(job);
-    const struct {
-        bool given, field;
-        const char *name;
-    } uses[] = {{s->surface.surface != NULL, true, "surface"},
-                {s->surface.grid.given, true, "grid"},
-                {s->surface.azimuth.given, true, "azimuth"},
-                {s->surface.elevation.given, true, "elevation"},
-                {s->surface.width.given, true, "width"},
-                {s->rules.count > 0, false, "rule"},
-                {s->plans.library != NULL, false, "library"},
-                {s->sample.given, false, "sample"},
-                {s->sampled.per_length.given, false, "per-length"},
-                {s->paper != NULL, false, "paper"},
-                {s->scale.given, false, "scale"},
-                {s->columns.given, false, "columns"},
-                {s->max_plans.given, false, "max-plans"}};
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++)
-        if (uses[i].given && uses[i].field != field) {
-            tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, field ? "a field" : "plans");
-            tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
-                    field ? "plans" : "fields (.field)");
-            return false;
-        }
-    return true;
+    tn_solid_drawing drawing = {.views = s->sheet      ? TN_SOLID_SHEET
+                                         : s->before   ? TN_SOLID_BEFORE
+                                         : s->exploded ? TN_SOLID_EXPLODED
+                                                       : TN_SOLID_VIEW,
+                                .camera = camera_of(s),
+                                .title = s->title,
+                                .columns = (uint32_t)s->columns.value,
+                                .dpi = (uint32_t)s->dpi.value,
+                                .most = (uint32_t)s->max_boxes.value};
+    tn_job_draw_solid(job, s->solid, &drawing, s->output);
+}
+
+static void draw_field(tn_job *job)
+{
+    const draw_settings *s = settings_of(job);
+    tn_mesh_picture picture = {.camera = camera_of(s),
+                               .title = s->title,
+                               .dpi = (uint32_t)s->dpi.value,
+                               .threads = (int)s->plans.threads.value};
+    tn_job_draw_surface(job, s->surface, (uint32_t)s->grid.value, &picture, s->output);
 }
 
 static void draw_plans(tn_job *job)
 {
     const char *path = is_sampled(settings_of(job)) ? NULL : tn_job_plans_path(job);
-    if (path)
+    if (settings_of(job)->rules.count)
+        draw_rules(job);
+    else if (path)
         draw_file(job, path);
     else if (job->exit_code == TN_EXIT_DONE)
         draw_sample(job);
@@ -365,15 +439,12 @@ static int run(const tn_command *command, const tn_settings *common)
     const draw_settings *settings = (const draw_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_options(&job) || !tn_job_open(&job, common->operands.items[0]) || !check_use(&job))
+    if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         return tn_job_end(&job);
-    if (tn_job_has_surface(&job))
-        tn_job_draw_surface(&job, &settings->surface, settings->title, (uint32_t)settings->dpi.value,
-                            (unsigned)settings->plans.threads.value, settings->output);
-    else if (settings->rules.count)
-        draw_rules(&job);
-    else
-        draw_plans(&job);
+    static void (*const draw[SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
+    subject asked = subject_of(&job);
+    if (check_use(&job, asked))
+        draw[asked](&job);
     return tn_job_end(&job);
 }
 
@@ -382,6 +453,7 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTION_LIBRARY,
+    OPTION_WHERE,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
@@ -393,7 +465,17 @@ static const tn_option options[] = {
     NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
-    OPTIONS_SURFACE,
+    TEXT("surface", 0, "NAME", surface, "of fields: which surface (default: the last)"),
+    NUMBER("grid", 'n', "N", grid, 2, 8192,
+           "of fields: samples on the longest side of the box (default: what the file says, or 50)"),
+    TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
+    FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
+    FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),
+    FLAG("exploded", 0, exploded, "of a design of boxes: its boxes moved apart"),
+    REAL("azimuth", 0, "DEGREES", azimuth, "where a form is seen from, about the vertical (default -60)"),
+    REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
+    NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture of a form (default 480)"),
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
     OPTION_TRAYS,
@@ -404,8 +486,9 @@ static const tn_option options[] = {
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans on a sheet, to scale, or an implicit surface",
+    .summary = "draw plans on a sheet, to scale, or a form in space",
     .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
+             "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg\n"
              "FILE.field [--surface NAME] [--grid N] -o FORM.png",
     .description =
         "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
@@ -415,15 +498,17 @@ const tn_command tn_command_draw = {
         "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
         "of "
         "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.\n"
-        "Of a field, a surface is meshed and drawn, shaded: a PNG of any size, an SVG or PDF of at most 300,000 "
-        "triangles.",
+        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.\n"
+        "Of a field (.field), a surface is meshed and drawn, shaded: a PNG of any size, an SVG or PDF of at most "
+        "300,000 triangles.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
                "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
-    .operands = "a rule file and a file of plans, or one FILE.field",
+    .ask_less = "draw fewer of them",
+    .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,
     .run = run,

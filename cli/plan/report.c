@@ -97,6 +97,7 @@ static const tn_option options[] = {
            "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
     OPTION_LIBRARY,
+    OPTION_WHERE,
     OPTION_MAX_STATES,
     OPTION_THREADS(plans.threads),
     OPTION_WERROR,

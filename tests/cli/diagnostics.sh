@@ -30,7 +30,7 @@ done
 [ "${1-}" != --update ] || exit 0
 # Every code that the front ends report is among them; solid.sh makes a design of too many boxes.
 names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,solid}/*.c \
-    ../../compiler/plan/{ast*,check*,syntax_error}.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c ../../driver/solid/report.c |
+    ../../compiler/plan/{syntax,check}/*.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c ../../driver/solid/report.c |
     grep -v E_SOLID_TOO_MANY | sort -u)
 codes=$(while read -r name; do
     case $name in

@@ -62,6 +62,8 @@ static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error
     tn_status status = tn_classes_new(library->schema, functions, count, &library->classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(library->classes, library->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, library->max);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         status = tn_lower(lowering, functions[i], &library->clauses[i], error);
         if (status == TN_LIMIT)

@@ -86,6 +86,8 @@ tn_status tn_library_matches(const tn_library *library, const uint32_t *function
     if (status == TN_OK)
         status = tn_lowering_new(classes, library->max_states, &lowering, error);
     if (status == TN_OK)
+        tn_lowering_within(lowering, library->max);
+    if (status == TN_OK)
         status = tn_library_reletter(library, library->generator, classes, NULL, &plans[0], error);
     if (status == TN_OK)
         status = tn_library_reletter(library, library->live, classes, NULL, &plans[1], error);
