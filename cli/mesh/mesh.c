@@ -126,14 +126,6 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
     free(normals);
 }
 
-static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
-{
-    if (m->small_parts)
-        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
-                    "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
-                    m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
-}
-
 static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
 {
     static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
@@ -148,6 +140,14 @@ static void write_stats(const tn_job *job, const tn_open_field *open, const tn_c
         .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
         .count_count = 3};
     tn_mesh_stats_write(stdout, s->stats == 2, &stats);
+}
+
+static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
+{
+    if (m->small_parts)
+        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
+                    "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
+                    m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
 }
 
 static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_format format, tn_error *error)

@@ -133,7 +133,7 @@ static const tn_option options[] = {
 
 const tn_command tn_command_complete = {
     .name = "complete",
-    .summary = "count what completes an open plan, and which values may stand where",
+    .summary = "count the plans that complete an open plan",
     .usage = "FILE PATTERN [--library NAME] [--json]",
     .description = "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
                    "any tray, `...` "

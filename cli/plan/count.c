@@ -323,11 +323,11 @@ const tn_command tn_command_count = {
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]",
     .description =
-        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
-        "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
-        "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
-        "many more plans there would be without them. Counts are exact whatever their size: they are "
-        "computed over the library's automaton, and no plan is made.",
+        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
+        "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
+        "these lengths that it keeps out. For both it counts how many more plans there would be without that "
+        "clause. Counts are exact, whatever their size. They are computed from the library's automaton, without "
+        "listing plans.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -486,21 +486,21 @@ static const tn_option options[] = {
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans on a sheet, to scale, or a form in space",
+    .summary = "draw plans, rules or a form in space",
     .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
              "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg\n"
              "FILE.field [--surface NAME] [--grid N] -o FORM.png",
     .description =
-        "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
-        "zones, marks and "
-        "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
-        "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
-        "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
-        "of "
-        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.\n"
-        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.\n"
-        "Of a field (.field), a surface is meshed and drawn, shaded: a PNG of any size, an SVG or PDF of at most "
-        "300,000 triangles.",
+        "Draws plans on one sheet: from a file, from standard input, or sampled from the library. Each plan is "
+        "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
+        "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
+        "pages as it needs; SVG and PNG are one sheet.\n\n"
+        "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
+        "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
+        "their zones.\n\n"
+        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.\n\n"
+        "Of a field (.field), a surface is meshed and drawn, shaded: as a PNG of any number of triangles, as an SVG or "
+        "a PDF of at most 300,000.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
                "$ tartan draw primitives --surface klein --grid 150 -o klein.png",

@@ -249,15 +249,13 @@ static const tn_option options[] = {
 
 const tn_command tn_command_enumerate = {
     .name = "enumerate",
-    .summary = "write every plan of a library, once",
+    .summary = "write all plans of a library",
     .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]",
     .description =
-        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. Any "
-        "stretch of ranks "
-        "can be asked for, and ranks may have any number of digits. A database (-o FILE.sqlite) is written in batches "
-        "that survive a crash; --resume goes on where one ended. Anything else that is interrupted keeps the plans "
-        "written, and a note says "
-        "from which rank to go on.",
+        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. "
+        "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
+        "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
+        "the plans written so far are kept, and a note says from which rank to continue.",
     .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),

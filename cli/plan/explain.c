@@ -355,19 +355,17 @@ static const tn_option options[] = {
 
 const tn_command tn_command_explain = {
     .name = "explain",
-    .summary = "say why a plan is kept or dropped, and by which trays",
+    .summary = "explain why a library keeps or drops a plan",
     .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o STEPS.svg]",
     .description =
-        "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
-        "with "
-        "its trays, - where it does not, with what comes closest; what is counted, and what lies between for a "
-        "distance. "
-        "(A distance asks for some source that is far from every destination: one is enough.) Of a rule that does not "
-        "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
-        "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
-        "the "
-        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
-        "Of a design of boxes it says how they were squashed, pair by pair; with -o it draws each step.",
+        "Says which clauses of a library drop a plan, and shows for each clause how its parts come out. + marks a "
+        "part that matches, with its trays. - marks a part that does not match, with what comes closest. For a "
+        "rule that does not match, the largest part that does is shown. A distance needs only one source that is "
+        "far from every destination, so one is shown.\n\n"
+        "For a dropped plan, the nearest plans that the library keeps follow. A changed field costs 1; a tray "
+        "that is added or left out costs as much as it has fields. With --rule, or if the file has no library, "
+        "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
+        "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

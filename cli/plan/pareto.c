@@ -156,7 +156,7 @@ static const tn_option options[] = {
 
 const tn_command tn_command_pareto = {
     .name = "pareto",
-    .summary = "show what can be had by two or three measures at once",
+    .summary = "find the best trade-offs of two or three measures",
     .usage = "FILE --least MEASURE --most MEASURE [--least MEASURE] [--json]",
     .description =
         "Lists the front of the library: the values that no plan betters in one measure without losing in another, "

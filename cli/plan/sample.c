@@ -134,13 +134,13 @@ static const tn_option options[] = {
 
 const tn_command tn_command_sample = {
     .name = "sample",
-    .summary = "draw plans evenly from a library",
+    .summary = "choose random plans of a library",
     .usage = "FILE N [--seed S] [--length L]\nFILE --per-length N [--seed S]",
-    .description = "Draws N different plans of the library, every plan as likely as every other, and writes them in "
-                   "the order of their ranks. "
-                   "Nearly all plans of a library have its greatest number of trays, and so have samples: --length and "
-                   "--per-length "
-                   "draw from the others. The same file, seed and options give the same plans on every machine.",
+    .description =
+        "Draws N different plans of the library at random, each with the same probability, and writes them in the "
+        "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
+        "samples do too; --length and --per-length draw plans of other lengths. The same file, seed and options "
+        "give the same plans on every machine.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -84,7 +84,7 @@ static const tn_option options[] = {
 
 const tn_command tn_command_unrank = {
     .name = "unrank",
-    .summary = "write the plan that has a place in its library",
+    .summary = "print the plan of a number",
     .usage = "FILE RANK [--library NAME]",
     .description =
         "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank.",

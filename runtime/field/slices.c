@@ -7,38 +7,12 @@
 
 #include "runtime/field/contour_parts.h"
 
-#define LAYERS_MAX 1000000u
 #define NONE UINT32_MAX
 
-void tn_slices_clear(tn_slices *slices)
+void tn_field_slices_clear(tn_field_slices *slices)
 {
-    free(slices->points);
-    free(slices->line_first);
-    free(slices->layer_first);
-    free(slices->heights);
+    tn_slices_clear(&slices->slices);
     tn_contour_clear(&slices->contour);
-    *slices = (tn_slices){0};
-}
-
-/* ---- layers */
-
-static tn_status make_layers(const tn_field_grid *grid, double thickness, tn_slices *slices, tn_error *error)
-{
-    double layers = ceil((grid->high[2] - grid->low[2]) / thickness - 1e-9);
-    if (!(thickness > 0) || !(layers >= 1) || layers > LAYERS_MAX) {
-        tn_fail(error, TN_INVALID, E_FIELD_LAYER, "layers %.6g high do not fill a box %.6g high", thickness,
-                grid->high[2] - grid->low[2]);
-        tn_error_help(error, "--layer takes a height above 0 that gives at most %u layers", LAYERS_MAX);
-        return TN_INVALID;
-    }
-    slices->layer_count = (size_t)layers;
-    slices->heights = calloc(slices->layer_count, sizeof *slices->heights);
-    if (!slices->heights)
-        return tn_fail_memory(error);
-    for (size_t i = 0; i < slices->layer_count; i++) /* the last layer may be lower */
-        slices->heights[i] = fmin(grid->low[2] + ((double)i + 0.5) * thickness,
-                                  0.5 * (grid->low[2] + (double)i * thickness) + 0.5 * grid->high[2]);
-    return TN_OK;
 }
 
 /* ---- lines through cells */
@@ -134,9 +108,8 @@ static tn_status trace(const tn_contouring *c, tn_slices *slices, tn_error *erro
     tracing t = {c, malloc(room * sizeof *t.next)};
     slices->points = malloc(room * sizeof *slices->points);
     slices->line_first = calloc(room, sizeof *slices->line_first);
-    slices->layer_first = calloc(slices->layer_count + 1, sizeof *slices->layer_first);
     tn_status status = TN_OK;
-    if (!t.next || !slices->points || !slices->line_first || !slices->layer_first)
+    if (!t.next || !slices->points || !slices->line_first)
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_crew_run(c->crew, slices->layer_count, 1, do_layer, &t, error);
@@ -146,16 +119,17 @@ static tn_status trace(const tn_contouring *c, tn_slices *slices, tn_error *erro
     return status;
 }
 
-tn_status tn_slices_new(const tn_field *field, const tn_field_grid *grid, double thickness,
-                        const tn_contour_options *options, tn_slices *slices, tn_error *error)
+tn_status tn_field_slices_new(const tn_field *field, const tn_field_grid *grid, double thickness,
+                              const tn_contour_options *options, tn_field_slices *found, tn_error *error)
 {
     tn_field_grid layers = *grid;
-    *slices = (tn_slices){0};
-    tn_status status = make_layers(grid, thickness, slices, error);
+    tn_slices *slices = &found->slices;
+    *found = (tn_field_slices){0};
+    tn_status status = tn_slices_layers(grid->low[2], grid->high[2], thickness, slices, error);
     if (status != TN_OK)
         return status;
     layers.count[2] = (uint32_t)slices->layer_count;
-    tn_contouring c = {.field = field, .grid = &layers, .options = options, .out = &slices->contour, .flat = true};
+    tn_contouring c = {.field = field, .grid = &layers, .options = options, .out = &found->contour, .flat = true};
     status = tn_contouring_begin(&c, slices->heights, error);
     if (status == TN_OK)
         status = tn_contour_signs(&c, error);

@@ -8,20 +8,17 @@
 #define TARTAN_FIELD_SLICES_H
 
 #include "runtime/field/contour.h"
+#include "runtime/slices/slices.h"
 
-typedef struct tn_slices {
-    double (*points)[2];   /* owned: of one line after the other */
-    uint32_t *line_first;  /* [line_count + 1], owned: each line's first point; the last is joined to it */
-    uint32_t *layer_first; /* [layer_count + 1], owned: each layer's first line */
-    double *heights;       /* [layer_count], owned */
-    size_t point_count, line_count, layer_count;
+typedef struct tn_field_slices {
+    tn_slices slices;
     tn_contour contour; /* what was found on the way: jumps, sides of the box that cut the form; no mesh */
-} tn_slices;
+} tn_field_slices;
 
-/* Layers `thickness` high fill the box from below, each cut in its middle. Samples of the grid's x and y. Clear the
- * slices in any case. TN_INVALID (E1416) for a thickness that is no part of the box, TN_LIMIT (E1414), TN_MEMORY. */
-tn_status tn_slices_new(const tn_field *field, const tn_field_grid *grid, double thickness,
-                        const tn_contour_options *options, tn_slices *slices, tn_error *error);
-void tn_slices_clear(tn_slices *slices);
+/* Layers fill the box (runtime/slices/slices.h). Samples of the grid's x and y. Clear the slices in any case.
+ * TN_INVALID (E1416) for a thickness that is no part of the box, TN_LIMIT (E1414), TN_MEMORY. */
+tn_status tn_field_slices_new(const tn_field *field, const tn_field_grid *grid, double thickness,
+                              const tn_contour_options *options, tn_field_slices *slices, tn_error *error);
+void tn_field_slices_clear(tn_field_slices *slices);
 
 #endif

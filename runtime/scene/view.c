@@ -6,6 +6,7 @@
 #include "runtime/base/crew.h"
 #include "runtime/geometry/hidden.h"
 #include "runtime/geometry/vector.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/scene/view_parts.h"
 
 void tn_view_free(tn_view *view)

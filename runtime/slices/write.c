@@ -1,6 +1,6 @@
 /* Writes slices to files. SVG 1.1 is by the W3C; CLI by the project "Common Layer Interface (CLI), version 2.0" (Brite-
  * EuRam, 1994). */
-#include "runtime/field/slices_write.h"
+#include "runtime/slices/write.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,16 +1,17 @@
 /* Slices written to files: SVG, DXF and CLI (Common Layer Interface), whole stacks or layer by layer. */
-#ifndef TARTAN_FIELD_SLICES_WRITE_H
-#define TARTAN_FIELD_SLICES_WRITE_H
+#ifndef TARTAN_SLICES_WRITE_H
+#define TARTAN_SLICES_WRITE_H
 
 #include <stdio.h>
 
-#include "runtime/field/slices.h"
+#include "runtime/module/values.h"
+#include "runtime/slices/slices.h"
 
 typedef struct tn_slices_style {
     const char *note; /* how they were made: a line */
-    const char *name; /* of the surface */
+    const char *name; /* of what is sliced */
     double low[3], high[3];
-    uint32_t unit;      /* a tn_unit of the field */
+    uint32_t unit;      /* a tn_unit */
     size_t first, last; /* layers to write: first to last - 1 */
 } tn_slices_style;
 
