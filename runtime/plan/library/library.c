@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/plan/library/others.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/rules.h"
 
@@ -349,7 +350,14 @@ static void free_late(tn_library *library)
     tn_library_late *late = library->late;
     if (!late)
         return;
-    tn_effects_free(late->effects, library->record ? library->record->clause_count : 0);
+    size_t clauses = library->record ? library->record->clause_count : 0;
+    tn_effects_free(late->effects, clauses);
+    for (size_t i = 0; late->alone && i < clauses; i++)
+        tn_sparse_free(late->alone[i]);
+    free(late->alone);
+    tn_sparse_free(late->asked);
+    tn_others_free(late->others[0].others);
+    tn_others_free(late->others[1].others);
     tn_integers_free(late->mirror, (size_t)library->max + 1);
     pthread_mutex_destroy(&late->lock);
     free(late);

@@ -23,10 +23,25 @@ typedef struct tn_effect {
     tn_error error;   /* why not */
 } tn_effect;
 
+typedef struct tn_others tn_others; /* others.h */
+
+/* The clauses in a row, or why they could not be put in one. */
+typedef struct tn_kept_others {
+    bool made;
+    tn_others *others;
+    tn_status status; /* TN_OK or TN_LIMIT */
+    tn_error error;
+} tn_kept_others;
+
 /* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
 typedef struct tn_library_late {
     pthread_mutex_t lock;
-    tn_effect *effects; /* [record->clause_count], NULL: not found yet */
+    tn_effect *effects;       /* [record->clause_count], NULL: not found yet */
+    tn_kept_others others[2]; /* of plans of any length, and within the library's */
+    tn_sparse **alone;        /* [record->clause_count]: what each clause alone keeps out; NULL: not kept */
+    uint64_t alone_edges;     /* of those */
+    tn_sparse *asked;         /* what was asked last and is not kept, */
+    size_t asked_of;          /* of this clause */
     bool mirror_found;
     mpz_t *mirror; /* [max + 1]: plans of a length less the second ones of mirror pairs */
 } tn_library_late;
@@ -53,7 +68,7 @@ struct tn_library {
     mpz_t *generated;       /* [max + 1]: by length */
     uint32_t *tray_column;  /* [trays]: column of `kept` */
     tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
-    tn_count_row *rows;           /* [max + 1]: kept plans by trays to come */
+    tn_count_row *rows;     /* [max + 1]: kept plans by trays to come */
     double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
@@ -119,14 +134,18 @@ tn_status tn_library_order(const tn_library *library, const tn_sparse *base, siz
 tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
                         tn_library **library, tn_error *error);
 
-/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map: the
- * library's tray for each of theirs, or NULL where trays are the same. */
+/* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map:
+ * the library's tray for each of theirs, or NULL where trays are the same. */
 tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
                               const tn_tray *map, tn_sparse **out, tn_error *error);
 
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);
+
+/* Keeps the plans that clause i alone keeps out, if the memory for that holds them; false: they stay the caller's. One
+ * thread at a time (alone.c). */
+bool tn_library_keep_alone(const tn_library *library, size_t i, tn_sparse *plans);
 
 /* Free `effects` of so many clauses; NULL is fine (effects.c). */
 void tn_effects_free(tn_effect *effects, size_t count);
