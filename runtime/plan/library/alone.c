@@ -88,6 +88,26 @@ tn_status tn_library_alone(const tn_library *library, uint32_t i, const tn_spars
     return TN_OK;
 }
 
+static tn_status ask_count_alone(const tn_others *others, const void *what, void *answer, tn_error *error)
+{
+    return tn_others_count_alone(others, others->place[*(const uint32_t *)what], (mpz_ptr)answer, error);
+}
+
+tn_status tn_library_alone_any(const tn_library *library, uint32_t i, bool *any, tn_error *error)
+{
+    const tn_effect *effect = library->late->effects ? &library->late->effects[i] : NULL;
+    if (effect && effect->status == TN_OK) {
+        *any = mpz_sgn(effect->only) > 0;
+        return TN_OK;
+    }
+    mpz_t count;
+    mpz_init(count);
+    tn_status status = ask_others(library, ask_count_alone, &i, count, error);
+    *any = status == TN_OK && mpz_sgn(count) > 0;
+    mpz_clear(count);
+    return status;
+}
+
 /* What is asked of the clauses that are not skipped. */
 typedef struct question_without {
     const bool *skipped;

@@ -25,6 +25,9 @@ tn_status tn_library_find_alone(const tn_library *library, tn_error *error);
  * (E0802) as in tn_library_effect, which has counted them. */
 tn_status tn_library_alone(const tn_library *library, uint32_t i, const tn_sparse **plans, tn_error *error);
 
+/* Does clause i alone keep out any plan? Counts, where the automaton is not made already. */
+tn_status tn_library_alone_any(const tn_library *library, uint32_t i, bool *any, tn_error *error);
+
 /* How many of these plans, over the library's classes, all clauses keep but the `skipped` ones ([clauses]), which are
  * not asked. TN_LIMIT as above. */
 tn_status tn_library_count_without(const tn_library *library, const bool *skipped, const tn_dfa *plans, mpz_t count,
