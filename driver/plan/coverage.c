@@ -80,7 +80,7 @@ static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count,
             tn_coverage_new(m->schema, functions + first, *count - first, 0, 0, m->options->max_states, &alone, error);
         tn_coverage_free(alone);
         if (status == TN_LIMIT) {
-            tn_diagnostic *note = tn_finding_note(m->opened, error);
+            tn_diagnostic *note = tn_finding_limit(m->opened, error, NULL);
             tn_note(&m->opened->compilation.diagnostics, note, NULL, "so whether tests of `%s` notice is not known",
                     block->subject);
             m->left_out[b] = true;
@@ -312,9 +312,12 @@ static tn_status measure_subject(measuring *m, subject s, tn_error *error)
     tn_status status = try_subject(m, &s, error);
     if (status != TN_LIMIT)
         return status;
-    if (error->code_offset == TN_NO_OFFSET)
+    if (error->code_offset == TN_NO_OFFSET && !m->library)
         error->code_offset = m->module->FUNCTION_records[s.function].code_begin;
-    tn_diagnostic *note = tn_finding_note(m->opened, error);
+    tn_span library = {0};
+    if (m->library)
+        library = (tn_span){m->library->file, m->library->begin, m->library->end};
+    tn_diagnostic *note = tn_finding_limit(m->opened, error, m->library ? &library : NULL);
     tn_note(&m->opened->compilation.diagnostics, note, NULL, "`%s` is not analysed", s.name);
     return TN_OK;
 }

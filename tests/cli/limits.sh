@@ -15,6 +15,7 @@ for library in blown joint; do
     golden "report_$library" "tartan report blow-up.plan --library $library $limit -o $scratch/report"
     golden "coverage_$library" "tartan test blow-up.plan --coverage --library $library $limit"
 done
+golden report_limits "sed -n '/id=.limits/,/<.ul>/p' $scratch/report/index.html"
 golden count_demanding 'tartan count blow-up.plan --library demanding --max-states 30'
 golden count_demanding_json 'tartan count blow-up.plan --library demanding --max-states 30 --json 2>/dev/null | sed -n "/requirements/,\$p"'
 golden check 'tartan check blow-up.plan'

@@ -271,9 +271,12 @@ static tn_status count_lost(tn_coverage *c, const tn_dfa *plans, mpz_t count, tn
 static tn_status count_gained(tn_coverage *c, const tn_dfa *plans, mpz_t count, tn_error *error)
 {
     size_t one = only_changed(c);
-    if (one == SIZE_MAX)
-        return tn_library_count_without(c->library, c->changed, plans, count, error);
-    return tn_library_count_alone_less(c->library, (uint32_t)one, c->without[one], count, error);
+    tn_status status = TN_LIMIT;
+    if (one != SIZE_MAX)
+        status = tn_library_count_alone_less(c->library, (uint32_t)one, c->without[one], count, error);
+    if (status == TN_LIMIT) /* or there are several, or the automaton is too large: counting makes a smaller one */
+        status = tn_library_count_without(c->library, c->changed, plans, count, error);
+    return status;
 }
 
 /* flips += how many plans of a difference count. */
