@@ -1,6 +1,6 @@
 # What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib; manual.cmake adds what is to be read.
 #
-#   libtartan-runtime  loads modules; plans, genomes, numbers. Needs GMP and xxHash only.
+#   libtartan-runtime  loads modules; plans, genomes, fields, placing. Needs GMP and xxHash only.
 #   libtartan-growth   grows surfaces
 #   libtartan-mesh     mesh files and algorithms, by OpenMesh
 #   libtartan-draw     pictures, by cairo
@@ -14,12 +14,6 @@ file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_I
 
 # What links a program with threads, without CMake.
 set(TARTAN_PC_THREADS "-pthread -lm")
-if(CMAKE_C_COMPILER_ID STREQUAL GNU AND OpenMP_C_FOUND)
-  string(PREPEND TARTAN_PC_THREADS "-lgomp ")
-elseif(OpenMP_C_FOUND)
-  list(JOIN OpenMP_C_LIBRARIES " " openmp)
-  string(PREPEND TARTAN_PC_THREADS "${openmp} ")
-endif()
 
 # Before 1.0 the soname holds major and minor: every minor version may break the ABI.
 set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -69,22 +63,27 @@ endfunction()
 get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
 foreach(folder ${folders})
   get_property(part GLOBAL PROPERTY TARTAN_PART_${folder})
+  if(folder MATCHES "^api-(draw|mesh)$")
+    string(TOUPPER ${CMAKE_MATCH_1} part)
+  elseif(folder STREQUAL "api-run")
+    set(part STORE)
+  endif()
   if(folder STREQUAL "lsp")
     continue()
   elseif(part AND TARTAN_WITH_${part})
     list(APPEND TARTAN_${part}_FOLDERS ${folder})
   elseif(part)
     list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
-  elseif(folder MATCHES "^runtime-growth" AND NOT folder STREQUAL "runtime-growth-model") # modules hold growth's tables
+  elseif(folder MATCHES "^(runtime|api)-growth" AND NOT folder STREQUAL "runtime-growth-model") # modules hold growth's tables
     list(APPEND TARTAN_GROWTH_FOLDERS ${folder})
-  elseif(folder MATCHES "^(runtime|api-base|api-plan|api-genome)")
+  elseif(folder MATCHES "^(runtime|api-(base|plan|genome|geometry|field|place)$)")
     list(APPEND TARTAN_RUNTIME_FOLDERS ${folder})
   else()
     list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
   endif()
 endforeach()
 
-set(threads ${TARTAN_OPENMP} Threads::Threads m)
+set(threads Threads::Threads m)
 tartan_library(tartan-runtime FOLDERS ${TARTAN_RUNTIME_FOLDERS} NEEDS PkgConfig::GMP PkgConfig::XXHASH ${threads} MODULES gmp libxxhash)
 tartan_library(tartan-growth FOLDERS ${TARTAN_GROWTH_FOLDERS} USES tartan-runtime NEEDS PkgConfig::XXHASH ${threads} MODULES libxxhash)
 set(parts "")

@@ -1,6 +1,6 @@
 /* The plan language's grammar: schemas, rules, libraries and tests (docs/plan-language.md).
  *
- * An action calls one constructor of compiler/plan/ast.h. After an error the parser goes on at the next item of the file, field
+ * An action calls one constructor of compiler/plan/syntax/ast.h. After an error the parser goes on at the next item of the file, field
  * of a schema, clause of a library or case of a test (the rules with `error`); the words that start those say yyerrok, so
  * that the next mistake is reported too. All lists are left-recursive: the parser's stack grows with nesting only.
  */
@@ -15,14 +15,14 @@
 %expect 0
 
 %code requires {
-#include "compiler/plan/form_ast.h"
+#include "compiler/plan/syntax/form_ast.h"
 }
 
 %parse-param {tn_parse *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
-#include "compiler/plan/syntax_error.h"
+#include "compiler/plan/syntax/syntax_error.h"
 #include "plan_lexer.h"
 
 #define YYLLOC_DEFAULT(CURRENT, RHS, N)                                                                                \
@@ -64,6 +64,11 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
 %token IN "`in`" MOD "`mod`"
+%token <word> DECIMAL "a decimal number"
+%token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
+%token IMPLIES "`implies`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
+%token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan"
+%token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
@@ -81,7 +86,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <library> library_head
 %type <word> doc role using constant operand spec_word literal_word clause_name expectation
 %type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names plan trays words
-%type <list> specifier spec_items spec_alternatives spec_words parts sum_field total_field
+%type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <range> range
 %type <op> comparison
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
@@ -93,12 +98,17 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
 %type <word> size outside_side
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
-%type <expr> expression ors and ands not primary
+%type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
+%type <expr> part tray_sum tray_term tray_signed tray_atom
+%type <list> params number_cases pattern call_args
+%type <node> number_item number_case
 
 %%
 
 file
     : items                                     { parse->result->items = $1; }
+    | ONE_EXPRESSION expression                 { parse->result->expression = $2; }
+    | ONE_PATTERN pattern                       { parse->result->pattern = $2; }
     ;
 
 items
@@ -111,6 +121,8 @@ item
     : use STRING                                { $$ = tn_ast_use_new(parse, @$, $2); }
     | schema NAME doc OPEN_BRACE body CLOSE_BRACE
                                                 { $$ = tn_ast_schema_new(parse, @$, $2, $3, $5); }
+    | let NAME EQUAL expression                 { $$ = tn_ast_let_new(parse, @$, $2, $4); }
+    | measure NAME doc using EQUAL additive     { $$ = tn_ast_measure_new(parse, @$, $2, $3, $4, $6); }
     | rule_head EQUAL expression                { $$ = tn_ast_rule_new(parse, @$, $1, $3); }
     | rule_head EQUAL error                     { $$ = tn_ast_rule_new(parse, @1, $1, NULL); }
     | library_head OPEN_BRACE clauses CLOSE_BRACE
@@ -119,6 +131,9 @@ item
                                                 { $$ = tn_ast_form_new(parse, @$, $1, $3); }
     | test names OPEN_BRACE cases CLOSE_BRACE   { $$ = tn_ast_test_new(parse, @$, $2, $4); }
     ;
+
+let: LET                                        { yyerrok; };
+measure: MEASURE                                { yyerrok; };
 
 use: USE                                        { yyerrok; };
 schema: SCHEMA                                  { yyerrok; };
@@ -143,6 +158,7 @@ body
     : %empty                                    { $$ = (tn_ast_body){0}; }
     | body field                                { $$ = tn_ast_body_field($1, $2); }
     | body forbid                               { $$ = tn_ast_body_forbid($1, $2); }
+    | body number_item                          { $$ = tn_ast_body_number($1, $2); }
     | body error                                { $$ = tn_ast_body_broken($1); }
     ;
 
@@ -150,6 +166,22 @@ field
     : field_head EQUAL values                   { $$ = tn_ast_field_new(parse, @$, TN_FORM_VALUES, $1, $3); }
     | field_head EQUAL FLAG                     { $$ = tn_ast_field_new(parse, @$, TN_FORM_FLAG, $1, tn_ast_empty()); }
     | zone field_head EQUAL values              { $$ = tn_ast_field_new(parse, @$, TN_FORM_ZONE, $2, $4); }
+    ;
+
+number_item
+    : number_word field_head EQUAL number_cases { $$ = tn_ast_number_new(parse, @$, $2, $4); }
+    ;
+
+number_word: NUMBER_FIELD                       { yyerrok; };
+
+number_cases
+    : number_case                               { $$ = tn_ast_one($1); }
+    | number_cases BAR number_case              { $$ = tn_ast_append($1, $3); }
+    ;
+
+number_case
+    : tray_sum                                  { $$ = tn_ast_number_case_new(parse, @$, $1, NULL); }
+    | tray_sum WHERE TRAY OPEN specifier CLOSE  { $$ = tn_ast_number_case_new(parse, @$, $1, tn_ast_tray_new(parse, tn_span_join(@3, @6), $5)); }
     ;
 
 zone: ZONE                                      { yyerrok; };
@@ -219,15 +251,26 @@ spec_word
     : NAME
     | NUMBER
     | LENGTH
-    | AREA
     | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
+    | AREA
+    | DECIMAL
     | comparison                                { $$ = tn_ast_operator(parse, @$, $1); }
+    | LENGTH DOTS LENGTH                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
+    | NUMBER DOTS NUMBER                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
+    | AREA DOTS AREA                            { $$ = tn_ast_word_range(parse, @$, $1, $3); }
+    | IN                                        { $$ = NULL; }
+    | OPEN spec_alternatives CLOSE              { $$ = tn_ast_group(parse, @$, $2); }
     ;
 
 /* ---- rules */
 
 rule_head
-    : rule NAME doc using allow                 { $$ = (tn_ast_rule){.name = $2, .doc = $3, .using = $4, .allow = $5}; }
+    : rule NAME params doc using allow          { $$ = (tn_ast_rule){.name = $2, .doc = $4, .using = $5, .allow = $6, .params = $3}; }
+    ;
+
+params
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | OPEN names CLOSE                          { $$ = $2; }
     ;
 
 using
@@ -241,6 +284,16 @@ allow
     ;
 
 expression
+    : disjunction
+    | implied
+    ;
+
+implied
+    : disjunction IMPLIES disjunction           { $$ = tn_ast_implies(parse, @$, $1, $3); }
+    | implied IMPLIES disjunction               { $$ = tn_ast_implies_chained(parse, @$, $1); }
+    ;
+
+disjunction
     : and
     | ors
     ;
@@ -262,13 +315,55 @@ ands
 
 not
     : NOT not                                   { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
-    | primary
+    | compared
+    ;
+
+/* Rules and sums are one grammar: which of them a part is, the checker says (and says it better than a parser could). */
+compared
+    : additive
+    | comparable
+    | comparable comparison additive            { $$ = tn_ast_compared_chained(parse, @$, $1); }
+    | additive IN additive DOTS additive        { $$ = tn_ast_sum_within(parse, @$, $1, $3, $5); }
+    ;
+
+comparable
+    : additive comparison additive              { $$ = tn_ast_sum_compared(parse, @$, $1, $2, $3); }
+    ;
+
+additive
+    : term
+    | additive PLUS term                        { $$ = tn_ast_arithmetic(parse, TN_EXPR_PLUS, @$, $1, $3); }
+    | additive DASH term                        { $$ = tn_ast_arithmetic(parse, TN_EXPR_MINUS, @$, $1, $3); }
+    ;
+
+term
+    : signed
+    | term STAR signed                          { $$ = tn_ast_arithmetic(parse, TN_EXPR_TIMES, @$, $1, $3); }
+    | term SLASH signed                         { $$ = tn_ast_arithmetic(parse, TN_EXPR_OVER, @$, $1, $3); }
+    ;
+
+signed
+    : primary
+    | DASH signed                               { $$ = tn_ast_of(parse, TN_EXPR_NEGATIVE, @$, tn_ast_one($2)); }
     ;
 
 primary
     : TRAY OPEN specifier CLOSE                 { $$ = tn_ast_tray_new(parse, @$, $3); }
     | ANY                                       { $$ = tn_ast_leaf(parse, TN_EXPR_ANY, @$); }
     | NAME                                      { $$ = tn_ast_name(parse, $1); }
+    | NAME OPEN call_args CLOSE                 { $$ = tn_ast_call(parse, @$, $1, $3); }
+    | head_number
+    | TRAYS                                     { $$ = tn_ast_leaf(parse, TN_EXPR_TRAYS, @$); }
+    | MATCHES OPEN expression CLOSE             { $$ = tn_ast_of(parse, TN_EXPR_MATCHES, @$, tn_ast_one($3)); }
+    | QUANTITY OPEN expression CLOSE            { $$ = tn_ast_of(parse, TN_EXPR_QUANTITY, @$, tn_ast_one($3)); }
+    | OCCURRENCES OPEN expression CLOSE         { $$ = tn_ast_of(parse, TN_EXPR_OCCURRENCES, @$, tn_ast_one($3)); }
+    | SUM OPEN tray_sum CLOSE                   { $$ = tn_ast_sum(parse, @$, $3, NULL, NULL); }
+    | SUM OPEN tray_sum OF expression CLOSE     { $$ = tn_ast_sum(parse, @$, $3, $5, NULL); }
+    | SOME names IN NAME OPEN expression CLOSE  { $$ = tn_ast_quantifier(parse, TN_EXPR_SOME, @$, $2, $4, $6); }
+    | EVERY names IN NAME OPEN expression CLOSE { $$ = tn_ast_quantifier(parse, TN_EXPR_EACH, @$, $2, $4, $6); }
+    | EVERY OPEN expression COMMA expression CLOSE
+                                                { $$ = tn_ast_every(parse, @$, $3, $5); }
+    | PLAN OPEN_BRACKET pattern CLOSE_BRACKET   { $$ = tn_ast_of(parse, TN_EXPR_PLAN, @$, $3); }
     | OPEN expression CLOSE                     { $$ = $2; }
     | BEGINNING                                 { $$ = tn_ast_leaf(parse, TN_EXPR_BEGINNING, @$); }
     | END                                       { $$ = tn_ast_leaf(parse, TN_EXPR_END, @$); }
@@ -280,21 +375,71 @@ primary
                                                 { $$ = tn_ast_counted(parse, TN_EXPR_QUANTITY, @$, $3, $5); }
     | OCCURRENCES OPEN expression COMMA condition CLOSE
                                                 { $$ = tn_ast_counted(parse, TN_EXPR_OCCURRENCES, @$, $3, $5); }
-    | SUM OPEN sum_field COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
-    | SUM OPEN sum_field OF expression COMMA condition CLOSE
+    | SUM OPEN tray_sum COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
+    | SUM OPEN tray_sum OF expression COMMA condition CLOSE
                                                 { $$ = tn_ast_sum(parse, @$, $3, $5, $7); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
     ;
 
-parts
-    : expression                                { $$ = tn_ast_one($1); }
-    | parts COMMA expression                    { $$ = tn_ast_append($1, $3); }
+head_number
+    : NUMBER                                    { $$ = tn_ast_constant(parse, $1); }
+    | LENGTH                                    { $$ = tn_ast_constant(parse, $1); }
+    | AREA                                      { $$ = tn_ast_constant(parse, $1); }
+    | DECIMAL                                   { $$ = tn_ast_constant(parse, $1); }
     ;
 
-sum_field
-    : NAME                                      { $$ = tn_ast_one($1); }
-    | NAME NAME                                 { $$ = tn_ast_append(tn_ast_one($1), $2); }
+call_args
+    : expression                                { $$ = tn_ast_one($1); }
+    | call_args COMMA expression                { $$ = tn_ast_append($1, $3); }
+    ;
+
+pattern
+    : pattern_tray                              { $$ = tn_ast_one($1); }
+    | pattern BAR pattern_tray                  { $$ = tn_ast_append($1, $3); }
+    ;
+
+pattern_tray
+    : QUESTION                                  { $$ = tn_ast_leaf(parse, TN_EXPR_ANY, @$); }
+    | ELLIPSIS                                  { $$ = tn_ast_gap(parse, @$); }
+    | spec_items                                { $$ = tn_ast_open_tray(parse, @$, $1); }
+    ;
+
+parts
+    : part                                      { $$ = tn_ast_one($1); }
+    | parts COMMA part                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+part
+    : expression
+    | ELLIPSIS                                  { $$ = tn_ast_gap(parse, @$); }
+    ;
+
+/* arithmetic over one tray */
+tray_sum
+    : tray_term
+    | tray_sum PLUS tray_term                   { $$ = tn_ast_arithmetic(parse, TN_EXPR_PLUS, @$, $1, $3); }
+    | tray_sum DASH tray_term                   { $$ = tn_ast_arithmetic(parse, TN_EXPR_MINUS, @$, $1, $3); }
+    ;
+
+tray_term
+    : tray_signed
+    | tray_term STAR tray_signed                { $$ = tn_ast_arithmetic(parse, TN_EXPR_TIMES, @$, $1, $3); }
+    | tray_term SLASH tray_signed               { $$ = tn_ast_arithmetic(parse, TN_EXPR_OVER, @$, $1, $3); }
+    ;
+
+tray_signed
+    : tray_atom
+    | DASH tray_signed                          { $$ = tn_ast_of(parse, TN_EXPR_NEGATIVE, @$, tn_ast_one($2)); }
+    ;
+
+tray_atom
+    : NAME                                      { $$ = tn_ast_figure(parse, @$, $1, NULL); }
+    | NAME NAME                                 { $$ = tn_ast_figure(parse, @$, $1, $2); }
+    | head_number
+    | OPEN tray_sum CLOSE                       { $$ = $2; }
+    | MIN OPEN tray_sum COMMA tray_sum CLOSE    { $$ = tn_ast_arithmetic(parse, TN_EXPR_LEAST, @$, $3, $5); }
+    | MAX OPEN tray_sum COMMA tray_sum CLOSE    { $$ = tn_ast_arithmetic(parse, TN_EXPR_MOST, @$, $3, $5); }
     ;
 
 /* ---- conditions on a number */
@@ -344,8 +489,12 @@ operand
 constant
     : NUMBER
     | LENGTH
+    | AREA
+    | DECIMAL
     | DASH NUMBER                               { $$ = tn_ast_negative(parse, @$, $2); }
     | DASH LENGTH                               { $$ = tn_ast_negative(parse, @$, $2); }
+    | DASH AREA                                 { $$ = tn_ast_negative(parse, @$, $2); }
+    | DASH DECIMAL                              { $$ = tn_ast_negative(parse, @$, $2); }
     ;
 
 range
@@ -367,7 +516,7 @@ comparison
 
 library_head
     : library NAME doc using                    { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4}; }
-    | library NAME doc FROM NAME                { $$ = (tn_ast_library){.name = $2, .doc = $3, .from = $5}; }
+    | library NAME doc using FROM NAME          { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6}; }
     ;
 
 clauses
@@ -394,7 +543,8 @@ allow_word: ALLOW                               { yyerrok; };
 
 total_field
     : %empty                                    { $$ = tn_ast_empty(); }
-    | sum_field
+    | NAME                                      { $$ = tn_ast_one($1); }
+    | NAME NAME                                 { $$ = tn_ast_append(tn_ast_one($1), $2); }
     ;
 
 requires
@@ -654,10 +804,12 @@ any_case
     | todo_word case                            { $$ = tn_ast_case_todo($2); }
     ;
 
+value_word: VALUE                               { yyerrok; };
 todo_word: TODO                                 { yyerrok; };
 
 case
     : expectations plan doc                     { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, tn_ast_empty()); }
+    | value_word plan EQUAL additive doc        { $$ = tn_ast_value_case(parse, @$, $2, $4, $5); }
     | expectations plan STRING BY clause_names  { $$ = tn_ast_case_new(parse, @$, $1, $2, $3, $5); }
     | expectations plan BY clause_names doc     { $$ = tn_ast_case_new(parse, @$, $1, $2, $5, $4); }
     ;
@@ -739,7 +891,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, v
     return 0;
 }
 
-tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
+static tn_ast_file *parse_source(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens, tn_parse_what what)
 {
     const tn_source *source = &diagnostics->sources->files[file];
     tn_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file,
@@ -749,6 +901,8 @@ tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_
         return parse.result ? tn_ast_unread(parse.result) : NULL;
     yyscan_t scanner;
     parse.offset = (uint32_t)tn_text_mark(source->text, source->size);
+    parse.held_token = what == TN_PARSE_EXPRESSION ? TN_PLAN_ONE_EXPRESSION : what == TN_PARSE_PATTERN ? TN_PLAN_ONE_PATTERN : 0;
+    parse.held_span = (tn_span){file, parse.offset, parse.offset};
     size_t size = source->size - parse.offset;
     char *text = tn_arena_alloc(arena, size + 2); /* flex marks its tokens in the text, and wants two zero bytes after it */
     if (!text || tn_plan_lex_init_extra(&parse, &scanner) != 0)
@@ -761,4 +915,14 @@ tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_
         return NULL;
     parse.result->broken |= outcome != 0;
     return tn_arena_failed(arena) ? NULL : parse.result;
+}
+
+tn_ast_file *tn_parse_plan(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
+{
+    return parse_source(arena, diagnostics, file, tokens, TN_PARSE_FILE);
+}
+
+tn_ast_file *tn_parse_plan_part(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_parse_what what)
+{
+    return parse_source(arena, diagnostics, file, NULL, what);
 }

@@ -29,7 +29,7 @@ static void read_tokens(tn_file_analysis *analysis)
 }
 
 tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
-                             tn_overlay *overlay, void *context)
+                                  tn_overlay *overlay, void *context)
 {
     tn_file_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)

@@ -4,7 +4,7 @@
 #define TARTAN_LSP_INDEX_H
 
 #include "compiler/compile.h"
-#include "compiler/plan/check.h"
+#include "compiler/plan/check/check.h"
 
 typedef enum tn_symbol_kind {
     TN_SYMBOL_SCHEMA,

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/parse.h"
+#include "compiler/plan/syntax/parse.h"
 #include "lsp/features.h"
 #include "lsp/occurrences.h"
 

@@ -37,7 +37,7 @@ static void write_argument(const tn_option *option, FILE *out)
 
 static void write_row(const tn_option *option, FILE *out)
 {
-    bool again = option->kind == TN_OPTION_LIST;
+    bool again = option->kind == TN_OPTION_LIST || option->kind == TN_OPTION_WISH;
     const char *end = option->argument ? "=" : "", *letter_end = option->argument ? "+" : "";
     fputs(" \\\n        ", out);
     if (!option->letter)

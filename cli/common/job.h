@@ -37,6 +37,9 @@ void tn_job_begin(tn_job *job, const tn_settings *settings);
 /* Opens a rule file or module; false where that failed (then end the job). */
 bool tn_job_open(tn_job *job, const char *path);
 
+/* The same, with what the command line asks of a .plan file; NULL: nothing. */
+bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *questions);
+
 /* Opens several files that are one text together. */
 bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count);
 

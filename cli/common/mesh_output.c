@@ -11,7 +11,7 @@
 tn_out_format tn_out_format_of(const char *path)
 {
     static const char *const words[TN_OUT_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
-                                                           "glb", "dxf", "svg", "png", "pdf"};
+                                                           "glb", "dxf", "svg", "png", "pdf", "scad"};
     const char *dot = strrchr(path, '.');
     for (int f = TN_OUT_OBJ; dot && f < TN_OUT_FORMAT_COUNT; f++)
         if (strcasecmp(dot + 1, words[f]) == 0)
@@ -28,7 +28,8 @@ tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_
         status = tn_openmesh_smooth(mesh, (unsigned)changes->smooth.value, error);
     if (status == TN_OK && changes->decimate.given)
         status = tn_openmesh_decimate(mesh, (size_t)changes->decimate.value, error);
-    if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL))
+    if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL ||
+                            (format == TN_OUT_DXF && !mesh->lines)))
         status = tn_mesh_triangulate(mesh, error);
     return status;
 }
@@ -60,6 +61,8 @@ tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, bool normals, b
         return tn_mesh_write_glb(mesh, &style, out, error);
     case TN_OUT_DXF:
         return tn_mesh_write_dxf(mesh, &style, out, error);
+    case TN_OUT_SCAD:
+        return tn_mesh_write_scad(mesh, &style, out, error);
     default:
         return write_by_openmesh(mesh, format, style.y_up, out, error);
     }

@@ -5,7 +5,7 @@
 #include "cli/common/options.h"
 #include "runtime/geometry/mesh.h"
 
-/* What -o writes; the order of --format's words. */
+/* What -o writes; the order of the words of `tartan grow --format`, which knows those up to PDF. */
 typedef enum tn_out_format {
     TN_OUT_NONE,
     TN_OUT_OBJ,
@@ -18,6 +18,7 @@ typedef enum tn_out_format {
     TN_OUT_SVG,
     TN_OUT_PNG,
     TN_OUT_PDF,
+    TN_OUT_SCAD,
     TN_OUT_FORMAT_COUNT
 } tn_out_format;
 

@@ -56,11 +56,19 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, tn_option_real, TN_OPTION_REAL, HELP)                                \
     }
 
+/* FIELD keeps the names and words of all such options of the command, in their order. */
+#define WISH(NAME, FIELD, HELP)                                                                                        \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, 0, "MEASURE", FIELD, tn_option_list, TN_OPTION_WISH, HELP)                                    \
+    }
+
 #define OPTION_WERROR FLAG("werror", 0, common.werror, "treat warnings as errors")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
 
 /* The field: where the command keeps it. */
+#define OPTION_MAX_BOXES(FIELD)                                                                                        \
+    NUMBER("max-boxes", 0, "N", FIELD, 1, 100000000, "the most boxes of a design, with their images (default 100000)")
 #define OPTION_THREADS(FIELD)                                                                                          \
     NUMBER("threads", 0, "N", FIELD, 1, 1024,                                                                          \
            "how many threads work (default: all processors); changes nothing but the time")

@@ -10,6 +10,8 @@
 const tn_option tn_common_options[] = {
     CHOICE("diagnostics", 0, "FORM", diagnostics, "text|json",
            "how errors and warnings are written on standard error: text (default) or json"),
+    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24,
+           "the most memory that the command may take, in megabytes (default: half of what is free)"),
     FLAG("help", 'h', help, "show this help"),
 };
 const size_t tn_common_option_count = OPTION_COUNT(tn_common_options);
@@ -237,11 +239,11 @@ static tn_status set_text(parse *p, const tn_option *option, const char *text)
     return TN_OK;
 }
 
-/* Lists have room for every word of the command line. */
+/* Lists have room for every word of the command line, and for the name of an option before it. */
 static tn_status list_add(parse *p, tn_option_list *list, const char *text)
 {
     if (!list->items)
-        list->items = malloc(sizeof *list->items * (size_t)(p->count + 1));
+        list->items = malloc(sizeof *list->items * 2 * (size_t)(p->count + 1));
     if (!list->items)
         return tn_fail_memory(p->error);
     list->items[list->count++] = text;
@@ -258,6 +260,11 @@ static tn_status set_option(parse *p, const tn_option *option, const char *text)
         return set_text(p, option, text);
     case TN_OPTION_LIST:
         return list_add(p, place_of(p->settings, option), text);
+    case TN_OPTION_WISH: {
+        tn_option_list *list = place_of(p->settings, option);
+        tn_status status = list_add(p, list, option->name);
+        return status == TN_OK ? list_add(p, list, text) : status;
+    }
     case TN_OPTION_NUMBER:
         return set_number(p, option, text);
     case TN_OPTION_RANGE:
@@ -420,9 +427,14 @@ void tn_settings_free(const tn_command *command, tn_settings *settings)
     if (!settings)
         return;
     free(settings->operands.items);
-    for (size_t i = 0; i < command->option_count; i++)
-        if (command->options[i].kind == TN_OPTION_LIST)
-            free(((tn_option_list *)place_of(settings, &command->options[i]))->items);
+    for (size_t i = 0; i < command->option_count; i++) {
+        const tn_option *option = &command->options[i];
+        if (option->kind == TN_OPTION_LIST || option->kind == TN_OPTION_WISH) {
+            tn_option_list *list = place_of(settings, option);
+            free(list->items);
+            *list = (tn_option_list){0}; /* several options may add to one list */
+        }
+    }
     free(settings);
 }
 

@@ -42,6 +42,7 @@ typedef enum tn_option_kind {
     TN_OPTION_MAYBE,  /* int: 0 not given; otherwise one more than the index of the word, which may be left out for the
                          first */
     TN_OPTION_REAL,   /* tn_option_real */
+    TN_OPTION_WISH, /* tn_option_list: adds the option's name and its word, so that several options keep their order */
 } tn_option_kind;
 
 typedef struct tn_option {
@@ -64,6 +65,7 @@ typedef struct tn_settings {
     bool help;
     int diagnostics; /* 0 text, 1 json */
     bool werror;
+    tn_option_number memory_limit; /* megabytes */
 } tn_settings;
 
 typedef struct tn_command {
@@ -75,6 +77,7 @@ typedef struct tn_command {
     const tn_option *options;
     size_t option_count;
     size_t settings_size; /* of the command's struct, which begins with tn_settings */
+    const char *ask_less; /* what to do where memory does not suffice: "take fewer steps"; NULL: nothing is known */
     const char *operands; /* what an operand is called in errors */
     size_t operands_min, operands_max;
     int (*run)(const struct tn_command *command, const tn_settings *settings);

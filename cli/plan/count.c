@@ -5,6 +5,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
+#include "cli/plan/count_by.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 #include "runtime/base/utf8.h"
@@ -13,6 +14,9 @@ typedef struct count_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_count_options count;
+    const char *by; /* the measure that is counted by */
+    const char *step;
+    tn_option_number bins;
     const char *output;
 } count_settings;
 
@@ -276,6 +280,15 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
     counts_free(&c);
 }
 
+static void answer(tn_job *job, const tn_ready_library *ready, const count_settings *settings)
+{
+    if (settings->by)
+        tn_count_by(job, ready, settings->by,
+                    &(tn_count_by_options){settings->count.json, settings->step, settings->bins}, settings->output);
+    else
+        tn_job_count(job, ready, &settings->count, settings->output);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -284,7 +297,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_ready_library ready;
     tn_job_begin(&job, common);
     if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
-        tn_job_count(&job, &ready, &settings->count, settings->output);
+        answer(&job, &ready, settings);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -292,7 +305,11 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS count_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
+    OPTION_WHERE,
     FLAG("json", 0, count.json, "write JSON, every count as a string of digits"),
+    TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
+    TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
+    NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
@@ -304,7 +321,7 @@ static const tn_option options[] = {
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage = "FILE [--library NAME] [--json] [--mirror]",
+    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
         "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
@@ -315,6 +332,7 @@ const tn_command tn_command_count = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

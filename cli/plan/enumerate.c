@@ -231,6 +231,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS enumerate_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
+    OPTION_WHERE,
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
@@ -261,6 +262,7 @@ const tn_command tn_command_enumerate = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

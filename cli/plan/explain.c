@@ -7,6 +7,7 @@
 #include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
+#include "cli/solid/solid.h"
 #include "driver/plan/explain.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/utf8.h"
@@ -15,11 +16,11 @@ typedef struct explain_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_input_settings input;
-    const char *plan_file;
+    const char *plan_file, *solid;
     tn_option_list rules;
     bool full, json;
     const char *output;
-    tn_option_number nearest, dpi;
+    tn_option_number nearest, dpi, max_boxes;
 } explain_settings;
 
 static const explain_settings *settings_of(const tn_job *job)
@@ -299,12 +300,37 @@ static void explain(tn_job *job)
     tn_chosen_rules_clear(&e.rules);
 }
 
+/* How the boxes of a design were squashed, step by step. */
+static void draw_solid(tn_job *job)
+{
+    const explain_settings *settings = settings_of(job);
+    tn_canvas_format format;
+    tn_error error;
+    const tn_solid_drawing drawing = {.views = TN_SOLID_HISTORY,
+                                      .camera = tn_camera_default(),
+                                      .dpi = (uint32_t)settings->dpi.value,
+                                      .most = (uint32_t)settings->max_boxes.value};
+    if (settings->json)
+        tn_job_usage(job, "either a picture (-o) or --json, not both");
+    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    else
+        tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
     tn_job_begin(&job, common);
-    if (check_options(&job) && tn_job_open(&job, common->operands.items[0]))
+    bool alone = common->operands.count == 1 && !settings_of(&job)->plan_file; /* a design of boxes needs no plan */
+    bool open = alone && tn_job_open(&job, common->operands.items[0]);
+    if (open && job.opened.module->SOLID_count && settings_of(&job)->output)
+        draw_solid(&job);
+    else if (open && job.opened.module->SOLID_count)
+        tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
+                             settings_of(&job)->json);
+    else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
         explain(&job);
     return tn_job_end(&job);
 }
@@ -314,6 +340,8 @@ static const tn_option options[] = {
     TEXT("plan", 0, "FILE", plan_file, "explain every plan of FILE; - is standard input"),
     LIST("rule", 'r', "NAME", rules, "explain this rule, whatever a library says; may be repeated"),
     OPTION_LIBRARY,
+    TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
+    OPTION_WHERE,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),
@@ -322,12 +350,13 @@ static const tn_option options[] = {
     OPTION_INPUT_FORMAT,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
 };
 
 const tn_command tn_command_explain = {
     .name = "explain",
     .summary = "say why a plan is kept or dropped, and by which trays",
-    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME",
+    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o STEPS.svg]",
     .description =
         "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
         "with "
@@ -337,7 +366,8 @@ const tn_command tn_command_explain = {
         "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
         "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
         "the "
-        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.",
+        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
+        "Of a design of boxes it says how they were squashed, pair by pair; with -o it draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

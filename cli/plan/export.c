@@ -112,7 +112,7 @@ static int run(const tn_command *command, const tn_settings *common)
         tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
     else if (settings->prolog && settings->rules.count)
         tn_job_usage(&job, "--prolog writes all rules; --rule is for --regex");
-    else if (tn_job_open(&job, common->operands.items[0]))
+    else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         export(&job);
     return tn_job_end(&job);
 }
@@ -123,6 +123,7 @@ static const tn_option options[] = {
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
     OPTION_LIBRARY,
+    OPTION_WHERE,
     OPTION_OUTPUT,
     OPTION_MAX_STATES,
 };

@@ -2,14 +2,12 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/share.h"
+#include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
-int tn_job_threads(const tn_plan_settings *plans)
+unsigned tn_job_threads(const tn_plan_settings *plans)
 {
-    if (plans->threads.given)
-        tn_threads_limit((int)plans->threads.value);
-    return tn_thread_count();
+    return plans->threads.given ? (unsigned)plans->threads.value : tn_crew_default();
 }
 
 size_t tn_job_max_length(const tn_plan_settings *plans)
@@ -23,12 +21,23 @@ void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number)
         mpz_set(number, otherwise);
 }
 
-static bool ready_library(tn_job *job, const char *path, const tn_plan_settings *plans,
+static bool open_asking(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
+{
+    const tn_questions questions = {plans->library, plans->wheres.items, plans->wheres.count, pattern};
+    bool asks = questions.where_count > 0 || pattern;
+    return tn_job_open_asking(job, path, asks ? &questions : NULL);
+}
+
+bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans)
+{
+    return open_asking(job, path, plans, NULL);
+}
+
+static bool ready_library(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
                           const tn_library_options *options, tn_ready_library *ready)
 {
     *ready = (tn_ready_library){0};
-    tn_job_threads(plans);
-    if (!tn_job_open(job, path))
+    if (!open_asking(job, path, plans, pattern))
         return false;
     tn_status status = tn_library_ready(&job->opened, plans->library, options, ready);
     tn_job_status(job, status);
@@ -37,17 +46,24 @@ static bool ready_library(tn_job *job, const char *path, const tn_plan_settings 
 
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready)
 {
+    return tn_job_library_open_plan(job, path, plans, NULL, ready);
+}
+
+bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
+                              tn_ready_library *ready)
+{
     tn_library_options options = {.max_states = (uint32_t)plans->max_states.value,
                                   .override_trays = plans->trays.given,
                                   .trays_min = (uint32_t)plans->trays.low,
                                   .trays_max = (uint32_t)plans->trays.high,
-                                  .max_length = (uint32_t)plans->max_length.value};
-    return ready_library(job, path, plans, &options, ready);
+                                  .max_length = (uint32_t)plans->max_length.value,
+                                  .threads = tn_job_threads(plans)};
+    return ready_library(job, path, plans, pattern, &options, ready);
 }
 
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready)
 {
-    return ready_library(job, path, plans, NULL, ready);
+    return ready_library(job, path, plans, NULL, NULL, ready);
 }
 
 void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank)

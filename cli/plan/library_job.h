@@ -9,6 +9,7 @@
 /* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */
 typedef struct tn_plan_settings {
     const char *library;
+    tn_option_list wheres; /* further requirements */
     tn_option_range trays;
     tn_option_number max_length, max_states, threads;
 } tn_plan_settings;
@@ -16,6 +17,9 @@ typedef struct tn_plan_settings {
 #define OPTION_LIBRARY                                                                                                 \
     TEXT("library", 'l', "NAME", plans.library,                                                                        \
          "which library of the file; may be left out where the file has only one")
+#define OPTION_WHERE                                                                                                   \
+    LIST("where", 0, "EXPRESSION", plans.wheres,                                                                       \
+         "only plans that meet EXPRESSION too, a requirement in the words of the file; may be repeated")
 #define OPTION_TRAYS                                                                                                   \
     RANGE("trays", 0, "A..B", plans.trays, 0, UINT32_MAX - 1,                                                          \
           "how many trays a plan has, instead of what the library says")
@@ -31,14 +35,21 @@ typedef struct tn_plan_settings {
         "vm (the interpreter) or dfa (automata); auto, the default, is automata with the interpreter for rules that "  \
         "pass the state limit")
 
+/* Opens the file with the further requirements of --where; false where that failed (then end the job). */
+bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans);
+
 /* Opens the file and makes the chosen library ready; false where that failed (then end the job). */
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
+
+/* The same, with an open plan whose trays become functions of the module. */
+bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
+                              tn_ready_library *ready);
 
 /* The same, but only the schema: for commands that match plans against the clauses. */
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 
-/* How many threads the options ask for; sets it for the library's own parallel loops too. */
-int tn_job_threads(const tn_plan_settings *plans);
+/* How many threads the options ask for. */
+unsigned tn_job_threads(const tn_plan_settings *plans);
 
 /* The longest plan that the options accept. */
 size_t tn_job_max_length(const tn_plan_settings *plans);

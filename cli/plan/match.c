@@ -162,11 +162,9 @@ static void match_plans(matching *m)
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    const match_settings *settings = (const match_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
     matching m = {.job = &job, .path = tn_job_plans_path(&job)};
-    tn_job_threads(&settings->plans);
     if (m.path && tn_job_open(&job, common->operands.items[0]) && choose_rules(&m) && compile_rules(&m))
         match_plans(&m);
     tn_rules_free(m.compiled);

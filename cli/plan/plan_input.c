@@ -84,7 +84,7 @@ bool tn_job_sift(tn_sifting *s)
     tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
     if (opened)
         begin_progress(s);
-    if (opened && tn_sift(reader, s->rules, tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
+    if (opened && tn_sift(reader, s->rules, (int)tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }
@@ -92,7 +92,8 @@ bool tn_job_sift(tn_sifting *s)
     if (tn_interrupted() && !s->stopped) {
         s->stopped = true;
         tn_job_interrupted(s->job, "interrupted after %" PRIu64 " plans; %s", s->done,
-                           tn_settings_output(s->job->settings) ? "no file is written" : "what is said of them is written");
+                           tn_settings_output(s->job->settings) ? "no file is written"
+                                                                : "what is said of them is written");
     }
     tn_plan_reader_free(reader);
     return opened;

@@ -115,8 +115,8 @@ static int run(const tn_command *command, const tn_settings *common)
 }
 
 #define SETTINGS rank_settings
-static const tn_option options[] = {OPTION_LIBRARY, OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES,
-                                    OPTION_THREADS(plans.threads)};
+static const tn_option options[] = {OPTION_LIBRARY,    OPTION_WHERE,      OPTION_TRAYS,
+                                    OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)};
 
 const tn_command tn_command_rank = {
     .name = "rank",
@@ -131,6 +131,7 @@ const tn_command tn_command_rank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a PLAN",
     .operands_min = 2,
     .operands_max = 2,

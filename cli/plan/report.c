@@ -57,7 +57,8 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *folde
                                           .max_states = options.max_states,
                                           .automaton = ready->library,
                                           .imported = true};
-    const tn_plan_analysis_options analysis = {.max_states = options.max_states, .library = ready->library};
+    const tn_plan_analysis_options analysis = {
+        .max_states = options.max_states, .library = ready->library, .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses = {0};
     tn_covered covered = {0};
     tn_status status = tn_library_find_alone(ready->library, &error);
@@ -103,6 +104,7 @@ static const tn_option options[] = {
            "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
     OPTION_LIBRARY,
+    OPTION_WHERE,
     OPTION_MAX_STATES,
     OPTION_THREADS(plans.threads),
     OPTION_WERROR,

@@ -118,6 +118,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS sample_settings
 static const tn_option options[] = {
     OPTION_LIBRARY,
+    OPTION_WHERE,
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
@@ -144,6 +145,7 @@ const tn_command tn_command_sample = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer plans",
     .operands = "a FILE and a number N",
     .operands_min = 1,
     .operands_max = 2,

@@ -1,8 +1,10 @@
 /* tartan test: runs the test blocks of rule files. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
+#include "cli/solid/solid.h"
 #include "driver/plan/coverage.h"
 #include "runtime/base/utf8.h"
 
@@ -10,6 +12,7 @@ typedef struct test_settings {
     tn_settings common;
     tn_plan_settings plans;
     bool coverage, json;
+    tn_option_number max_boxes;
 } test_settings;
 
 static const test_settings *settings_of(const tn_job *job)
@@ -20,7 +23,8 @@ static const test_settings *settings_of(const tn_job *job)
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
     tn_test_counts counts;
-    tn_buffer files; /* JSON: of each file */
+    tn_buffer files;  /* JSON: of each file */
+    tn_buffer solids; /* measures of designs of boxes */
 } test_report;
 
 void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
@@ -31,12 +35,13 @@ void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
     fputc('\n', out);
 }
 
-static void write_json(const test_report *report, FILE *out)
+void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out)
 {
-    const tn_test_counts *counts = &report->counts;
     fprintf(out, "{\"passed\":%zu,\"failed\":%zu,\"todo\":%zu", counts->passed, counts->failed, counts->todo);
-    if (report->files.size)
-        fprintf(out, ",\"coverage\":[%s]", report->files.data);
+    if (coverage)
+        fprintf(out, ",\"coverage\":[%s]", coverage);
+    if (solids)
+        fprintf(out, ",\"solids\":[%s]", solids);
     fputs("}\n", out);
 }
 
@@ -45,10 +50,14 @@ static void write_report(tn_job *job, const test_report *report)
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
-    if (settings_of(job)->json)
-        write_json(report, output.stream);
-    else
+    if (settings_of(job)->json) {
+        tn_test_counts_json(&report->counts, report->files.size ? report->files.data : NULL,
+                            report->solids.size ? report->solids.data : NULL, output.stream);
+    } else {
+        if (report->solids.size)
+            fwrite(report->solids.data, 1, report->solids.size, output.stream);
         tn_test_counts_write(&report->counts, output.stream);
+    }
     tn_job_commit(job, &output);
 }
 
@@ -80,6 +89,23 @@ static void write_coverage(tn_job *job, test_report *report)
     tn_covered_clear(&covered);
 }
 
+/* Designs of boxes: their measures, and their requirements as cases. */
+static void test_solids(tn_job *job, test_report *report)
+{
+    tn_solid_tally tally = {0};
+    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
+    tn_error error;
+    report->counts.passed += tally.passed;
+    report->counts.failed += tally.failed;
+    bool comma = settings_of(job)->json && report->solids.size && text && *text;
+    if (text && ((comma && !tn_buffer_append(&report->solids, ",", 1)) ||
+                 !tn_buffer_append(&report->solids, text, strlen(text)))) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    }
+    free(text);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -91,7 +117,12 @@ static int run(const tn_command *command, const tn_settings *common)
         const char *path = common->operands.items[i];
         if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
             continue;
-        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, &report.counts));
+        if (job.opened.module->SOLID_count) {
+            test_solids(&job, &report);
+            continue;
+        }
+        tn_job_status(&job,
+                      tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, NULL, &report.counts));
         if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }
@@ -99,6 +130,7 @@ static int run(const tn_command *command, const tn_settings *common)
     if (job.exit_code <= TN_EXIT_INVALID)
         write_report(&job, &report);
     free(report.files.data);
+    free(report.solids.data);
     return tn_job_end(&job);
 }
 
@@ -109,6 +141,7 @@ static const tn_option options[] = {
     FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
     OPTION_LIBRARY,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_WERROR,
 };
 
@@ -124,7 +157,8 @@ const tn_command tn_command_test = {
         "and failed; the exit code is 1 where one failed. With --coverage, for each part of each rule and clause: how "
         "many of the plans that the library generates (without a library: of all plans of up to 4 trays) "
         "would be decided otherwise if it never matched, counted exactly, and whether a test case would "
-        "notice. Tests of files that are only used (`use`) do not run.",
+        "notice. Of designs of boxes it prints what they measure and holds them to their requirements. Tests of files "
+        "that are only used (`use`) do not run.",
     .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -73,9 +73,13 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS unrank_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,    FLAG("json", 0, json, "write the plan as a JSON object"),
-    OPTION_TRAYS,      OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES, OPTION_THREADS(plans.threads),
+    OPTION_LIBRARY,
+    OPTION_WHERE,
+    FLAG("json", 0, json, "write the plan as a JSON object"),
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_unrank = {
@@ -88,6 +92,7 @@ const tn_command tn_command_unrank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a RANK",
     .operands_min = 2,
     .operands_max = 2,

@@ -5,6 +5,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
+#include "cli/solid/solid.h"
 #include "driver/breed/grammar_report.h"
 
 typedef struct check_settings {
@@ -15,6 +16,7 @@ typedef struct check_settings {
     const char *output; /* of the relations */
     bool with_tests, with_counts;
     const char *before; /* the file before an edit, to compare with */
+    tn_option_number max_boxes;
 } check_settings;
 
 static const check_settings *settings_of(const tn_job *job)
@@ -27,6 +29,40 @@ static void report_grammar(tn_job *job)
     tn_error error;
     if (tn_grammar_report(&job->opened, settings_of(job)->figures, &error) != TN_OK)
         tn_job_fail(job, &error);
+}
+
+static void write_tested(tn_job *job, const tn_test_counts *counts, const char *solids)
+{
+    tn_output output;
+    tn_job_show(job);
+    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
+        return;
+    if (settings_of(job)->json) {
+        tn_test_counts_json(counts, NULL, solids, output.stream);
+    } else {
+        fputs(solids ? solids : "", output.stream);
+        tn_test_counts_write(counts, output.stream);
+    }
+    tn_job_commit(job, &output);
+}
+
+static void test_solids(tn_job *job)
+{
+    tn_solid_tally tally = {0};
+    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
+    if (text)
+        write_tested(job, &(tn_test_counts){.passed = tally.passed, .failed = tally.failed}, text);
+    free(text);
+}
+
+/* What a person who placed boxes may not have meant; with --test also what the designs require. */
+static void report_solids(tn_job *job)
+{
+    const check_settings *settings = settings_of(job);
+    if (!settings->no_analysis)
+        tn_job_status(job, tn_solid_report(&job->opened, (uint32_t)settings->max_boxes.value));
+    if (settings->with_tests)
+        test_solids(job);
 }
 
 static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
@@ -48,7 +84,8 @@ static void analyse(tn_job *job, const tn_library *library)
 {
     const check_settings *settings = settings_of(job);
     const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                              .library = library};
+                                              .library = library,
+                                              .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses;
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_job_status(job, status);
@@ -62,13 +99,9 @@ static void analyse(tn_job *job, const tn_library *library)
 static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
-    tn_output output;
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, NULL, &counts));
     tn_job_show(job);
-    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
-        return;
-    tn_test_counts_write(&counts, output.stream);
-    tn_job_commit(job, &output);
+    write_tested(job, &counts, NULL);
 }
 
 /* The file before an edit is open at the same time, with diagnostics of its own. */
@@ -94,7 +127,8 @@ static void compare(tn_job *job, const tn_ready_library *after)
 static bool make_library(tn_job *job, tn_ready_library *ready)
 {
     const check_settings *settings = settings_of(job);
-    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value};
+    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                        .threads = tn_job_threads(&settings->plans)};
     *ready = (tn_ready_library){0};
     if (!settings->with_counts && !settings->before)
         return true;
@@ -132,11 +166,13 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "--library is about --count and --diff: give one of them too");
     else if (settings->relations && (settings->with_tests || settings->with_counts || settings->before))
         tn_job_usage(job, "--relations is asked alone, without --test, --count and --diff");
-    else if (!settings->relations && (settings->examples || settings->json || settings->output))
-        tn_job_usage(job, "%s is about --relations: give that too",
-                     settings->examples ? "--examples"
-                     : settings->json   ? "--json"
-                                        : "--output");
+    else if (!settings->relations && (settings->examples || settings->output))
+        tn_job_usage(job, "%s is about --relations: give that too", settings->examples ? "--examples" : "--output");
+    else if (settings->json && !settings->relations &&
+             (!settings->with_tests || settings->with_counts || settings->before))
+        tn_job_usage(job, "--json is about --relations, or --test alone: give one of them");
+    else if (settings->json && settings->with_tests && settings->common.operands.count > 1)
+        tn_job_usage(job, "--test --json takes one FILE; `tartan test --json` takes several");
     else
         return true;
     return false;
@@ -154,6 +190,8 @@ static void check(tn_job *job, const char *path)
         report_grammar(job);
     else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
         return;
+    else if (module->SOLID_count)
+        report_solids(job);
     else if (!tn_notation_of_module(module))
         tn_job_note(job, "there is nothing in %.200s", path);
     else
@@ -189,10 +227,8 @@ static int run(const tn_command *command, const tn_settings *common)
 {
     bool joined = false;
     (void)command;
-    const check_settings *settings = (const check_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    tn_job_threads(&settings->plans);
     bool going = check_options(&job);
     for (size_t i = 0; going && i < common->operands.count; i++) {
         const char *path = common->operands.items[i];
@@ -209,7 +245,7 @@ static const tn_option options[] = {
     FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
     FLAG("relations", 0, relations, "print how the plans that each two rules match lie to one another"),
     FLAG("examples", 0, examples, "with --relations: the shortest plan that both match, that only one does"),
-    FLAG("json", 0, json, "with --relations: write JSON"),
+    FLAG("json", 0, json, "with --relations or --test: write JSON"),
     TEXT("output", 'o', "FILE", output, "with --relations: write to FILE"),
     FLAG("figures", 0, figures,
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
@@ -219,13 +255,15 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_check = {
     .name = "check",
     .summary = "say what is wrong with rule files",
-    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE [--test] [--count] [--diff OLD] [--library "
+    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE --test --json\nFILE [--test] [--count] [--diff OLD] "
+             "[--library "
              "NAME]\nFILE --relations [--examples] [--json]",
     .description =
         "Compiles each rule file and all that it uses, and shows every error and warning with its place and a "
@@ -234,9 +272,10 @@ const tn_command tn_command_check = {
         "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
         "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
         "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end. Connection grammars (.pcfg) are "
-        "one "
-        "grammar together, in the order given. "
+        "Of a grammar (.bnf) it also warns where sentences tend to grow without end, and of a design of boxes (.solid) "
+        "where "
+        "boxes are squashed, clipped away or apart. "
+        "Connection grammars (.pcfg) are one grammar together, in the order given. "
         "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
         "testing, "
         "counting and comparing have in common is worked out once, so that after an edit this is faster than one "

@@ -5,14 +5,26 @@
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
 #include "compiler/common/resolver.h"
+#include "runtime/base/watch.h"
+
+/* What a command line asks beyond what a .plan file says. */
+typedef struct tn_questions {
+    const char *library;       /* the library that is asked about; NULL: the only one */
+    const char *const *wheres; /* expressions: further requirements, called where@1 and so on */
+    size_t where_count;
+    const char *pattern; /* an open plan, or NULL: its trays become functions of the module */
+} tn_questions;
 
 typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
     bool warnings_are_errors;
-    /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins). */
+    const tn_questions *questions; /* of a .plan file, or NULL */
+    /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins).
+     */
     const tn_input *more;
     size_t more_count;
-    bool partial; /* the text may be only a part of what it belongs to: an editor looks at one */
+    tn_watch *watch; /* or NULL: compiling is given up (TN_STOPPED) between two texts once this says so */
+    bool partial;    /* the text may be only a part of what it belongs to: an editor looks at one */
 } tn_compile_options;
 
 typedef struct tn_compilation {

@@ -159,32 +159,3 @@ double tn_decimal_value(const char *text, size_t size)
     value = power < 0 ? value / scale : value * scale;
     return size && text[0] == '-' ? -value : value;
 }
-
-tn_area_error tn_area_read(const char *text, size_t size, int64_t *square_micrometres)
-{
-    const int64_t most = INT64_C(1) << 62, foot = 92903040000, metre = 1000000000000;
-    int64_t unit = size > 2 && text[size - 1] == 'f' ? foot : metre, digits = 0, scale = 1;
-    bool fraction = false;
-    for (size_t i = 0; i + 2 < size; i++) {
-        if (text[i] == '.') {
-            fraction = true;
-            continue;
-        }
-        if (digits > (most - 9) / 10 || scale > most / 10)
-            return fraction ? TN_AREA_NOT_EXACT : TN_AREA_TOO_LARGE;
-        digits = digits * 10 + (text[i] - '0');
-        scale *= fraction ? 10 : 1;
-    }
-    for (; scale > 1 && digits % 10 == 0; scale /= 10)
-        digits /= 10;
-    while (scale > 1 && unit % 10 == 0) {
-        unit /= 10;
-        scale /= 10;
-    }
-    if (digits != 0 && unit > most / digits)
-        return TN_AREA_TOO_LARGE;
-    if (digits * unit % scale != 0)
-        return TN_AREA_NOT_EXACT;
-    *square_micrometres = digits * unit / scale;
-    return TN_AREA_FINE;
-}

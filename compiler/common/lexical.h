@@ -48,10 +48,6 @@ bool tn_integer_read(const char *digits, size_t size, int64_t *value);
 size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
                      bool *broken);
 
-/* Reads an area, `90sf` or `8.5m2`, in square micrometres. */
-typedef enum tn_area_error { TN_AREA_FINE, TN_AREA_TOO_LARGE, TN_AREA_NOT_EXACT } tn_area_error;
-tn_area_error tn_area_read(const char *text, size_t size, int64_t *square_micrometres);
-
 /* What a string says: `text` without its quotes, \" and \\ undone. NULL where out of memory. */
 char *tn_string_lex(tn_arena *arena, const char *text, size_t size);
 

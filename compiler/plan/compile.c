@@ -1,8 +1,9 @@
 /* Compiles .plan files; and the front end that the table of notations names. */
 #include "compiler/common/notation.h"
-#include "compiler/plan/emit.h"
+#include "compiler/plan/ask.h"
+#include "compiler/plan/emit/emit.h"
 #include "compiler/plan/format_clauses.h"
-#include "compiler/plan/parse.h"
+#include "compiler/plan/syntax/parse.h"
 
 /* What `use` needs to know of a file. */
 static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
@@ -35,15 +36,19 @@ static tn_status compile(tn_compilation *compilation, const tn_compile_options *
     if (!imports || !checked)
         return tn_fail_memory(error);
     tn_status status = tn_import_all(compilation, options, compilation->notation->extension, parse_unit, imports);
+    tn_asked_for asked = {0};
+    if (status == TN_OK && options->questions)
+        status = tn_ask(compilation->arena, diagnostics, &compilation->sources, options->questions, &asked, error);
     if (status == TN_OK)
-        status = tn_check_program(compilation->arena, diagnostics, imports, checked);
+        status = tn_check_program(compilation->arena, diagnostics, imports, &asked, checked);
     if (status != TN_OK || diagnostics->failed)
         return tn_fail_memory(error);
     compilation->imports = imports;
     compilation->checked = checked;
     if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;
-    status = tn_emit_module(checked, imports, diagnostics, &compilation->module, &compilation->module_size, error);
+    status = tn_emit_module(compilation->arena, checked, imports, diagnostics, &compilation->module,
+                            &compilation->module_size, error);
     if (status == TN_OK)
         compilation->program = checked->program;
     return status;

@@ -15,16 +15,29 @@ enum {
 static bool takes_bracket(const tn_format *format, size_t i)
 {
     static const char *const calls[] = {"cell",        "section", "tray",     "neighbour", "neighbor", "quantity",
-                                        "occurrences", "sum",     "distance", "many",      "optional", NULL};
+                                        "occurrences", "sum",     "distance", "many",      "optional", "every",
+                                        "matches",     "min",     "max",      NULL};
     return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
+}
+
+/* Is the token a minus that belongs to what follows, not one between two numbers? */
+static bool is_sign(const tn_format *format, size_t i)
+{
+    static const char *const operands[] = {")", "trays", "any", NULL};
+    if (!tn_format_is(format, i, "-") || i == 0)
+        return tn_format_is(format, i, "-");
+    tn_token_kind before = format->tokens[i - 1].kind;
+    return before != TN_TOKEN_NAME && before != TN_TOKEN_NUMBER && before != TN_TOKEN_LENGTH &&
+           !tn_format_is_any(format, i - 1, operands);
 }
 
 /* The blanks between token i and the one before it. */
 static size_t gap_before(const tn_format *format, size_t i)
 {
     static const char *const tight_before[] = {")", "]", ",", "..", ":", NULL};
-    static const char *const tight_after[] = {"(", "[", "..", "-", ":", NULL};
-    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after))
+    static const char *const tight_after[] = {"(", "[", "..", ":", NULL};
+    if (tn_format_is_any(format, i, tight_before) || tn_format_is_any(format, i - 1, tight_after) ||
+        is_sign(format, i - 1))
         return 0;
     return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
 }
@@ -33,7 +46,7 @@ typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
 static bool starts_item(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"use", "schema", "rule", "library", "form", "test"};
+    static const char *const words[] = {"use", "schema", "rule", "library", "form", "test", "measure", "let"};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is(format, i, words[k]))
             return true;
@@ -43,9 +56,9 @@ static bool starts_item(const tn_format *format, size_t i)
 static bool starts_field(const tn_format *format, size_t i)
 {
     const tn_format_token *tokens = format->tokens;
-    bool zone = i > 0 && tn_format_is(format, i - 1, "zone");
+    bool zone = i > 0 && (tn_format_is(format, i - 1, "zone") || tn_format_is(format, i - 1, "number"));
     return (tokens[i].kind == TN_TOKEN_FIELD && !zone) || tn_format_is(format, i, "zone") ||
-           tn_format_is(format, i, "forbid");
+           tn_format_is(format, i, "forbid") || (tn_format_is(format, i, "number") && tokens[i].kind == TN_TOKEN_WORD);
 }
 
 static bool starts_clause(const tn_format *format, size_t i)
@@ -78,7 +91,7 @@ static bool at_part_break(const tn_format *format, size_t i)
 static bool is_expectation(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "match") || tn_format_is(format, i, "reject") || tn_format_is(format, i, "keep") ||
-           tn_format_is(format, i, "drop") || tn_format_is(format, i, "todo");
+           tn_format_is(format, i, "drop") || tn_format_is(format, i, "todo") || tn_format_is(format, i, "value");
 }
 
 /* The first of the words before a plan. */
@@ -123,7 +136,10 @@ static bool at_bar(const tn_format *format, size_t i)
 /* The name's column and width: `zone wall` is five columns in. */
 static size_t field_name(const tn_format *format, size_t first)
 {
-    return tn_format_is(format, first, "zone") ? first + 1 : first;
+    return tn_format_is(format, first, "zone") ||
+                   (tn_format_is(format, first, "number") && format->tokens[first].kind == TN_TOKEN_WORD)
+               ? first + 1
+               : first;
 }
 
 static void put_forbid(tn_format *format, size_t first, size_t last)
@@ -345,7 +361,7 @@ static void put_item(tn_format *format, size_t first, size_t last, bool one_line
         put_block(format, first, last, starts_part, put_parts);
     else if (tn_format_is(format, first, "test"))
         put_block(format, first, last, starts_case, put_cases);
-    else if (tn_format_is(format, first, "rule"))
+    else if (tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure"))
         put_rule(format, first, last);
     else
         tn_format_expression(format, first, last, 0);
@@ -358,7 +374,9 @@ void tn_format_plan(tn_format *format)
     for (size_t first = 0, last; first < format->count; first = last) {
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||
-                        (tn_format_is(format, first, "rule") && is_short_rule(format, first, last));
+                        ((tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure") ||
+                          tn_format_is(format, first, "let")) &&
+                         is_short_rule(format, first, last));
         tn_format_gap(format, first, 0, first > 0 && (tall || !one_line));
         put_item(format, first, last, one_line);
         tall = !one_line;

@@ -4,7 +4,7 @@
 #define TARTAN_COMPILER_PLAN_FORMAT_CLAUSES_H
 
 #include "compiler/common/format_tokens.h"
-#include "compiler/plan/ast.h"
+#include "compiler/plan/syntax/ast.h"
 
 /* Lays out a .plan file. */
 void tn_format_plan(tn_format *format);

@@ -38,9 +38,16 @@ static tn_status compile(const tn_notation *notation, const tn_input *input, con
     return status == TN_OK ? TN_OK : refuse(opened, &error);
 }
 
+/* What is compiled beside a file's text, and how. */
+typedef struct asked {
+    bool warnings_are_errors;
+    const tn_questions *questions; /* NULL: none */
+    const tn_input *more;          /* further texts of the same compilation */
+    size_t more_count;
+} asked;
+
 /* Compiles what lies in a file, or would: that it uses files itself is to be expected. */
-static tn_status compile_file(tn_opened *opened, const char *text, size_t size, const tn_input *more, size_t more_count,
-                              bool warnings_are_errors)
+static tn_status compile_file(tn_opened *opened, const char *text, size_t size, const asked *how)
 {
     tn_stdlib_dirs dirs;
     tn_files files;
@@ -51,9 +58,10 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     if (status == TN_OK && identity) {
         tn_input input = {text, size, opened->path, identity, NULL};
         tn_compile_options options = {.resolver = tn_files_resolver(&files),
-                                      .warnings_are_errors = warnings_are_errors,
-                                      .more = more,
-                                      .more_count = more_count};
+                                      .warnings_are_errors = how->warnings_are_errors,
+                                      .questions = how->questions,
+                                      .more = how->more,
+                                      .more_count = how->more_count};
         status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
     } else {
         tn_fail_memory(&error);
@@ -65,12 +73,11 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     return status;
 }
 
-tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
-                       const tn_compile_options *options, tn_opened *opened)
+tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
+                       tn_opened *opened)
 {
-    tn_input input = {.text = text, .size = size, .name = name};
-    start(name, opened);
-    return compile(notation, &input, options, opened);
+    start(input->name, opened);
+    return compile(notation, input, options, opened);
 }
 
 /* A module brings its sources along: findings then show the same lines as when it was compiled. */
@@ -88,13 +95,29 @@ static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
     return status == TN_OK ? TN_OK : refuse(opened, &error);
 }
 
+/* A module was compiled already: nothing more can be asked in its words. */
+static tn_status refuse_questions(tn_opened *opened)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *d = tn_report_bare(list, TN_ERROR, E_USAGE,
+                                      "%s is a module, and --where and open plans need the rule file", opened->path);
+    tn_help(list, d, "name the rule file that it was built from");
+    return TN_INVALID;
+}
+
+static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
+                            const tn_questions *questions, tn_opened *opened)
+{
+    start(path, opened);
+    if (!tn_module_has_magic(bytes, size))
+        return compile_file(opened, (const char *)bytes, size, &(asked){warnings_are_errors, questions, NULL, 0});
+    return questions ? refuse_questions(opened) : load(opened, bytes, size);
+}
+
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened)
 {
-    start(path, opened);
-    return tn_module_has_magic(bytes, size)
-               ? load(opened, bytes, size)
-               : compile_file(opened, (const char *)bytes, size, NULL, 0, warnings_are_errors);
+    return open_bytes(path, bytes, size, warnings_are_errors, NULL, opened);
 }
 
 /* ---- files */
@@ -115,13 +138,18 @@ static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **b
 
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 {
+    return tn_open_asking(path, warnings_are_errors, NULL, opened);
+}
+
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened)
+{
     uint8_t *bytes = NULL;
     size_t size;
     tn_error error;
     tn_stdlib_file found;
     tn_status status = read_named(path, &found, &bytes, &size, &error);
     if (status == TN_OK) {
-        status = tn_open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, opened);
+        status = open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, questions, opened);
         opened->path = path; /* the recorded path ends here */
     } else {
         start(path, opened);
@@ -176,7 +204,8 @@ static tn_status compile_joined(const char *const *paths, const joined_file *fil
                              .size = files[i].size,
                              .name = files[i].found.path ? files[i].found.recorded : paths[i]};
     opened->path = more[0].name;
-    tn_status status = compile_file(opened, more[0].text, more[0].size, more + 1, count - 1, warnings_are_errors);
+    tn_status status =
+        compile_file(opened, more[0].text, more[0].size, &(asked){warnings_are_errors, NULL, more + 1, count - 1});
     opened->path = paths[0];
     free(more);
     return status;

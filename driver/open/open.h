@@ -22,6 +22,8 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
+/* The same, with what the command line asks of a .plan file. A module takes no such questions. */
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened);
 /* Opens files that are one text together, in this order (tn_front.joins); one alone is opened by tn_open. Otherwise as
  * there. */
 tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened);
@@ -34,9 +36,9 @@ bool tn_path_joins(const char *path);
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
-/* Compiles a text that is no file's, and makes its module ready to run. `name` is what diagnostics call it. */
-tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
-                       const tn_compile_options *options, tn_opened *opened);
+/* Compiles a text that the caller has, and makes its module ready to run. */
+tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
+                       tn_opened *opened);
 
 /* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
  * holds nothing of another kind than plan rules. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "runtime/plan/text/text.h"
 
 /* One finding being reported. */

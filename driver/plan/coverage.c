@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/plan/library.h"
 #include "runtime/base/array.h"
 #include "runtime/plan/analysis/coverage.h"
@@ -61,11 +61,22 @@ static void add_functions(const measuring *m, const tn_test_block *block, uint32
                 : m->module->RULE_records[block->index].holds;
 }
 
+/* The trays of the longest plan in a test. */
+static size_t longest_case(const tn_program *program)
+{
+    size_t longest = 0;
+    for (size_t b = 0; b < program->test_count; b++)
+        for (size_t i = 0; i < program->tests[b].case_count; i++)
+            longest = program->tests[b].cases[i].length > longest ? program->tests[b].cases[i].length : longest;
+    return longest;
+}
+
 /* All blocks together, or, where some clause passes a limit, each by itself: those with such a clause are left out, and
  * that is said. */
 static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
+    uint32_t longest = (uint32_t)longest_case(program);
     tn_status status = TN_OK;
     *count = 0;
     for (size_t b = 0; status == TN_OK && b < program->test_count; b++) {
@@ -77,7 +88,7 @@ static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count,
             continue;
         add_functions(m, block, functions, count);
         status =
-            tn_coverage_new(m->schema, functions + first, *count - first, 0, 0, m->options->max_states, &alone, error);
+            tn_coverage_new(m->schema, functions + first, *count - first, 0, longest, m->options->max_states, &alone, error);
         tn_coverage_free(alone);
         if (status == TN_LIMIT) {
             tn_diagnostic *note = tn_finding_limit(m->opened, error, NULL);
@@ -109,12 +120,12 @@ static tn_status cover_tests(measuring *m, tn_error *error)
         if (is_own_test(m, b))
             add_functions(m, &program->tests[b], functions, &count);
     }
-    uint32_t most = m->options->max_states;
-    tn_status status = count ? tn_coverage_new(m->schema, functions, count, 0, 0, most, &m->tests, error) : TN_OK;
+    uint32_t most = m->options->max_states, longest = (uint32_t)longest_case(program);
+    tn_status status = count ? tn_coverage_new(m->schema, functions, count, 0, longest, most, &m->tests, error) : TN_OK;
     if (status == TN_LIMIT) {
         status = choose_blocks(m, functions, &count, error);
         if (status == TN_OK && count)
-            status = tn_coverage_new(m->schema, functions, count, 0, 0, most, &m->tests, error);
+            status = tn_coverage_new(m->schema, functions, count, 0, longest, most, &m->tests, error);
     }
     free(functions);
     return status;
@@ -167,10 +178,7 @@ static bool case_notices(const measuring *m, size_t b, const tn_test_case *test,
 static tn_status tests_notice(const measuring *m, bool *notice, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
-    size_t longest = 0;
-    for (size_t b = 0; b < program->test_count; b++)
-        for (size_t i = 0; i < program->tests[b].case_count; i++)
-            longest = program->tests[b].cases[i].length > longest ? program->tests[b].cases[i].length : longest;
+    size_t longest = longest_case(program);
     tn_tray *trays = malloc((longest + 1) * sizeof *trays);
     *notice = false;
     if (!trays)

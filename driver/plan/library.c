@@ -134,6 +134,23 @@ tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index)
     return status;
 }
 
+tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema, uint32_t *index)
+{
+    const tn_module *module = opened->module;
+    names all;
+    tn_status status;
+    if (names_new(module->MEASURE_count, &all)) {
+        for (uint32_t i = 0; i < module->MEASURE_count; i++)
+            if (module->MEASURE_records[i].schema == schema)
+                names_add(&all, tn_text(module, module->MEASURE_records[i].name), i);
+        status = pick(opened, &all, "measure", name, index);
+    } else {
+        status = no_memory(opened);
+    }
+    names_free(&all);
+    return status;
+}
+
 tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
                            tn_ready_library *ready)
 {

@@ -1,3 +1,4 @@
+/* Threads that share a loop: they wait for work, and take parts of it in turn. */
 #include "runtime/base/crew.h"
 
 #include <pthread.h>
@@ -12,7 +13,7 @@ struct tn_crew {
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
     pthread_t *helpers;
-    unsigned helper_count;
+    unsigned helper_count, helpers_wanted;
     uint64_t job;    /* number of the current one */
     bool open;       /* may helpers join it? */
     bool leaving;    /* no more jobs */
@@ -53,7 +54,7 @@ static void take_part(tn_crew *crew, unsigned thread)
         size_t to = crew->count - from < crew->chunk ? crew->count : from + crew->chunk;
         for (size_t item = from; item < to; item++) {
             tn_error error;
-            tn_status status = tn_watch_stopped(crew->watch) ? tn_fail_stopped(&error)
+            tn_status status = tn_watch_stopped(crew->watch) ? tn_fail_stopped(crew->watch, &error)
                                                              : crew->work(crew->context, thread, item, &error);
             if (status != TN_OK)
                 keep_failure(crew, item, status, &error);
@@ -99,12 +100,21 @@ static bool add_helper(tn_crew *crew)
     return true;
 }
 
+/* Makes the threads that so many parts of work can use. Those that cannot be had are done without, for good. */
+static void add_helpers(tn_crew *crew, size_t parts)
+{
+    while (crew->helper_count < crew->helpers_wanted && crew->helper_count + 1 < parts)
+        if (!add_helper(crew))
+            crew->helpers_wanted = crew->helper_count;
+}
+
 tn_crew *tn_crew_new(unsigned threads, tn_watch *watch)
 {
     tn_crew *crew = calloc(1, sizeof *crew);
     if (!crew)
         return NULL;
-    crew->helpers = calloc(threads ? threads : 1, sizeof *crew->helpers);
+    crew->helpers_wanted = (threads ? threads : tn_crew_default()) - 1;
+    crew->helpers = calloc(crew->helpers_wanted + 1, sizeof *crew->helpers);
     if (!crew->helpers) {
         free(crew);
         return NULL;
@@ -113,9 +123,17 @@ tn_crew *tn_crew_new(unsigned threads, tn_watch *watch)
     pthread_mutex_init(&crew->lock, NULL);
     pthread_cond_init(&crew->wake, NULL);
     pthread_cond_init(&crew->done, NULL);
-    for (unsigned i = 1; i < threads && add_helper(crew);)
-        i++;
     return crew;
+}
+
+void tn_crew_watch(tn_crew *crew, tn_watch *watch)
+{
+    crew->watch = watch;
+}
+
+unsigned tn_crew_threads(const tn_crew *crew)
+{
+    return crew->helpers_wanted + 1;
 }
 
 void tn_crew_free(tn_crew *crew)
@@ -137,12 +155,14 @@ void tn_crew_free(tn_crew *crew)
 
 tn_status tn_crew_run(tn_crew *crew, size_t count, size_t chunk, tn_crew_work *work, void *context, tn_error *error)
 {
+    chunk = chunk ? chunk : 1;
+    add_helpers(crew, count / chunk + (count % chunk > 0));
     bool alone = crew->helper_count == 0 || count <= chunk;
     pthread_mutex_lock(&crew->lock);
     crew->work = work;
     crew->context = context;
     crew->count = count;
-    crew->chunk = chunk ? chunk : 1;
+    crew->chunk = chunk;
     crew->status = TN_OK;
     atomic_store(&crew->next, 0);
     crew->job++;
@@ -160,6 +180,25 @@ tn_status tn_crew_run(tn_crew *crew, size_t count, size_t chunk, tn_crew_work *w
         *error = crew->error;
     pthread_mutex_unlock(&crew->lock);
     return status;
+}
+
+typedef struct sharing {
+    tn_crew_piece *work;
+    void *context;
+} sharing;
+
+static tn_status do_piece(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    const sharing *s = context;
+    (void)thread, (void)error;
+    s->work(s->context, (uint32_t)item);
+    return TN_OK;
+}
+
+tn_status tn_crew_share(tn_crew *crew, uint32_t count, tn_crew_piece *work, void *context, tn_error *error)
+{
+    sharing s = {work, context};
+    return tn_crew_run(crew, count, 1, do_piece, &s, error);
 }
 
 unsigned tn_crew_default(void)

@@ -1,4 +1,5 @@
 #include "runtime/genome/settings.h"
+#include "runtime/base/number_text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,12 +87,10 @@ static void write_quoted(FILE *out, const char *text)
     fputc('"', out);
 }
 
-/* The shorter of two spellings that give the same number. */
 static void write_number(FILE *out, double number)
 {
-    char text[40];
-    snprintf(text, sizeof text, "%.15g", number);
-    fprintf(out, strtod(text, NULL) == number ? "%.15g" : "%.17g", number);
+    char text[TN_NUMBER_TEXT_SIZE];
+    fputs(tn_number_text(number, text), out);
 }
 
 void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *value)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/share.h"
+#include "runtime/base/crew.h"
 #include "runtime/base/watch.h"
 #include "runtime/geometry/hidden_parts.h"
 #include "runtime/geometry/vector.h"
@@ -260,6 +260,15 @@ static void do_job(void *context, uint32_t number)
     one->out_of_memory = s.out_of_memory;
 }
 
+static tn_status do_jobs(jobs *j, tn_error *error)
+{
+    const tn_scene *scene = j->all.scene;
+    tn_crew *crew = tn_crew_new(scene->threads > 1 ? (unsigned)scene->threads : 1, scene->watch);
+    tn_status status = crew ? tn_crew_share(crew, (uint32_t)j->count, do_job, j, error) : tn_fail_memory(error);
+    tn_crew_free(crew);
+    return status;
+}
+
 /* All jobs' pairs, which are freed. False: out of memory. */
 static bool gather(jobs *j, tn_face_pairs *befores)
 {
@@ -304,7 +313,7 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
 {
     jobs j = {.all = {.scene = scene, .triangles = triangles}};
     search *s = &j.all;
-    bool complete = true;
+    tn_status status = TN_OK;
     *befores = (tn_face_pairs){0};
     s->boxes = malloc((count + 1) * sizeof *s->boxes);
     s->out_of_memory = !s->boxes;
@@ -315,13 +324,11 @@ tn_status tn_overlaps_find(const tn_scene *scene, const tn_seen_triangle *triang
         s->used = count;
         add_jobs(&j, 0, count, &all, 0);
         if (!s->out_of_memory)
-            complete = tn_share(scene->watch, scene->threads, (uint32_t)j.count, TN_SHARE_UNEVEN, do_job, &j);
+            status = do_jobs(&j, error);
     }
     bool fine = gather(&j, befores);
     free(j.items);
     free(s->boxes);
     free(s->stack);
-    if (!complete)
-        return tn_fail_stopped(error);
-    return fine ? TN_OK : tn_fail_memory(error);
+    return fine || status != TN_OK ? status : tn_fail_memory(error);
 }

@@ -2,23 +2,26 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
+#include "runtime/base/crew.h"
 #include "runtime/geometry/outline.h"
 #include "runtime/geometry/vector.h"
 
 #define FLAT 1e-12     /* of the squares of a face's extent: a smaller area is none */
 #define AGAINST -0.866 /* cosine of 150 degrees */
-#define CHUNK 1024
+#define CHUNK 1024u    /* faces that are looked at at a time */
+
+/* What a thread found. */
+typedef struct tally {
+    tn_outline outline;
+    uint32_t count, first; /* faces at fault, and the lowest of their edge sides */
+} tally;
 
 typedef struct search {
     const tn_map *map;
     const uint32_t *face_of; /* [edge side] */
     double (*normals)[3];    /* [face] twice its area long */
-    uint32_t crossed, inverted;
-    uint32_t first_crossed, first_inverted; /* each one's lowest edge side */
-    bool out_of_memory;
-    tn_watch *watch; /* or NULL */
+    tally *tallies;          /* [thread] */
+    tn_crew *crew;
 } search;
 
 static tn_vector corner(const tn_map *map, uint32_t dart)
@@ -64,40 +67,30 @@ static bool is_convex(const tn_map *map, uint32_t face, tn_vector n)
     return true;
 }
 
-static void fail(search *s)
-{
-#pragma omp atomic write
-    s->out_of_memory = true;
-}
-
-/* Keeps the face's normal. Does the outline cross itself, seen along it? A figure of eight has none: then along its
- * largest part's. */
-static bool is_crossed(search *s, uint32_t face, tn_outline *outline)
+/* Keeps the face's normal. *crossed: does the outline cross itself, seen along it? A figure of eight has none: then
+ * along its largest part's. False: out of memory. */
+static bool find_crossed(const search *s, uint32_t face, tn_outline *outline, bool *crossed)
 {
     const tn_map *map = s->map;
     uint32_t first = map->face_first[face], size = tn_face_size(map, face);
     tn_vector other, n = face_normal(map, face, &other);
+    *crossed = false;
     tn_vector_put(s->normals[face], n);
     if (size < 4 || (size == 4 && is_convex(map, face, n)))
-        return false;
+        return true;
     n = tn_normalised(tn_dot(n, n) > 0 ? n : other);
     if (tn_dot(n, n) == 0)
-        return false;
+        return true;
     tn_vector x = tn_normalised(fabs(n.x) < 0.8 ? (tn_vector){0, n.z, -n.y} : (tn_vector){-n.z, 0, n.x});
     tn_vector y = tn_cross(n, x), start = corner(map, first);
-    bool crossed = false;
-    if (!tn_outline_reserve(outline, size)) {
-        fail(s);
+    if (!tn_outline_reserve(outline, size))
         return false;
-    }
     for (uint32_t i = 0; i < size; i++) {
         tn_vector p = tn_sub(corner(map, first + i), start);
         outline->points[i][0] = tn_dot(p, x);
         outline->points[i][1] = tn_dot(p, y);
     }
-    if (!tn_outline_crosses(outline, &crossed))
-        fail(s);
-    return crossed;
+    return tn_outline_crosses(outline, crossed);
 }
 
 static bool is_inverted(const search *s, uint32_t face)
@@ -121,40 +114,41 @@ static uint32_t lowest_side(const tn_map *map, uint32_t face)
     return lowest;
 }
 
-static void look_for_crossed(search *s, int threads)
+static void add(const search *s, tally *found, uint32_t face)
 {
-    uint32_t count = 0, first = UINT32_MAX;
-#pragma omp parallel num_threads(threads) if (s->map->face_count > CHUNK)
-    {
-        tn_outline outline = {.watch = s->watch};
-#pragma omp for schedule(static, CHUNK) reduction(+ : count) reduction(min : first)
-        for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
-            if (tn_watch_stopped(s->watch) || !is_crossed(s, f, &outline))
-                continue;
-            count++;
-            uint32_t side = lowest_side(s->map, f);
-            first = side < first ? side : first;
-        }
-        tn_outline_clear(&outline);
-    }
-    s->crossed = count;
-    s->first_crossed = first;
+    uint32_t side = lowest_side(s->map, face);
+    found->count++;
+    found->first = side < found->first ? side : found->first;
 }
 
-static void look_for_inverted(search *s, int threads)
+static uint32_t chunk_end(const search *s, size_t chunk)
 {
-    uint32_t count = 0, first = UINT32_MAX;
-#pragma omp parallel for num_threads(threads) schedule(static, CHUNK) reduction(+ : count) reduction(min : first)     \
-    if (s->map->face_count > CHUNK)
-    for (uint32_t f = TN_OUTER_FACE + 1; f < s->map->face_count; f++) {
-        if (tn_watch_stopped(s->watch) || !is_inverted(s, f))
-            continue;
-        count++;
-        uint32_t side = lowest_side(s->map, f);
-        first = side < first ? side : first;
+    uint32_t faces = s->map->face_count, begin = (uint32_t)chunk * CHUNK;
+    return faces - begin < CHUNK ? faces : begin + CHUNK;
+}
+
+static tn_status look_for_crossed(void *context, unsigned thread, size_t chunk, tn_error *error)
+{
+    const search *s = context;
+    tally *found = &s->tallies[thread];
+    for (uint32_t f = (uint32_t)chunk * CHUNK, end = chunk_end(s, chunk); f < end; f++) {
+        bool crossed = false;
+        if (f != TN_OUTER_FACE && !find_crossed(s, f, &found->outline, &crossed))
+            return tn_fail_memory(error);
+        if (crossed)
+            add(s, found, f);
     }
-    s->inverted = count;
-    s->first_inverted = first;
+    return TN_OK;
+}
+
+static tn_status look_for_inverted(void *context, unsigned thread, size_t chunk, tn_error *error)
+{
+    const search *s = context;
+    (void)error;
+    for (uint32_t f = (uint32_t)chunk * CHUNK, end = chunk_end(s, chunk); f < end; f++)
+        if (f != TN_OUTER_FACE && is_inverted(s, f))
+            add(s, &s->tallies[thread], f);
+    return TN_OK;
 }
 
 static tn_fault fault_at(const search *s, uint32_t count, uint32_t side)
@@ -170,30 +164,54 @@ static tn_fault fault_at(const search *s, uint32_t count, uint32_t side)
     return fault;
 }
 
+/* Looks at all faces, and puts together what the threads found. */
+static tn_status look(search *s, tn_crew_work *work, tn_fault *fault, tn_error *error)
+{
+    unsigned threads = tn_crew_threads(s->crew);
+    uint32_t count = 0, first = UINT32_MAX;
+    for (unsigned t = 0; t < threads; t++)
+        s->tallies[t] = (tally){.outline = s->tallies[t].outline, .first = UINT32_MAX};
+    tn_status status = tn_crew_run(s->crew, s->map->face_count / CHUNK + 1, 1, work, s, error);
+    for (unsigned t = 0; t < threads; t++) {
+        count += s->tallies[t].count;
+        first = s->tallies[t].first < first ? s->tallies[t].first : first;
+    }
+    if (status == TN_OK)
+        *fault = fault_at(s, count, first);
+    return status;
+}
+
+static tn_status prepare(search *s, tn_watch *watch, tn_error *error)
+{
+    unsigned threads = tn_crew_threads(s->crew);
+    s->normals = calloc(s->map->face_count, sizeof *s->normals);
+    s->tallies = calloc(threads, sizeof *s->tallies);
+    if (!s->normals || !s->tallies)
+        return tn_fail_memory(error);
+    for (unsigned t = 0; t < threads; t++)
+        s->tallies[t].outline.watch = watch;
+    return TN_OK;
+}
+
 tn_status tn_faults_find(const tn_growth *growth, tn_faults *faults, tn_error *error)
 {
-    const tn_map *map = tn_growth_map(growth);
-    int wanted = tn_growth_settings(growth)->threads, threads = wanted > 0 ? wanted : tn_thread_count();
+    const tn_growth_options *options = tn_growth_settings(growth);
     uint32_t *face_of = NULL;
-    tn_watch *watch = tn_growth_settings(growth)->watch;
-    search s = {.map = map, .watch = watch, .normals = calloc(map->face_count, sizeof *s.normals)};
-    tn_status status = s.normals ? tn_map_twins(map, NULL, &face_of, error) : tn_fail_memory(error);
-    if (status == TN_OK) {
-        s.face_of = face_of;
-        look_for_crossed(&s, threads);
-        if (s.out_of_memory)
-            status = tn_fail_memory(error);
-    }
-    if (status == TN_OK) {
-        look_for_inverted(&s, threads);
-        if (tn_watch_stopped(watch))
-            status = tn_fail_stopped(error);
-    }
-    if (status == TN_OK) {
-        faults->crossed = fault_at(&s, s.crossed, s.first_crossed);
-        faults->inverted = fault_at(&s, s.inverted, s.first_inverted);
-    }
+    search s = {.map = tn_growth_map(growth),
+                .crew = tn_crew_new(options->threads > 0 ? (unsigned)options->threads : 0, options->watch)};
+    tn_status status = s.crew ? prepare(&s, options->watch, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_map_twins(s.map, NULL, &face_of, error);
+    s.face_of = face_of;
+    if (status == TN_OK)
+        status = look(&s, look_for_crossed, &faults->crossed, error);
+    if (status == TN_OK)
+        status = look(&s, look_for_inverted, &faults->inverted, error);
+    for (unsigned t = 0; s.tallies && t < tn_crew_threads(s.crew); t++)
+        tn_outline_clear(&s.tallies[t].outline);
+    tn_crew_free(s.crew);
     free(face_of);
     free(s.normals);
+    free(s.tallies);
     return status;
 }

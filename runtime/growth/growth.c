@@ -4,10 +4,9 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "runtime/base/numeric.h"
-#include "runtime/base/share.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/pass/interpret.h"
+#include "runtime/numeric/numeric.h"
 
 #define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
 
@@ -216,6 +215,22 @@ static void clear_shapes(tn_growth *growth)
     free(growth->template_of);
 }
 
+/* The crew that worked before, where it is of the right size. */
+static tn_status find_crew(tn_growth *growth, tn_error *error)
+{
+    unsigned threads = growth->options.threads > 0 ? (unsigned)growth->options.threads : tn_crew_default();
+    if (growth->crew && tn_crew_threads(growth->crew) != threads) {
+        tn_crew_free(growth->crew);
+        growth->crew = NULL;
+    }
+    if (!growth->crew)
+        growth->crew = tn_crew_new(threads, NULL);
+    if (!growth->crew)
+        return tn_fail_memory(error);
+    tn_crew_watch(growth->crew, growth->options.watch);
+    return TN_OK;
+}
+
 tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
                           const tn_growth_options *options, tn_error *error)
 {
@@ -225,8 +240,11 @@ tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, con
                           .environment = environment,
                           .options = *options,
                           .hard = tn_environment_has_hard(environment),
-                          .space = growth->space};
+                          .space = growth->space,
+                          .crew = growth->crew};
     tn_status status = check_options(options, error);
+    if (status == TN_OK)
+        status = find_crew(growth, error);
     if (status != TN_OK)
         return status;
     double angle = options->branch_angle >= 0 ? options->branch_angle : system->branch_angle;
@@ -263,6 +281,7 @@ void tn_growth_free(tn_growth *growth)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         tn_pages_release(all[i]);
     clear_shapes(growth);
+    tn_crew_free(growth->crew);
     free(growth);
 }
 
@@ -356,7 +375,6 @@ static tn_status run_pass(tn_growth *growth, uint32_t first, uint32_t last, tn_e
                     .group_first = first,
                     .group_last = last,
                     .joins_last = last == growth->system->group_count,
-                    .threads = growth->options.threads > 0 ? growth->options.threads : tn_thread_count(),
                     .walks_vertices = walks_vertices(growth, first, last),
                     .branch_first = growth->branches};
     tn_watch *watch = growth->options.watch;
@@ -459,6 +477,7 @@ tn_status tn_growth_regrow(tn_growth *growth, uint32_t steps, tn_error *error)
 void tn_growth_watch(tn_growth *growth, tn_watch *watch)
 {
     growth->options.watch = watch;
+    tn_crew_watch(growth->crew, watch);
 }
 
 const tn_map *tn_growth_map(const tn_growth *growth)

@@ -6,7 +6,7 @@
 
 /* ---- numbers beyond 64 bits */
 
-static void put_wide(tn_buffer *out, tn_wide number)
+static void put_wide(tn_buffer *out, tn_int128 number)
 {
     char digits[48];
     size_t at = sizeof digits;
@@ -45,9 +45,9 @@ static void next_line(tn_buffer *out, bool *any)
     *any = true;
 }
 
-static tn_wide area_of(tn_rectangle r)
+static tn_int128 area_of(tn_rectangle r)
 {
-    return (tn_wide)(r.x1 - r.x0) * (r.y1 - r.y0);
+    return (tn_int128)(r.x1 - r.x0) * (r.y1 - r.y0);
 }
 
 static const char *function_of(const tn_house *house, const tn_cell *cell)
@@ -115,7 +115,7 @@ static void put_faces(const tn_house *house, tn_buffer *out)
 }
 
 /* The areas of a room, to the planes and to the walls; voids do not count. */
-static void room_areas(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_wide *gross, tn_wide *net)
+static void room_areas(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_int128 *gross, tn_int128 *net)
 {
     *gross = *net = 0;
     for (uint32_t i = room; i < house->cell_count; i++) {
@@ -128,7 +128,7 @@ static void room_areas(const tn_house *house, const uint32_t *rooms, uint32_t ro
 
 static void put_room(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_buffer *out)
 {
-    tn_wide gross, net;
+    tn_int128 gross, net;
     room_areas(house, rooms, room, &gross, &net);
     tn_buffer_printf(out, "{\"function\": ");
     tn_buffer_append_json(out, function_of(house, &house->cells[room]));
@@ -215,9 +215,9 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
 /* ---- a table of rooms */
 
 /* Square metres to six places, rounded half up. */
-static void put_square_metres(tn_buffer *out, tn_wide square_nanometres)
+static void put_square_metres(tn_buffer *out, tn_int128 square_nanometres)
 {
-    tn_wide millionths = (square_nanometres + 500000000000) / 1000000000000;
+    tn_int128 millionths = (square_nanometres + 500000000000) / 1000000000000;
     put_wide(out, millionths / 1000000);
     tn_buffer_printf(out, ".%06d", (int)(millionths % 1000000));
 }
@@ -232,7 +232,7 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
     for (uint32_t i = 0; i < house->cell_count; i++) {
         if (rooms[i] != i)
             continue;
-        tn_wide gross, net;
+        tn_int128 gross, net;
         uint32_t cells = 0;
         room_areas(house, rooms, i, &gross, &net);
         for (uint32_t k = i; k < house->cell_count; k++)

@@ -1,6 +1,7 @@
 /* Builds the roofs: which cell covers what, the decks below, and prisms under a flat, a sloped or a vaulted line. */
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/solids.h"
 
 enum { VAULT_STEPS = 16, PROFILE_MAX = VAULT_STEPS + 1 };
@@ -10,15 +11,15 @@ enum { VAULT_STEPS = 16, PROFILE_MAX = VAULT_STEPS + 1 };
 /* The top of a roof above its slab, over a cell as wide as that: heights at places between which it is straight. Both
  * are in fractions of a common bottom. */
 typedef struct tn_profile {
-    tn_wide y[PROFILE_MAX], z[PROFILE_MAX];
-    tn_wide y_bottom, z_bottom;
+    tn_int128 y[PROFILE_MAX], z[PROFILE_MAX];
+    tn_int128 y_bottom, z_bottom;
     size_t count;
 } tn_profile;
 
 static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y1)
 {
-    tn_wide from = y0, to = y1, wide = to - from, rise = shape ? shape->rise : 0;
-    tn_wide run = shape && shape->run ? shape->run : 1;
+    tn_int128 from = y0, to = y1, wide = to - from, rise = shape ? shape->rise : 0;
+    tn_int128 run = shape && shape->run ? shape->run : 1;
     switch (shape ? (tn_roof_kind)shape->roof : TN_ROOF_FLAT) {
     case TN_ROOF_SHED_BACK:
         return (tn_profile){{from, to}, {0, wide * rise}, 1, run, 2};
@@ -30,7 +31,7 @@ static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y
         tn_profile profile = {.y_bottom = VAULT_STEPS, .z_bottom = VAULT_STEPS * VAULT_STEPS, .count = PROFILE_MAX};
         for (int i = 0; i <= VAULT_STEPS; i++) {
             profile.y[i] = from * VAULT_STEPS + wide * i;
-            profile.z[i] = (tn_wide)shape->height * 4 * i * (VAULT_STEPS - i);
+            profile.z[i] = (tn_int128)shape->height * 4 * i * (VAULT_STEPS - i);
         }
         return profile;
     }
@@ -40,42 +41,32 @@ static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y
 }
 
 /* The line's height at a place between its ends. `y` is in the profile's fractions. */
-static tn_fraction height_at(const tn_profile *profile, tn_wide y, int64_t base)
+static tn_fraction height_at(const tn_profile *profile, tn_int128 y, int64_t base)
 {
     size_t i = 0;
     while (i + 2 < profile->count && profile->y[i + 1] < y)
         i++;
-    tn_wide run = profile->y[i + 1] - profile->y[i], rise = profile->z[i + 1] - profile->z[i];
+    tn_int128 run = profile->y[i + 1] - profile->y[i], rise = profile->z[i + 1] - profile->z[i];
     tn_fraction slope = tn_fraction_new(rise, run * profile->z_bottom); /* of a y in fractions */
     tn_fraction part = tn_fraction_new((y - profile->y[i]) * slope.top, slope.bottom);
-    tn_fraction start = tn_fraction_new(profile->z[i] + (tn_wide)base * profile->z_bottom, profile->z_bottom);
+    tn_fraction start = tn_fraction_new(profile->z[i] + (tn_int128)base * profile->z_bottom, profile->z_bottom);
     return tn_fraction_new(start.top * part.bottom + part.top * start.bottom, start.bottom * part.bottom);
 }
 
 static tn_status add_point(tn_solids *solids, tn_roof_point point, tn_error *error)
 {
-    if (solids->point_count == solids->point_room) {
-        size_t room = solids->point_room ? 2 * solids->point_room : 64;
-        tn_roof_point *points = realloc(solids->points, room * sizeof *points);
-        if (!points)
-            return tn_fail_memory(error);
-        solids->points = points;
-        solids->point_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->points, &solids->point_room, 64, solids->point_count, 1,
+                               sizeof *solids->points))
+        return tn_fail_memory(error);
     solids->points[solids->point_count++] = point;
     return TN_OK;
 }
 
 static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
 {
-    if (solids->prism_count == solids->prism_room) {
-        size_t room = solids->prism_room ? 2 * solids->prism_room : 32;
-        tn_prism *prisms = realloc(solids->prisms, room * sizeof *prisms);
-        if (!prisms)
-            return tn_fail_memory(error);
-        solids->prisms = prisms;
-        solids->prism_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->prisms, &solids->prism_room, 32, solids->prism_count, 1,
+                               sizeof *solids->prisms))
+        return tn_fail_memory(error);
     solids->prisms[solids->prism_count++] = prism;
     return TN_OK;
 }
@@ -88,10 +79,10 @@ static tn_status put_prism(const tn_house *house, uint32_t index, tn_rectangle r
     tn_profile profile = profile_of(tn_house_shape(house, cell->zone, TN_CHOICE_ROOF), grown.y0, grown.y1);
     int64_t base = house->form->level[cell->storey + 1], slab = base + house->form->record->roof;
     tn_prism prism = {.of = index, .x0 = r.x0, .x1 = r.x1, .base = base, .point_first = solids->point_count};
-    tn_wide first = (tn_wide)r.y0 * profile.y_bottom, last = (tn_wide)r.y1 * profile.y_bottom;
+    tn_int128 first = (tn_int128)r.y0 * profile.y_bottom, last = (tn_int128)r.y1 * profile.y_bottom;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < profile.count + 2; i++) {
-        tn_wide y = i == 0 ? first : i == profile.count + 1 ? last : profile.y[i - 1];
+        tn_int128 y = i == 0 ? first : i == profile.count + 1 ? last : profile.y[i - 1];
         bool between = y > first && y < last;
         if (i == 0 || i == profile.count + 1 || between)
             status = add_point(

@@ -1,28 +1,29 @@
 /* Builds the solids of a house: posts and walls with their openings, decks, roofs, and what stands in the rooms. */
 #include "runtime/house/solids.h"
+#include "runtime/base/array.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static tn_wide gcd(tn_wide a, tn_wide b)
+static tn_int128 gcd(tn_int128 a, tn_int128 b)
 {
     while (b) {
-        tn_wide rest = a % b;
+        tn_int128 rest = a % b;
         a = b;
         b = rest;
     }
     return a < 0 ? -a : a;
 }
 
-tn_fraction tn_fraction_new(tn_wide top, tn_wide bottom)
+tn_fraction tn_fraction_new(tn_int128 top, tn_int128 bottom)
 {
-    tn_wide common = gcd(top, bottom);
+    tn_int128 common = gcd(top, bottom);
     return (tn_fraction){top / common, bottom / common};
 }
 
 double tn_fraction_value(tn_fraction fraction)
 {
-    tn_wide whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
+    tn_int128 whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
     return (double)whole + (double)rest / (double)fraction.bottom;
 }
 
@@ -34,14 +35,8 @@ const char *tn_solid_kind_text(tn_solid_kind kind)
 
 tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error)
 {
-    if (solids->box_count == solids->box_room) {
-        size_t room = solids->box_room ? 2 * solids->box_room : 64;
-        tn_solid *boxes = realloc(solids->boxes, room * sizeof *boxes);
-        if (!boxes)
-            return tn_fail_memory(error);
-        solids->boxes = boxes;
-        solids->box_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->boxes, &solids->box_room, 64, solids->box_count, 1, sizeof *solids->boxes))
+        return tn_fail_memory(error);
     solids->boxes[solids->box_count++] = solid;
     return TN_OK;
 }

@@ -6,16 +6,15 @@
 #ifndef TARTAN_HOUSE_SOLIDS_H
 #define TARTAN_HOUSE_SOLIDS_H
 
+#include "runtime/base/int128.h"
 #include "runtime/house/house.h"
-
-__extension__ typedef __int128 tn_wide;
 
 /* top / bottom, in lowest terms, bottom > 0. */
 typedef struct tn_fraction {
-    tn_wide top, bottom;
+    tn_int128 top, bottom;
 } tn_fraction;
 
-tn_fraction tn_fraction_new(tn_wide top, tn_wide bottom);
+tn_fraction tn_fraction_new(tn_int128 top, tn_int128 bottom);
 double tn_fraction_value(tn_fraction fraction); /* the nearest, but for rounding twice */
 
 typedef enum tn_solid_kind {

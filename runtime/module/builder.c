@@ -19,7 +19,7 @@ typedef struct tn_builder_run {
 
 struct tn_builder {
     tn_builder_run sections[TN_SECTION_COUNT]; /* strings and code hold bytes, the others their records' structs */
-    tn_string *interned;               /* hash table of offsets; 0 is a free place */
+    tn_string *interned;                       /* hash table of offsets; 0 is a free place */
     size_t interned_count, interned_capacity;
     bool out_of_memory;
     bool too_large; /* a section passed what its u32 indices can name */
@@ -152,7 +152,7 @@ tn_string tn_builder_string(tn_builder *builder, const char *text)
     }                                                                                                                  \
     void tn_builder_set_##NAME(tn_builder *builder, uint32_t index, const TYPE *record)                                \
     {                                                                                                                  \
-        tn_builder_run *run = &builder->sections[TN_SECTION_##NAME];                                                           \
+        tn_builder_run *run = &builder->sections[TN_SECTION_##NAME];                                                   \
         if (index < run->count)                                                                                        \
             ((TYPE *)run->items)[index] = *record;                                                                     \
     }

@@ -44,6 +44,7 @@ static void list_function(tn_lister *lister, uint32_t index)
         engine->list_heading(lister, index);
     fprintf(lister->out, ", stack %u\n", function->stack_max);
     lister->shown_line = 0;
+    lister->function = index;
     tn_list_code(lister, function->code_begin, function->code_end, NULL);
 }
 

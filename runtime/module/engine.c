@@ -18,6 +18,14 @@ const tn_engine *tn_engine_of_code(const tn_engines *engines, tn_code_kind code)
     return NULL;
 }
 
+const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind kind)
+{
+    for (size_t i = 0; i < engines->count; i++)
+        if (engines->items[i]->terms && engines->items[i]->term_kind == kind)
+            return engines->items[i];
+    return NULL;
+}
+
 void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT])
 {
     for (size_t i = 0; i < TN_OPERANDS_COUNT; i++)

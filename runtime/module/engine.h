@@ -25,6 +25,10 @@ typedef struct tn_engine {
     uint32_t codes;
     const tn_operand_rules *operands;
     size_t operand_count;
+    /* What a TERM is in the functions of one kind, by name: NULL where the engine has no such functions. */
+    const char *const *terms;
+    uint32_t term_count;
+    tn_function_kind term_kind;
 
     /* Each of these may be NULL. Everything that the rows of records.def say has been verified before.
      * tables: what holds in its sections beyond that. */
@@ -57,6 +61,9 @@ struct tn_engines {
 /* The engine that has a section, or runs a kind of code; NULL where none does. */
 const tn_engine *tn_engine_of_section(const tn_engines *engines, tn_section section);
 const tn_engine *tn_engine_of_code(const tn_engines *engines, tn_code_kind code);
+
+/* The engine that says what a TERM is in functions of this kind; NULL where none does. */
+const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind kind);
 
 /* What the engines say of each kind of operands; NULL where none says anything. */
 void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT]);

@@ -21,6 +21,7 @@ typedef struct tn_lister {
     tn_source_lines *lines;
     uint32_t shown_file; /* the source line that was shown last */
     size_t shown_line;
+    uint32_t function; /* whose instructions are being listed */
     bool failed; /* out of memory */
 } tn_lister;
 

@@ -1,40 +1,38 @@
 /* Finds where in the source an instruction comes from. */
-#include <string.h>
+#include "runtime/module/records.h"
 
-#include "runtime/module/module.h"
-
-/* The first of `count` records, `stride` bytes apart, whose code ends behind the offset: records' code is contiguous
- * and in their order. `end` is that of the first record. */
-static size_t record_at(const uint32_t *end, size_t stride, size_t count, uint32_t offset)
+/* The record whose code has the offset: where that code begins. Records' code is contiguous and in their order. */
+static bool begin_in(const tn_table *table, tn_section_info info, const tn_member *code, uint32_t offset,
+                     uint32_t *begin)
 {
-    size_t low = 0, high = count;
+    size_t low = 0, high = table->count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        uint32_t its_end;
-        memcpy(&its_end, (const char *)end + middle * stride, sizeof its_end);
-        if (its_end <= offset)
+        const char *record = (const char *)table->records + middle * info.size;
+        uint32_t first = (uint32_t)tn_member_whole(record, code), end = (uint32_t)tn_member_whole(record, code + 1);
+        if (end <= offset) {
             low = middle + 1;
-        else
+        } else if (first > offset) {
             high = middle;
+        } else {
+            *begin = first;
+            return true;
+        }
     }
-    return low;
+    return false;
 }
 
-/* Where the code of the function or production begins that holds the offset; false where none does. */
+/* Where the code begins of the record, of any section, that holds the offset; false where none does. */
 static bool code_begin(const tn_module *module, uint32_t offset, uint32_t *begin)
 {
-    const tn_function_record *functions = module->FUNCTION_records;
-    const tn_production_record *productions = module->PRODUCTION_records;
-    size_t count = module->FUNCTION_count, i = 0;
-    if (count > 0 && (i = record_at(&functions->code_end, sizeof *functions, count, offset)) < count) {
-        *begin = functions[i].code_begin;
-        return true;
+    for (tn_section section = 0; section < TN_SECTION_COUNT; section++) {
+        tn_section_info info = tn_section_describe(section);
+        for (size_t i = 0; i < info.members.count && module->tables[section].count > 0; i++)
+            if (info.members.items[i].kind == TN_MEMBER_CODE &&
+                begin_in(&module->tables[section], info, &info.members.items[i], offset, begin))
+                return true;
     }
-    count = module->PRODUCTION_count;
-    if (count == 0 || (i = record_at(&productions->code_end, sizeof *productions, count, offset)) == count)
-        return false;
-    *begin = productions[i].code_begin;
-    return true;
+    return false;
 }
 
 const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset)

@@ -51,7 +51,18 @@ typedef enum tn_clause_kind {
     TN_CLAUSE_KIND_COUNT
 } tn_clause_kind;
 
-/* Flags of rules and libraries. */
+/* What a term of a sum counts, on a stretch. */
+typedef enum tn_sum_kind {
+    TN_SUM_SINGLES, /* single trays that are in the part's relation, each with its tally */
+    TN_SUM_STARTS,  /* places where the part's relation starts, and ends within the stretch */
+    TN_SUM_MATCHES, /* 1 where the part holds of the whole plan */
+    TN_SUM_KIND_COUNT
+} tn_sum_kind;
+
+#define TN_TALLY_STACK_MAX 64u /* values on the stack of a function of kind TALLY */
+#define TN_RATIONAL_MAX 4096u  /* bytes of an exact number */
+
+/* Flags of rules, libraries and measures. */
 #define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
 
 /* ---- growth */
@@ -115,7 +126,7 @@ typedef enum tn_fitness_term {
 #define TN_FACE_LINES_MAX 1000u
 #define TN_TILES_MAX 10000u
 #define TN_TILE_BOXES_MAX 1000u
-#define TN_SLOPE_MAX 1000u /* either number of a slope */
+#define TN_SLOPE_MAX 1000u             /* either number of a slope */
 #define TN_AREA_MAX (INT64_C(1) << 62) /* square micrometres: about 4.6 square kilometres */
 
 typedef enum tn_choice_kind { TN_CHOICE_PLAIN, TN_CHOICE_STOREYS, TN_CHOICE_ROOF, TN_CHOICE_KIND_COUNT } tn_choice_kind;
@@ -190,7 +201,8 @@ typedef enum tn_area_test {
 
 /* ---- grammars that genomes are mapped through */
 
-/* How a .bnf file is read and its genomes mapped (docs/genome-language.md); or a connection grammar (docs/placing.md). */
+/* How a .bnf file is read and its genomes mapped (docs/genome-language.md); or a connection grammar (docs/placing.md).
+ */
 typedef enum tn_dialect { TN_DIALECT_GE, TN_DIALECT_GENR8, TN_DIALECT_PLACE, TN_DIALECT_COUNT } tn_dialect;
 
 /* What becomes of edge types that a genr8 sentence leaves without a rule. */
@@ -204,6 +216,35 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_PLACE_FAR (1 << 26)      /* a head may not go farther from the origin, in cells */
 #define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
 #define TN_PLACE_COLOUR_MAX INT32_MAX
+
+/* ---- solids */
+
+#define TN_SOLID_COORDINATE_MAX 1e9 /* of a box's faces and sizes */
+#define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
+
+/* Flags of a design. */
+#define TN_SOLID_SYMMETRY_X 1u
+#define TN_SOLID_SYMMETRY_Y 2u
+#define TN_SOLID_SYMMETRY_Z 4u
+#define TN_SOLID_SYMMETRY 7u
+#define TN_SOLID_FLAT 8u
+#define TN_SOLID_NOCLIP 16u
+#define TN_SOLID_PENETRATION 32u
+#define TN_SOLID_IMPORTED 64u
+#define TN_SOLID_FLAGS 127u
+
+/* Flags of a box. */
+#define TN_BOX_RIGID 1u
+#define TN_BOX_CLIPPED 2u
+#define TN_BOX_FLAGS 3u
+
+typedef enum tn_solid_model {
+    TN_MODEL_NONE,
+    TN_MODEL_MILLIMETRES,
+    TN_MODEL_CENTIMETRES,
+    TN_MODEL_METRES,
+    TN_SOLID_MODEL_COUNT
+} tn_solid_model;
 
 /* Flags of grammars. */
 #define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */

@@ -10,6 +10,22 @@ static tn_status verify_function(const tn_checker *checker, uint32_t function)
     return TN_OK;
 }
 
+static tn_status check_term(const tn_checker *checker, const tn_instruction *instruction)
+{
+    const tn_engine *engine =
+        tn_engine_of_terms(checker->engines, checker->module->FUNCTION_records[checker->record].kind);
+    if (!engine || instruction->first >= engine->term_count)
+        return tn_refuse(checker, "nothing of this number is measured");
+    return TN_OK;
+}
+
+static void list_term(tn_lister *lister, const tn_instruction *instruction)
+{
+    const tn_engine *engine =
+        tn_engine_of_terms(lister->engines, lister->module->FUNCTION_records[lister->function].kind);
+    fputs(engine->terms[instruction->first], lister->out);
+}
+
 static tn_status check_axis(const tn_checker *checker, const tn_instruction *instruction)
 {
     return instruction->first < 3 ? TN_OK : tn_refuse(checker, "there are three coordinates");
@@ -46,13 +62,14 @@ static tn_status verify_after(const tn_checker *checker)
     tn_status status = TN_OK;
     for (size_t i = 0; i < module->FUNCTION_count && status == TN_OK; i++) {
         const tn_function_record *function = &module->FUNCTION_records[i];
-        if (function->kind == TN_FUNCTION_FIELD || function->kind == TN_FUNCTION_MEASURE)
+        if (tn_function_kinds[function->kind].code == TN_CODE_MEASURE)
             status = verify_words(checker, function);
     }
     return status;
 }
 
-static const tn_operand_rules operands[] = {{TN_OPERANDS_AXIS, check_axis, list_axis}};
+static const tn_operand_rules operands[] = {{TN_OPERANDS_TERM, check_term, list_term},
+                                            {TN_OPERANDS_AXIS, check_axis, list_axis}};
 
 extern const tn_engine tn_engine_number;
 const tn_engine tn_engine_number = {.name = "number",

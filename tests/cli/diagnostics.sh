@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the front ends say about wrong rule files: tests/diagnostics/NAME.plan (.hemls, .study, .field) is checked, and what is then
+# What the front ends say about wrong rule files: tests/diagnostics/NAME.plan (.hemls, .study, .field, .solid) is checked, and what is then
 # on stderr is NAME.expect. `--update` writes the expectations anew: read the difference before you keep it.
 set -euo pipefail
 : "${TARTAN:?the binary to test}"
@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../diagnostics"
 failed=0
 seen=$(mktemp)
 trap 'rm -f "$seen"' EXIT
-for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg; do
+for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg *.solid; do
     name=${plan%.*}
     status=0
     said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
@@ -28,9 +28,10 @@ for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg; do
     fi
 done
 [ "${1-}" != --update ] || exit 0
-# Every code that the front ends report is among them.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg}.[ly] ../../compiler/{hemls,study,field,pcfg}/*.c \
-    ../../compiler/plan/{ast*,check*,syntax_error}.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c | sort -u)
+# Every code that the front ends report is among them; solid.sh makes a design of too many boxes.
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,solid}/*.c \
+    ../../compiler/plan/{syntax,check}/*.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c ../../driver/solid/report.c |
+    grep -v E_SOLID_TOO_MANY | sort -u)
 codes=$(while read -r name; do
     case $name in
     E_*) sed -nE "s/^ERROR\(([0-9]+), ${name#E_},.*/\1/p" ../../runtime/base/codes.def | xargs -r printf 'error[E%04d]\n' ;;

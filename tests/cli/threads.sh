@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# The same bytes at any number of threads, bad plans and interpreted rules included; shards put together are the whole.
+# The same bytes at any number of threads, bad plans and interpreted rules included, and where no thread can be had; shards put together are
+# the whole.
 name=threads
 . "$(dirname "$0")/golden.bash"
+stdlib=$(cd "$here/../../stdlib" && pwd)
 shapes=$(cd "$here/../../bench" && pwd)/ten.plan
 
 # Some chunks of plans of all lengths, with mistakes, comments and empty plans among them.
@@ -10,7 +12,14 @@ shapes=$(cd "$here/../../bench" && pwd)/ten.plan
 awk 'NR % 997 == 0 { print "3m roof | 3m" } NR % 1009 == 0 { print "# between" } { print }' "$scratch/sheds" >"$scratch/flawed"
 [ "$(wc -c <"$scratch/sheds")" -gt 600000 ] || fail 'too few plans for several chunks'
 
-# same COMMAND...: the same output, errors and exit code at 1 to 8 threads.
+# A machine that has no thread left.
+echo 'int pthread_create(void *thread, const void *with, void *(*run)(void *), void *argument) { (void)thread, (void)with, (void)run, (void)argument; return 11; }' >"$scratch/alone.c"
+cc -shared -fPIC -o "$scratch/alone.so" "$scratch/alone.c"
+alone() {
+    ASAN_OPTIONS="${ASAN_OPTIONS:-}:verify_asan_link_order=0" LD_PRELOAD="$scratch/alone.so" "$@"
+}
+
+# same COMMAND...: the same output, errors and exit code at 1 to 8 threads, and where 8 cannot be had.
 same() {
     local threads code
     for threads in 1 2 3 4 5 6 7 8; do
@@ -20,6 +29,10 @@ same() {
         cmp -s "$scratch/out.1" "$scratch/out.$threads" || fail "$* differs with $threads threads"
         cmp -s "$scratch/err.1" "$scratch/err.$threads" || fail "$* complains differently with $threads threads"
     done
+    code=0
+    alone "$@" --threads 8 >"$scratch/out.none" 2>"$scratch/err.none" || code=$?
+    echo "exit $code" >>"$scratch/out.none"
+    cmp -s "$scratch/out.1" "$scratch/out.none" && cmp -s "$scratch/err.1" "$scratch/err.none" || fail "$* differs where threads cannot be had"
 }
 for format in bits names json; do
     same "$TARTAN" match "$shapes" "$scratch/kept" --format "$format"
@@ -32,6 +45,11 @@ is 'up to the first bad plan' "$(wc -l <"$scratch/out.1")" "$(($(grep -n roof "$
 same "$TARTAN" match "$files/sheds.plan" "$scratch/flawed" --format bits --on-error skip --engine vm
 same "$TARTAN" prune "$files/sheds.plan" "$scratch/flawed" --library sheds --dropped - --on-error skip
 same "$TARTAN" count "$shapes"
+same "$TARTAN" check "$shapes" --relations
+same "$TARTAN" check "$files/sheds.plan" --library any-sheds --count
+same "$TARTAN" grow "$stdlib/square.hemls" -n 6 --explain
+same "$TARTAN" grow "$stdlib/ruffle.hemls" -n 5 -o - --format ply
+same "$TARTAN" mesh "$stdlib/primitives.field" --surface torus -o - --format ply
 
 # A file is read by all threads side by side, a pipe by one after another: the same answers, and the same lines are
 # complained about. Lines longer than what a thread takes at a time, and one past the limit, at its own place.

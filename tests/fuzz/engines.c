@@ -4,10 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/base/memory.h"
 #include "runtime/house/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/place/grow.h"
+#include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
 enum { DRAWN_ONE_IN = 8, FORMS = 8, FORM_CODES = 4096 };
@@ -84,11 +86,14 @@ void fuzz_place(const tn_module *module)
     tn_placed_model models[2];
     tn_status found[2];
     for (int way = 0; way < 2; way++) {
+        tn_watch watch;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
         tn_place_options options = {.part_limit = 100,
                                     .step_limit = 1000,
                                     .frame_limit = 50,
                                     .lookahead_limit = 1000,
-                                    .memory_limit = 1 << 24,
+                                    .watch = &watch,
                                     .interpret = way == 1};
         tn_place_fault fault;
         found[way] = tn_place_derive(&rules, &options, &models[way], &fault, NULL);
@@ -119,4 +124,20 @@ void fuzz_engines(const tn_module *module)
     list(module);
 #define ENGINE(NAME, FUZZ) FUZZ(module);
 #include "runtime/engines.def"
+}
+
+/* Small designs only: the mapping, the boundary and everything that is measured. */
+void fuzz_solid(const tn_module *module)
+{
+    enum { DESIGNS = 4, BOXES = 40 };
+    for (uint32_t i = 0; i < module->SOLID_count && i < DESIGNS; i++) {
+        tn_built built;
+        tn_error error;
+        double values[TN_SOLID_MEASURED_COUNT] = {0};
+        if (module->SOLID_records[i].box_count > BOXES)
+            continue;
+        if (tn_built_make(module, i, 0, &built, &error) == TN_OK)
+            tn_built_measure(&built, UINT64_MAX, values, &error);
+        tn_built_clear(&built);
+    }
 }

@@ -14,6 +14,7 @@
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/export_prolog.h"
 #include "runtime/plan/text/export_regex.h"
 #include "tests/fuzz/engines.h"
@@ -482,4 +483,21 @@ void fuzz_match(const tn_module *module)
     report(&opened);
     show_findings(&opened);
     tn_compilation_clear(&opened.compilation);
+}
+
+/* ---- sums */
+
+static void use_sums(const tn_module *module, const tn_schema *schema, uint32_t index)
+{
+    for (uint32_t i = 0; i < module->SUM_count && i < RULES; i++) {
+        tn_sum *sum;
+        tn_error error;
+        if (module->SUM_records[i].schema == index && tn_sum_new(schema, i, &sum, &error) == TN_OK)
+            tn_sum_free(sum);
+    }
+}
+
+void fuzz_sum(const tn_module *module)
+{
+    with_schemas(module, use_sums);
 }

@@ -1,4 +1,6 @@
-/* An engine of a few lines: it verifies counters' code, and lists it. */
+/* The toy engine: verifies the code of counters, lists it and runs it. */
+#include "tests/toy/engine.h"
+
 #include "runtime/module/engine.h"
 
 static tn_status check_step(const tn_checker *checker, const tn_instruction *instruction)
@@ -49,3 +51,16 @@ const tn_engine tn_engine_toy = {.name = "toy",
                                  .operand_count = 1,
                                  .verify_code = verify_code,
                                  .list_code = list_code};
+
+uint64_t toy_count(const tn_module *module, uint32_t counter)
+{
+    const tn_counter_record *record = &module->COUNTER_records[counter];
+    uint64_t count = record->start;
+    tn_instruction instruction;
+    for (uint32_t at = record->code_begin; at < record->code_end; at += instruction.length) {
+        instruction = tn_code_read(module->code, at);
+        if (instruction.opcode == TN_OP_COUNT_UP)
+            count += (uint64_t)instruction.first;
+    }
+    return count;
+}

@@ -1,11 +1,24 @@
-/* A notation of a few lines, in this one file and one row: what adding one takes. A line is a name and a number, `#`
- * starts a comment, and `use "FILE"` takes the lines of another file too. */
+/* The toy notation. Each line is a name and a number, and compiles to a counter that the toy engine runs; `#` starts a
+ * comment, and `use "FILE"` adds the lines of another file. This file and one row are all that the notation takes. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/import.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/notation.h"
+
+enum { COUNT_MAX = 1000000 };
+
+typedef struct toy_line {
+    tn_span name, number;
+    uint32_t count;
+} toy_line;
+
+typedef struct toy_lines {
+    toy_line *items;
+    size_t count;
+} toy_lines;
 
 typedef struct toy {
     tn_arena *arena;
@@ -14,6 +27,7 @@ typedef struct toy {
     uint32_t file;
     tn_use *uses;
     size_t use_count;
+    toy_lines lines;
 } toy;
 
 /* The kind of what is at the start of the text, and its size. */
@@ -38,6 +52,18 @@ static tn_token_kind token_at(const char *text, size_t size, size_t *length)
                                                          : TN_TOKEN_STRAY;
 }
 
+static void add_counter(toy *t, tn_span name, tn_span number)
+{
+    const char *text = t->diagnostics->sources->files[t->file].text;
+    unsigned long count = strtoul(text + number.begin, NULL, 10); /* ULONG_MAX where it is too large */
+    if (name.end - name.begin > TN_NAME_MAX)
+        tn_report(t->diagnostics, E_NAME_TOO_LONG, name, "this name has more than %d letters", TN_NAME_MAX);
+    else if (count < 1 || count > COUNT_MAX)
+        tn_report(t->diagnostics, E_NUMBER_TOO_LARGE, number, "a number is from 1 to %d", COUNT_MAX);
+    else
+        t->lines.items[t->lines.count++] = (toy_line){name, number, (uint32_t)count};
+}
+
 /* A line of tokens: `use "FILE"`, or a name and a number. */
 static void take_line(toy *t, const tn_token *line, size_t count)
 {
@@ -47,7 +73,9 @@ static void take_line(toy *t, const tn_token *line, size_t count)
         text[last.end - 1] == '"')
         t->uses[t->use_count++] =
             (tn_use){.path = tn_string_lex(t->arena, text + last.begin + 1, last.end - last.begin - 2), .span = last};
-    else if (count != 2 || line[0].kind != TN_TOKEN_NAME || line[1].kind != TN_TOKEN_NUMBER)
+    else if (count == 2 && line[0].kind == TN_TOKEN_NAME && line[1].kind == TN_TOKEN_NUMBER)
+        add_counter(t, line[0].span, last);
+    else
         tn_help(t->diagnostics, tn_report(t->diagnostics, E_UNEXPECTED, line[0].span, "a line is a name and a number"),
                 "write `apples 3`");
 }
@@ -58,7 +86,8 @@ static bool read_source(toy *t)
     const tn_source *source = &t->diagnostics->sources->files[t->file];
     tn_token *line = TN_NEW_ARRAY(t->arena, tn_token, source->size + 1);
     t->uses = TN_NEW_ARRAY(t->arena, tn_use, source->size + 1);
-    if (!line || !t->uses)
+    t->lines.items = TN_NEW_ARRAY(t->arena, toy_line, source->size + 1);
+    if (!line || !t->uses || !t->lines.items)
         return false;
     if (!tn_text_check(t->diagnostics, t->file))
         return true;
@@ -85,6 +114,11 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *un
 {
     toy t = {.arena = arena, .diagnostics = diagnostics, .file = unit->file};
     bool done = read_source(&t);
+    toy_lines *lines = TN_NEW(arena, toy_lines);
+    if (!lines)
+        return false;
+    *lines = t.lines;
+    unit->tree = lines;
     *uses = t.uses;
     *use_count = t.use_count;
     return done;
@@ -94,6 +128,22 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
 {
     toy t = {.arena = arena, .diagnostics = diagnostics, .file = reading->file, .tokens = &reading->tokens};
     return read_source(&t);
+}
+
+static void emit_counter(tn_builder *builder, const tn_sources *sources, const toy_line *line)
+{
+    tn_counter_record counter = {.name = tn_builder_string_n(builder,
+                                                             sources->files[line->name.file].text + line->name.begin,
+                                                             line->name.end - line->name.begin),
+                                 .code_begin = tn_builder_offset(builder)};
+    tn_builder_add_SOURCE_MAP(builder, &(tn_source_map_record){.offset = counter.code_begin,
+                                                               .file = line->number.file,
+                                                               .begin = line->number.begin,
+                                                               .end = line->number.end});
+    tn_builder_emit(builder, TN_OP_COUNT_UP, line->count, 0);
+    tn_builder_emit(builder, TN_OP_STOP, 0, 0);
+    counter.code_end = tn_builder_offset(builder);
+    tn_builder_add_COUNTER(builder, &counter);
 }
 
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
@@ -107,6 +157,11 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
     if (!builder)
         return tn_fail_memory(error);
     tn_emit_sources(builder, &imports, &c->sources);
+    for (size_t i = 0; i < imports.count; i++) {
+        const toy_lines *lines = imports.units[i]->tree;
+        for (size_t l = 0; l < lines->count; l++)
+            emit_counter(builder, &c->sources, &lines->items[l]);
+    }
     tn_status status = tn_builder_finish(builder, &c->module, &c->module_size, error);
     tn_builder_free(builder);
     return status;
@@ -114,8 +169,7 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
 
 static bool made(const tn_module *module)
 {
-    return module->SOURCE_count > 0 &&
-           strcmp(tn_path_extension(tn_text(module, module->SOURCE_records[0].path)), ".toy") == 0;
+    return module->COUNTER_count > 0;
 }
 
 static void list(tn_listing *listing)

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# A notation that is one row and one file gets all commands: check, build, disasm, fmt, the helps and the language server.
+# A notation that is one row and one file, with an engine that is its own file and rows, gets all commands: check, build, disasm, fmt,
+# the helps and the language server. The modules that it builds are left in the folder $1, for the fuzz targets.
 set -euo pipefail
 fail() {
     echo "$1"
     exit 1
 }
+mkdir -p "$1"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -23,7 +25,14 @@ grep -q 'did you mean `more.toy`?' said || fail "a missing file: $(cat said)"
 for file in all.toy all.tnb; do
     "$TARTAN" disasm $file >listing
     grep -q 'more.toy' listing || fail "disasm $file does not list the sources"
+    grep -q '^  counter 1  name "apples", start 0, code_begin 6, code_end 12$' listing || fail "disasm $file does not list the counters"
+    grep -q '^ *6  COUNT_UP    3' listing || fail "disasm $file does not list the code"
+    grep -q 'all.toy:2: apples   3' listing || fail "disasm $file does not show the source beside the code"
 done
+cp all.tnb "$1"
+printf 'plums 0\n' >none.toy
+if "$TARTAN" check none.toy 2>said; then fail 'check takes a number that is out of range'; fi
+grep -q '^none.toy:1:7: error\[E0005\]: a number is from 1 to 1000000$' said || fail "check says $(cat said)"
 if "$TARTAN" fmt --check all.toy 2>/dev/null; then fail 'fmt --check finds nothing'; fi
 "$TARTAN" fmt all.toy
 printf '# fruit\napples 3\nuse "more.toy"\n' | cmp - all.toy || fail "fmt made $(cat all.toy)"

@@ -1,9 +1,9 @@
 #include "runtime/growth/join/decide.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/share.h"
 #include "runtime/base/watch.h"
 
 #define MANY 512u /* faces, for patterns to be worth their finding */
@@ -23,7 +23,7 @@ bool tn_deciders_prepare(tn_growth_workspace *space, int count)
         tn_decider *one = &space->deciders[i];
         tn_cuts_empty(&one->cuts);
         one->pending_count = one->later_count = 0;
-        one->failed = false;
+        memset(one->failures, 0, sizeof one->failures);
     }
     return true;
 }
@@ -71,18 +71,6 @@ static void take_cut(const decision *d, uint32_t face, const tn_cuts *cuts, uint
     const tn_cut *cut = &cuts->items[index];
     d->pass->cut_of[face] = index | mark;
     tally(d, face, cut->dart_count, cut->loop_count, cut->join_count);
-}
-
-static bool note_failures(const tn_pass *pass, const tn_loop *loop)
-{
-    uint64_t failures[TN_JOIN_FAILURE_COUNT] = {0};
-    if (!tn_loop_explain(loop, pass, failures))
-        return false;
-    for (int i = 0; i < TN_JOIN_FAILURE_COUNT; i++) {
-#pragma omp atomic
-        pass->growth->counts.failures[i] += failures[i];
-    }
-    return true;
 }
 
 static tn_pending *add_pending(tn_decider *decider, size_t count)
@@ -160,7 +148,7 @@ static bool decide_alone(const decision *d, uint32_t face, tn_pair_set *taken)
     default:
         break;
     }
-    if (pass->growth->options.explain && pass->joins_last && !note_failures(pass, loop))
+    if (pass->growth->options.explain && pass->joins_last && !tn_loop_explain(loop, pass, decider->failures))
         return false;
     for (uint32_t i = 0; i < loop->join_count; i++) {
         const tn_loop_branch *low = &loop->branches[loop->joins[i].low], *high = &loop->branches[low->partner];
@@ -226,20 +214,21 @@ static bool decide_face(const decision *d, uint32_t face)
 
 /* ---- all faces */
 
-static void decide_chunk(void *context, uint32_t number)
+static tn_status decide_chunk(void *context, unsigned decider, size_t number, tn_error *error)
 {
     tn_pass *pass = context;
     tn_growth_workspace *space = &pass->growth->space;
-    uint32_t faces = pass->old->face_count, begin = number * TN_CHUNK_FACES;
+    uint32_t faces = pass->old->face_count, begin = (uint32_t)number * TN_CHUNK_FACES;
     uint32_t end = faces - begin < TN_CHUNK_FACES ? faces : begin + TN_CHUNK_FACES;
-    int decider = pass->threads > 1 && pass->chunk_count > 1 ? tn_thread_number() : 0; /* as tn_share does */
-    pass->chunks[number] = (tn_face_chunk){.decider = decider};
+    pass->chunks[number] = (tn_face_chunk){.decider = (int)decider};
     decision d = {pass, &space->deciders[decider], &pass->chunks[number]};
-    for (uint32_t f = begin; f < end && !d.decider->failed; f++) {
+    for (uint32_t f = begin; f < end; f++) {
         if (f % TN_TOGETHER == 0)
             tn_ask_ahead(pass, f, pass->aims, sizeof *pass->aims, pass->branch_first);
-        d.decider->failed = !decide_face(&d, f);
+        if (!decide_face(&d, f))
+            return tn_fail_memory(error);
     }
+    return TN_OK;
 }
 
 static void sift_by_rank(const uint32_t *rank, uint32_t *heap, size_t at, size_t count)
@@ -298,18 +287,24 @@ static bool decide_later(tn_pass *pass)
     return fine;
 }
 
+static void count_failures(tn_growth *growth)
+{
+    for (int d = 0; d < growth->space.decider_count; d++)
+        for (int i = 0; i < TN_JOIN_FAILURE_COUNT; i++)
+            growth->counts.failures[i] += growth->space.deciders[d].failures[i];
+}
+
 tn_status tn_pass_decide(tn_pass *pass, tn_error *error)
 {
     tn_growth_workspace *space = &pass->growth->space;
     pass->chunk_count = (pass->old->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES;
     if (!tn_pages_reserve(&space->chunks, pass->chunk_count * sizeof *pass->chunks) ||
-        !tn_deciders_prepare(space, pass->threads))
+        !tn_deciders_prepare(space, (int)tn_crew_threads(tn_pass_crew(pass))))
         return tn_fail_memory(error);
     pass->chunks = space->chunks.data;
-    if (!tn_share(tn_pass_watch(pass), pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, decide_chunk, pass))
-        return tn_fail_stopped(error);
-    bool fine = true;
-    for (int i = 0; i < space->decider_count; i++)
-        fine = fine && !space->deciders[i].failed;
-    return fine && decide_later(pass) ? TN_OK : tn_fail_memory(error);
+    tn_status status = tn_crew_run(tn_pass_crew(pass), pass->chunk_count, 1, decide_chunk, pass, error);
+    if (status == TN_OK && !decide_later(pass))
+        status = tn_fail_memory(error);
+    count_failures(pass->growth);
+    return status;
 }

@@ -12,7 +12,7 @@ typedef struct tn_decider {
     tn_pending *pending; /* branches that wait for the next pass */
     uint32_t *later;     /* faces that wait until all others are done */
     size_t pending_count, pending_room, later_count, later_room;
-    bool failed; /* out of memory */
+    uint64_t failures[TN_JOIN_FAILURE_COUNT]; /* of branches, in this pass */
 } tn_decider;
 
 /* TN_CHUNK_FACES faces: what they become, counted; then where the first of each goes. */

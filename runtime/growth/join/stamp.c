@@ -1,8 +1,6 @@
 /* The new map written: each face's loops from its cut, every dart once, in its place. */
 #include <string.h>
 
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/join/stamp_lanes.h"
 
@@ -118,6 +116,5 @@ static void stamp_chunk(void *context, uint32_t number)
 tn_status tn_pass_stamp(tn_pass *pass, tn_error *error)
 {
     pass->has_lanes = tn_stamp_has_lanes();
-    bool complete = tn_share(tn_pass_watch(pass), pass->threads, pass->chunk_count, TN_SHARE_UNEVEN, stamp_chunk, pass);
-    return complete ? TN_OK : tn_fail_stopped(error);
+    return tn_crew_share(tn_pass_crew(pass), pass->chunk_count, stamp_chunk, pass, error);
 }

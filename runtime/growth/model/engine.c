@@ -1,4 +1,4 @@
-/* Says what of a module belongs to growing, and how expressions over a surface name what is measured of it. */
+/* Says what of a module belongs to growing, and what expressions over a surface speak of. */
 #include "runtime/module/engine.h"
 
 #include <math.h>
@@ -7,16 +7,6 @@
 #include "runtime/growth/model/list.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/growth/model/verify.h"
-
-static tn_status check_term(const tn_checker *checker, const tn_instruction *instruction)
-{
-    return instruction->first < TN_MEASURED_COUNT ? TN_OK : tn_refuse(checker, "nothing of this number is measured");
-}
-
-static void list_term(tn_lister *lister, const tn_instruction *instruction)
-{
-    fputs(tn_measured_names[instruction->first], lister->out);
-}
 
 static tn_status check_stroke(const tn_checker *checker, const tn_instruction *instruction)
 {
@@ -55,8 +45,7 @@ static const tn_section sections[] = {
     TN_SECTION_FORCE,  TN_SECTION_BOUNDARY,   TN_SECTION_GOAL,          TN_SECTION_STRINGS,
 };
 
-static const tn_operand_rules operands[] = {{TN_OPERANDS_TERM, check_term, list_term},
-                                            {TN_OPERANDS_LABEL, NULL, list_label},
+static const tn_operand_rules operands[] = {{TN_OPERANDS_LABEL, NULL, list_label},
                                             {TN_OPERANDS_STROKE, check_stroke, list_stroke},
                                             {TN_OPERANDS_ANGLE, check_angle, NULL},
                                             {TN_OPERANDS_SUCCESSOR, check_successor, NULL}};
@@ -67,6 +56,9 @@ const tn_engine tn_engine_growth = {.name = "growth",
                                     .codes = 1u << TN_CODE_TURTLE | 1u << TN_CODE_GUARD,
                                     .operands = operands,
                                     .operand_count = sizeof operands / sizeof *operands,
+                                    .terms = tn_measured_names,
+                                    .term_count = TN_MEASURED_COUNT,
+                                    .term_kind = TN_FUNCTION_MEASURE,
                                     .verify = tn_growth_verify,
                                     .verify_after = tn_growth_verify_whole,
                                     .list_code = tn_growth_list};

@@ -3,14 +3,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
-
-static int thread_count(const tn_growth *growth)
-{
-    return growth->options.threads > 0 ? growth->options.threads : tn_thread_count();
-}
 
 static uint32_t chunk_count(const tn_map *map)
 {
@@ -45,15 +38,13 @@ static tn_status mean(const tn_growth *growth, tn_vector *centre, tn_error *erro
     summing s = {map, malloc(chunks * sizeof *s.sums)};
     if (!s.sums)
         return tn_fail_memory(error);
-    bool complete = tn_share(growth->options.watch, thread_count(growth), chunks, TN_SHARE_EVENLY, sum_chunk, &s);
+    tn_status status = tn_crew_share(growth->crew, chunks, sum_chunk, &s, error);
     tn_vector sum = {0, 0, 0};
-    for (uint32_t c = 0; c < chunks && complete; c++)
+    for (uint32_t c = 0; c < chunks && status == TN_OK; c++)
         sum = tn_add(sum, s.sums[c]);
     free(s.sums);
-    if (!complete)
-        return tn_fail_stopped(error);
     *centre = tn_scale(sum, 1.0 / map->vertex_count);
-    return TN_OK;
+    return status;
 }
 
 /* Which vertices are on the outline; NULL where none stays. */
@@ -126,11 +117,10 @@ tn_status tn_growth_displace(tn_growth *growth, tn_error *error)
     if (status != TN_OK)
         return status;
     d.fixed = fixed;
-    bool complete = tn_share(growth->options.watch, thread_count(growth), chunk_count(&growth->map), TN_SHARE_UNEVEN,
-                             displace_chunk, &d);
+    status = tn_crew_share(growth->crew, chunk_count(&growth->map), displace_chunk, &d, error);
     free(fixed);
-    if (!complete)
-        return tn_fail_stopped(error);
+    if (status != TN_OK)
+        return status;
     growth->moved = d.moved;
     if (d.infinite || !isfinite(growth->length)) {
         tn_fail(error, TN_LIMIT, E_GROWTH_COORDINATES, "in step %u a coordinate leaves the range of numbers",

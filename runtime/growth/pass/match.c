@@ -4,8 +4,6 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
 
 #define NEEDS_DRAW (TN_NO_TEMPLATE - 1)
@@ -214,17 +212,14 @@ static tn_status match_singly(tn_pass *pass, const contexts *around, tn_error *e
 {
     uint32_t chunks = (pass->old->edge_count + TN_CHUNK_EDGES - 1) / TN_CHUNK_EDGES;
     single_match match = {pass, around, NULL};
-    bool complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
-    if (!complete)
-        return tn_fail_stopped(error);
-    if (!pass->growth->weighted)
-        return TN_OK;
-    tn_status status = number_draws(pass, chunks, &match.ordinals, error);
-    if (status != TN_OK)
+    tn_status status = tn_crew_share(tn_pass_crew(pass), chunks, match_chunk, &match, error);
+    if (status != TN_OK || !pass->growth->weighted)
         return status;
-    complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, match_chunk, &match);
+    status = number_draws(pass, chunks, &match.ordinals, error);
+    if (status == TN_OK)
+        status = tn_crew_share(tn_pass_crew(pass), chunks, match_chunk, &match, error);
     free(match.ordinals);
-    return complete ? TN_OK : tn_fail_stopped(error);
+    return status;
 }
 
 /* ---- predecessors of several edges: a chain, head to tail through vertices of two edges, replaced as one */

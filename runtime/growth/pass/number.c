@@ -1,8 +1,6 @@
 /* The numbers of joined edges: behind all others, in the order of their lower branches' numbers. */
 #include <stdlib.h>
 
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/pass/pass.h"
 
 typedef struct numbering {
@@ -44,11 +42,12 @@ tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error)
     numbering n = {pass, calloc(chunks + 1, sizeof *n.first)};
     if (!n.first)
         return tn_fail_memory(error);
-    bool complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, count_joints, &n);
+    tn_status status = tn_crew_share(tn_pass_crew(pass), chunks, count_joints, &n, error);
     n.first[0] = pass->edges;
-    for (uint32_t c = 0; c < chunks && complete; c++)
+    for (uint32_t c = 0; c < chunks && status == TN_OK; c++)
         n.first[c + 1] += n.first[c];
-    complete = complete && tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, number_chunk, &n);
+    if (status == TN_OK)
+        status = tn_crew_share(tn_pass_crew(pass), chunks, number_chunk, &n, error);
     free(n.first);
-    return complete ? TN_OK : tn_fail_stopped(error);
+    return status;
 }

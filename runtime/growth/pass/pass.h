@@ -17,6 +17,7 @@
 #ifndef TARTAN_GROWTH_PASS_PASS_H
 #define TARTAN_GROWTH_PASS_PASS_H
 
+#include "runtime/base/crew.h"
 #include "runtime/geometry/vector.h"
 #include "runtime/growth/environment/environment.h"
 #include "runtime/growth/model/map.h"
@@ -122,6 +123,7 @@ struct tn_growth {
     bool needs_ranks;      /* one has to, and faces have no ranks any more */
     bool hard;             /* some boundary moves vertices */
     tn_growth_workspace space;
+    tn_crew *crew; /* of options.threads; its watch is that of the options */
     tn_map map;
     uint32_t steps;
     double length;  /* start_length times the mean scale to the power of the steps */
@@ -141,7 +143,6 @@ typedef struct tn_pass {
     tn_map *new;
     uint32_t group_first, group_last; /* groups [first, last) */
     bool joins_last;                  /* what does not join now is dropped */
-    int threads;
     /* survey */
     tn_edge_side *sides; /* [2 edge + against]; lie where the new map's darts will be: gone once faces are decided */
     double *normal;      /* [face][3] */
@@ -171,10 +172,10 @@ typedef struct tn_pass {
     bool has_lanes; /* the processor has them (stamp_lanes.h) */
 } tn_pass;
 
-/* Whose wish ends a pass early, or NULL. */
-static inline tn_watch *tn_pass_watch(const tn_pass *pass)
+/* Who works on a pass. */
+static inline tn_crew *tn_pass_crew(const tn_pass *pass)
 {
-    return pass->growth->options.watch;
+    return pass->growth->crew;
 }
 
 /* The template that replaces an edge, or TN_NO_TEMPLATE, where no chains are replaced. */

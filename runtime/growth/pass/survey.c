@@ -1,6 +1,4 @@
 /* Surveys a map before a pass: each edge side's vertex and face, each face's normal. */
-#include "runtime/base/share.h"
-#include "runtime/base/watch.h"
 #include "runtime/growth/pass/normals.h"
 #include "runtime/growth/pass/pass.h"
 
@@ -75,6 +73,5 @@ tn_status tn_pass_survey(tn_pass *pass, tn_error *error)
     if (pass->walks_vertices)
         pass->dart = (uint32_t *)(pass->normal + normals);
     uint32_t chunks = (map->face_count + TN_CHUNK_FACES - 1) / TN_CHUNK_FACES;
-    bool complete = tn_share(tn_pass_watch(pass), pass->threads, chunks, TN_SHARE_EVENLY, survey_chunk, pass);
-    return complete ? TN_OK : tn_fail_stopped(error);
+    return tn_crew_share(tn_pass_crew(pass), chunks, survey_chunk, pass, error);
 }

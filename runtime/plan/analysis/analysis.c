@@ -274,11 +274,13 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_o
     analysis->schema = schema;
     analysis->schema_index = (uint32_t)(schema->record - schema->module->SCHEMA_records);
     analysis->asked_states = max_states;
+    analysis->threads = options->threads;
     analysis->max_states = max_states ? max_states : TN_STATES_DEFAULT;
     analysis->max_joint = max_states ? max_states : JOINT_STATES_DEFAULT;
     analysis->library = options->library;
     analysis->memory = options->memory;
-    tn_status status = prepare(analysis, error);
+    analysis->crew = tn_crew_new(options->threads, schema->module->watch);
+    tn_status status = analysis->crew ? prepare(analysis, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_plan_analysis_rules(analysis, error);
     if (status == TN_OK)
@@ -287,6 +289,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_o
         status = tn_plan_analysis_libraries(analysis, error);
     analysis->library = NULL;
     analysis->memory = NULL;
+    tn_crew_free(analysis->crew);
+    analysis->crew = NULL;
     if (status != TN_OK) {
         tn_plan_analysis_free(analysis);
         return status;

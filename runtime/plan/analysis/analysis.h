@@ -56,6 +56,7 @@ typedef struct tn_plan_analysis_options {
     const tn_library *library; /* one of the module with its own lengths that is being counted anyway: which of its
                                   clauses are needed is then taken from the counts; or NULL */
     tn_plan_memory *memory;    /* where answers are found and kept; or NULL */
+    unsigned threads;          /* that may work on it, which changes nothing; 0: as many as there are processors */
 } tn_plan_analysis_options;
 
 /* Analyses the rules and libraries of one schema of a module. options: NULL are the defaults; borrowed until the

@@ -2,6 +2,7 @@
 #ifndef TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 #define TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 
+#include "runtime/base/crew.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/automata/search.h"
 #include "runtime/plan/match/lower.h"
@@ -23,10 +24,12 @@ struct tn_plan_analysis {
     const tn_schema *schema;
     uint32_t schema_index;
     uint32_t asked_states;     /* of the options: 0 for the defaults */
+    unsigned threads;          /* likewise */
     uint32_t max_states;       /* of a rule's automata */
     uint32_t max_joint;        /* tuples of a search over the clauses of a library */
     const tn_library *library; /* as in tn_plan_analysis_options, while the analysis is made */
     tn_plan_memory *memory;
+    tn_crew *crew; /* the same */
     tn_classes *classes;
     tn_lowering *lowering;
     tn_plan_vm *vm;

@@ -36,7 +36,7 @@ static const tn_library *given_library(const tn_analysed_clauses *c)
 
 tn_status tn_clauses_library(tn_analysed_clauses *c, const tn_library **library, tn_error *error)
 {
-    const tn_library_options options = {.max_states = c->analysis->asked_states};
+    const tn_library_options options = {.max_states = c->analysis->asked_states, .threads = c->analysis->threads};
     tn_status status = TN_OK;
     *library = given_library(c) ? given_library(c) : c->made;
     if (!*library) {
@@ -98,15 +98,25 @@ static tn_status drops_alone(const tn_analysed_clauses *c, size_t i, bool *alone
     return status;
 }
 
-/* Clause by clause, as far as that is quick. */
-static void try_each(const tn_analysed_clauses *c, tn_clause_verdict *verdicts)
+typedef struct trying {
+    const tn_analysed_clauses *clauses;
+    tn_clause_verdict *verdicts;
+} trying;
+
+static void try_one(void *context, uint32_t i)
 {
-#pragma omp parallel for schedule(dynamic)
-    for (size_t i = 0; i < c->count; i++) {
-        verdicts[i].needed = true;
-        if (is_own(c, i))
-            verdicts[i].status = drops_alone(c, i, &verdicts[i].needed, &verdicts[i].error);
-    }
+    const trying *t = context;
+    tn_clause_verdict *own = &t->verdicts[i];
+    own->needed = true;
+    if (is_own(t->clauses, i))
+        own->status = drops_alone(t->clauses, i, &own->needed, &own->error);
+}
+
+/* Clause by clause, as far as that is quick. */
+static tn_status try_each(const tn_analysed_clauses *c, tn_clause_verdict *verdicts, tn_error *error)
+{
+    trying t = {c, verdicts};
+    return tn_crew_share(c->analysis->crew, (uint32_t)c->count, try_one, &t, error);
 }
 
 /* ---- what is left over */
@@ -151,11 +161,11 @@ static tn_status ask_products(const tn_analysed_clauses *c, tn_clause_verdict *v
 static tn_status find_verdicts(tn_analysed_clauses *c, tn_clause_verdict *verdicts, tn_error *error)
 {
     size_t left = 0;
-    try_each(c, verdicts);
+    tn_status status = try_each(c, verdicts, error);
     for (size_t i = 0; i < c->count; i++)
         left += verdicts[i].status == TN_LIMIT;
-    if (left == 0)
-        return TN_OK;
+    if (status != TN_OK || left == 0)
+        return status;
     return left <= FEW_CLAUSES ? ask_library(c, verdicts, error) : ask_products(c, verdicts, error);
 }
 

@@ -96,34 +96,41 @@ static tn_rule_relation turned(tn_rule_relation relation)
     return relation == TN_RULES_INSIDE ? TN_RULES_CONTAINS : relation == TN_RULES_CONTAINS ? TN_RULES_INSIDE : relation;
 }
 
-/* All pairs with at least one rule of the named file, and of those that are shown; each by itself, so that the order in
- * which threads take them changes nothing. */
+typedef struct comparing {
+    tn_plan_analysis *analysis;
+    const probes *probes;
+} comparing;
+
+/* A rule and those behind it: all pairs with at least one rule of the named file, and of those that are shown. */
+static tn_status compare_rule(void *context, unsigned thread, size_t i, tn_error *error)
+{
+    const comparing *c = context;
+    tn_plan_analysis *analysis = c->analysis;
+    size_t n = analysis->rule_count;
+    tn_status status = TN_OK;
+    (void)thread;
+    for (size_t j = i; status == TN_OK && j < n; j++) {
+        const tn_plan_analysed_rule *a = &analysis->rules[i], *b = &analysis->rules[j];
+        tn_rule_relation relation = TN_RULES_EQUAL;
+        if (!a->own && !(a->named && b->named))
+            continue;
+        if (i != j)
+            status = compare(analysis, c->probes, (size_t[2]){i, j}, &relation, error);
+        analysis->relations[i * n + j] = (uint8_t)relation;
+        analysis->relations[j * n + i] = (uint8_t)turned(relation);
+    }
+    return status;
+}
+
+/* Each by itself, so that the order in which threads take them changes nothing. */
 static tn_status compare_all(tn_plan_analysis *analysis, const probes *p, tn_error *error)
 {
     size_t n = analysis->rule_count;
-    tn_status worst = TN_OK;
+    comparing c = {analysis, p};
     analysis->relations = calloc(n * n + 1, sizeof *analysis->relations);
     if (!analysis->relations)
         return tn_fail_memory(error);
-#pragma omp parallel for schedule(dynamic)
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = i; j < n; j++) {
-            const tn_plan_analysed_rule *a = &analysis->rules[i], *b = &analysis->rules[j];
-            tn_rule_relation relation = TN_RULES_EQUAL;
-            if (!a->own && !(a->named && b->named))
-                continue;
-            tn_status status = i == j ? TN_OK : compare(analysis, p, (size_t[2]){i, j}, &relation, NULL);
-            analysis->relations[i * n + j] = (uint8_t)relation;
-            analysis->relations[j * n + i] = (uint8_t)turned(relation);
-            if (status != TN_OK) {
-#pragma omp critical
-                worst = status;
-            }
-        }
-    }
-    if (worst == TN_STOPPED)
-        return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped while the rules were compared");
-    return worst == TN_OK ? TN_OK : tn_fail_memory(error);
+    return tn_crew_run(analysis->crew, n, 1, compare_rule, &c, error);
 }
 
 static tn_rule_relation related(const tn_plan_analysis *analysis, size_t i, size_t j)

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "runtime/module/code.h"
+#include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/alone.h"
-#include "runtime/plan/library/count.h"
 #include "runtime/plan/match/lower.h"
 
 #define JOINT_STATES 1000000u /* of the automata of several functions together, unless more are asked for */
@@ -40,6 +40,19 @@ struct tn_coverage {
     tn_differences gained;    /* of the plans that the unchanged clauses keep */
 };
 
+static bool compares_sums(tn_opcode opcode)
+{
+    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
+}
+
+/* Marks what the terms of a sum count. */
+static void mark_terms(const tn_module *module, uint32_t sum, uint8_t *reached)
+{
+    const tn_sum_record *record = &module->SUM_records[sum];
+    for (uint32_t i = 0; i < record->term_count; i++)
+        reached[module->TERM_records[record->term_first + i].part] = 1;
+}
+
 /* Marks in `reached` the function and what it calls. Callees have lower numbers: one pass downwards finds them all. */
 static void mark_reached(const tn_module *module, uint32_t function, uint8_t *reached)
 {
@@ -50,6 +63,8 @@ static void mark_reached(const tn_module *module, uint32_t function, uint8_t *re
             tn_instruction code = tn_code_read(module->code, offset);
             if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
                 reached[code.first] = 1;
+            else if (compares_sums(code.opcode))
+                mark_terms(module, (uint32_t)code.first, reached);
             offset += code.length;
         }
     }
@@ -73,6 +88,8 @@ static tn_status lower_all(tn_coverage *c, tn_error *error)
 {
     tn_lowering *lowering = NULL;
     tn_status status = tn_lowering_new(c->classes, c->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, c->max);
     for (size_t i = 0; status == TN_OK && i < c->count; i++)
         status = tn_lower(lowering, c->functions[i], &c->with[i], error);
     tn_lowering_free(lowering);
@@ -192,6 +209,8 @@ tn_status tn_coverage_without(tn_coverage *c, const uint32_t *offsets, size_t co
     tn_status status = tn_lowering_new(c->classes, c->max_states, &lowering, error);
     if (status == TN_OK)
         tn_lowering_disable(lowering, offsets, count);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, c->max);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         tn_dfa_free(c->without[i]);
         c->without[i] = NULL;
@@ -359,7 +378,7 @@ static tn_status count_otherwise(tn_coverage *c, mpz_t flips, tn_error *error)
     if (status == TN_OK)
         status = tn_sparse_words(c->classes->count, c->min, c->max, &plans, error);
     if (status == TN_OK)
-        status = tn_count_both(plans, otherwise, TN_DFA_AND, c->classes, c->min, c->max, "difference", &bounds, flips,
+        status = tn_count_both(plans, otherwise, TN_DFA_AND, c->classes->size, c->min, c->max, "difference", &bounds, flips,
                                error);
     tn_sparse_free(plans);
     tn_dfa_free(otherwise);

@@ -1,9 +1,9 @@
 /* Deterministic complete automata over letters, the fast engine's one data structure.
  *
- * Letters are tray classes (classes.h); an automaton of a relation (relation.h) has one letter more, the marker.
- * Letters that an automaton does not tell apart share a column: a rule that looks at one specifier has two or three
- * columns however many classes the other rules of its file make, so small rules stay small in big rule sets. Products
- * run over the distinct pairs of columns.
+ * Letters are numbers from 0; what they stand for, the caller knows (for rules about plans: classes of trays). An
+ * automaton of a relation (marked.h) has one letter more, the marker. Letters that an automaton does not tell apart
+ * share a column: a rule that looks at one thing has two or three columns however many letters the other rules of its
+ * file make, so small rules stay small in big rule sets. Products run over the distinct pairs of columns.
  *
  * A tn_dfa is counted: tn_dfa_share adds a holder, tn_dfa_free gives one up. It belongs to one thread while it is being
  * shared; reading is free for all. State 0 is the start. What the minimising functions return is minimal and canonical:

@@ -10,7 +10,7 @@ typedef struct step {
     uint32_t from, letter, length;
 } step;
 
-/* A tuple is the number of trays read, counted up to `min`, and the state of each part. */
+/* A tuple is the number of letters read, counted up to `min`, and the state of each part. */
 typedef struct explorer {
     const tn_search *search;
     tn_join join;

@@ -1,4 +1,4 @@
-/* Looks for the shortest plan that some automata accept and others do not: the one question behind every finding of the
+/* Looks for the shortest word that some automata accept and others do not: the one question behind every finding of the
  * analysis (inclusion, disjointness, redundancy, emptiness).
  *
  * The product of the automata is explored breadth first, as far as it takes to answer, and never built: no union and no
@@ -13,7 +13,7 @@
 
 typedef struct tn_search_part {
     const tn_dfa *dfa; /* minimal; all of a search over the same letters */
-    bool accepts;      /* what it is to say of the plan */
+    bool accepts;      /* what it is to say of the word */
 } tn_search_part;
 
 #define TN_SEARCH_WORK UINT64_C(400000000) /* under a second */
@@ -21,14 +21,14 @@ typedef struct tn_search_part {
 typedef struct tn_search {
     const tn_search_part *parts;
     size_t count;      /* at least 1 */
-    uint32_t min, max; /* trays of the plan; max UINT32_MAX: any number */
+    uint32_t min, max; /* letters of the word; max UINT32_MAX: any number */
     const char *what;  /* for errors: "the automaton of this ... passes" */
     uint32_t max_states;
     uint64_t max_work; /* steps; 0: TN_SEARCH_WORK */
     tn_watch *watch;   /* as in tn_bounds */
 } tn_search;
 
-/* The shortest such plan (of those, the first by letters), as letters in `word`, or *found = false. The caller frees
+/* The shortest such word (of those, the first by letters), as letters in `word`, or *found = false. The caller frees
  * word->data. TN_LIMIT (E0802) past max_states tuples or max_work steps. */
 tn_status tn_search_shortest(const tn_search *search, tn_key *word, bool *found, tn_error *error);
 

@@ -1,11 +1,11 @@
 /* Automata without their dead state, transitions in rows of edges: what a library is combined in.
  *
- * A library's automaton may have a hundred thousand states and hundreds of columns, but most trays lead nowhere from
+ * A library's automaton may have a hundred thousand states and hundreds of columns, but most letters lead nowhere from
  * most states (a library of two dozen rules kept 13 of 100 transitions), so products and minimising run over the live
  * ones alone. Every state is reached from state 0 and reaches an accepting one; an automaton that accepts nothing has
  * no states.
  *
- * An automaton of plans of bounded length has no cycle. Then products need not be minimised after they are made: walked
+ * An automaton of words of bounded length has no cycle. Then products need not be minimised after they are made: walked
  * depth first, states are finished children first, and a finished state equal to an earlier one becomes that one
  * (sparse_fold.c).
  *
@@ -41,7 +41,7 @@ tn_status tn_sparse_complete(const tn_sparse *sparse, tn_dfa **out, tn_error *er
 tn_status tn_sparse_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const char *what,
                             tn_bounds *bounds, tn_sparse **out, tn_error *error);
 
-/* The plans of min..max letters; folded. */
+/* The words of min..max letters; folded. */
 tn_status tn_sparse_words(uint32_t letters, uint32_t min, uint32_t max, tn_sparse **out, tn_error *error);
 
 /* As tn_sparse_product, of a folded a; folded. The bounds' states and transitions are of what is made, the work is of

@@ -131,7 +131,7 @@ static tn_status count_both(const tn_library *library, const tn_sparse *plans, c
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(plans, dfa, operation, library->classes, library->min, library->max, "library", &bounds, count,
+    return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max, "library", &bounds, count,
                          error);
 }
 

@@ -214,7 +214,7 @@ static tn_status count_out(const tn_library_diff *d, tn_diff_part part, int side
 {
     tn_bounds bounds = tn_bounds_make(d->max_states);
     tn_dfa_operation operation = clause(d, side, i)->kind == TN_CLAUSE_PRUNE ? TN_DFA_AND : TN_DFA_MINUS;
-    return tn_count_both(d->parts[part], d->clauses[side][i], operation, d->classes, d->libraries[part]->min,
+    return tn_count_both(d->parts[part], d->clauses[side][i], operation, d->classes->size, d->libraries[part]->min,
                          d->libraries[part]->max, "comparison", &bounds, count, error);
 }
 
@@ -299,8 +299,8 @@ static tn_status compare_clauses(tn_library_diff *d, tn_error *error)
 
 /* ---- making */
 
-tn_status tn_library_diff_new(const tn_library *before, const tn_library *after, uint32_t max_states,
-                              tn_watch *watch, tn_library_diff **out, tn_error *error)
+tn_status tn_library_diff_new(const tn_library *before, const tn_library *after, uint32_t max_states, tn_watch *watch,
+                              tn_library_diff **out, tn_error *error)
 {
     tn_library_diff *d = calloc(1, sizeof *d);
     if (!d)

@@ -29,9 +29,10 @@ typedef struct tn_changed_clause {
 
 typedef struct tn_library_diff tn_library_diff;
 
-/* max_states as in tn_library_options. `watch` (may be NULL) can end it (TN_STOPPED). TN_INVALID (E0508) where the trays differ: the error says in what. */
-tn_status tn_library_diff_new(const tn_library *before, const tn_library *after, uint32_t max_states,
-                              tn_watch *watch, tn_library_diff **diff, tn_error *error);
+/* max_states as in tn_library_options. `watch` (may be NULL) can end it (TN_STOPPED). TN_INVALID (E0508) where the
+ * trays differ: the error says in what. */
+tn_status tn_library_diff_new(const tn_library *before, const tn_library *after, uint32_t max_states, tn_watch *watch,
+                              tn_library_diff **diff, tn_error *error);
 void tn_library_diff_free(tn_library_diff *diff);
 
 const tn_library *tn_library_diff_part(const tn_library_diff *diff, tn_diff_part part);

@@ -1,9 +1,11 @@
 /* How many plans each clause of a library keeps out, and how many only it keeps out (others.h). The clauses are
  * independent of one another and go over the threads.
  */
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/plan/library/alone.h"
 #include "runtime/plan/library/others.h"
 
@@ -17,26 +19,8 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(base, clause, operation, library->classes, library->min, library->max, "library", &bounds,
+    return tn_count_both(base, clause, operation, library->classes->size, library->min, library->max, "library", &bounds,
                          count, error);
-}
-
-/* Counts from the automaton, and keeps that. */
-static tn_status count_kept(const tn_others *others, size_t number, mpz_t only, tn_error *error)
-{
-    const tn_library *library = others->library;
-    tn_sparse *plans = NULL;
-    bool kept = false;
-    tn_status status = tn_others_alone(others, number, &plans, error);
-    if (status == TN_OK)
-        status = tn_count_range(plans, library->classes, library->min, library->max, only, error);
-    if (status == TN_OK) {
-#pragma omp critical(tn_keep_alone)
-        kept = tn_library_keep_alone(library, others->order[number], plans);
-    }
-    if (!kept)
-        tn_sparse_free(plans);
-    return status;
 }
 
 /* Where, and what to do about it. */
@@ -56,28 +40,68 @@ static bool is_counted(const tn_library *library, const tn_effect *effects)
     return true;
 }
 
-/* What is not counted yet. */
+/* Counting what is not counted yet. */
+typedef struct tn_counting_rest {
+    const tn_library *library;
+    tn_effect *effects;
+    const tn_others *others;
+    tn_status started; /* TN_OK, or why no clause can be counted */
+    tn_error failure;
+    bool keeping;
+    pthread_mutex_t lock; /* held while an automaton is kept */
+    atomic_uint done;
+} tn_counting_rest;
+
+/* Counts from the automaton, and keeps that. */
+static tn_status count_kept(tn_counting_rest *rest, size_t number, mpz_t only, tn_error *error)
+{
+    const tn_library *library = rest->library;
+    tn_sparse *plans = NULL;
+    tn_status status = tn_others_alone(rest->others, number, &plans, error);
+    if (status == TN_OK)
+        status = tn_count_range(plans, library->classes->size, library->min, library->max, only, error);
+    if (status == TN_OK) {
+        pthread_mutex_lock(&rest->lock);
+        if (tn_library_keep_alone(library, rest->others->order[number], plans))
+            plans = NULL;
+        pthread_mutex_unlock(&rest->lock);
+    }
+    tn_sparse_free(plans);
+    return status;
+}
+
+static void count_clause(void *context, uint32_t i)
+{
+    tn_counting_rest *rest = context;
+    const tn_library *library = rest->library;
+    size_t clause = rest->started == TN_OK ? rest->others->order[i] : library->applied[i];
+    tn_effect *effect = &rest->effects[clause];
+    if (effect->status == TN_LIMIT && rest->started != TN_OK) {
+        effect->status = rest->started;
+        effect->error = rest->failure;
+    } else if (effect->status == TN_LIMIT) {
+        effect->status = rest->keeping ? count_kept(rest, i, effect->only, &effect->error)
+                                       : tn_others_count_alone(rest->others, i, effect->only, &effect->error);
+    }
+    if (effect->status == TN_LIMIT)
+        show_limit(library, clause, &effect->error);
+    tn_watch_tell(library->schema->module->watch, atomic_fetch_add(&rest->done, 1) + 1, (double)library->applied_count);
+}
+
 static tn_status try_only(const tn_library *library, bool within, bool keeping, tn_effect *effects, tn_error *error)
 {
-    const tn_others *others = NULL;
-    tn_error failure;
+    tn_counting_rest rest = {.library = library, .effects = effects, .keeping = keeping};
     if (is_counted(library, effects))
         return TN_OK;
-    tn_status started = tn_others_make(library, within, &others, &failure), status = TN_OK;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (size_t i = 0; i < library->applied_count; i++) {
-        size_t clause = started == TN_OK ? others->order[i] : library->applied[i];
-        tn_effect *effect = &effects[clause];
-        if (effect->status != TN_LIMIT)
-            continue;
-        if (started != TN_OK)
-            effect->error = failure;
-        effect->status = started != TN_OK ? started
-                         : keeping        ? count_kept(others, i, effect->only, &effect->error)
-                                          : tn_others_count_alone(others, i, effect->only, &effect->error);
-        if (effect->status == TN_LIMIT)
-            show_limit(library, clause, &effect->error);
+    tn_crew *crew = tn_crew_new(library->threads, library->schema->module->watch);
+    if (!crew || pthread_mutex_init(&rest.lock, NULL) != 0) {
+        tn_crew_free(crew);
+        return tn_fail_memory(error);
     }
+    rest.started = tn_others_make(library, within, &rest.others, &rest.failure);
+    tn_status status = tn_crew_share(crew, (uint32_t)library->applied_count, count_clause, &rest, error);
+    tn_crew_free(crew);
+    pthread_mutex_destroy(&rest.lock);
     for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
         const tn_effect *effect = &effects[library->applied[i]];
         if (effect->status == TN_OK || effect->status == TN_LIMIT)

@@ -63,6 +63,8 @@ static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error
     tn_status status = tn_classes_new(library->schema, functions, count, &library->classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(library->classes, library->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, library->max);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         status = tn_lower(lowering, functions[i], &library->clauses[i], error);
         if (status == TN_LIMIT)
@@ -296,6 +298,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->max_states = options->max_states ? options->max_states : TN_STATES_DEFAULT;
     library->max_joint = options->max_states ? options->max_states : TN_LIBRARY_STATES_DEFAULT;
     library->max_table = options->max_table ? options->max_table : TN_LIBRARY_TABLE_DEFAULT;
+    library->threads = options->threads;
     library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
     library->memory = options->memory;
     tn_status status = set_lengths(library, options, error);

@@ -30,6 +30,7 @@ typedef struct tn_library_options {
     uint64_t max_eager;     /* steps that combining the clauses may take before it is tried within the lengths; 0:
                                3,000,000 */
     tn_plan_memory *memory; /* where counts of clauses are found and kept, borrowed; or NULL */
+    unsigned threads;       /* that may count clauses; 0: as many as there are processors */
 } tn_library_options;
 
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */

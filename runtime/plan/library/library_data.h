@@ -5,8 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
+#include "runtime/plan/automata/count.h"
 #include "runtime/plan/automata/sparse.h"
-#include "runtime/plan/library/count.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
 
@@ -64,6 +64,7 @@ struct tn_library {
     tn_bounds bounds;     /* of combining the clauses */
     uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
     uint64_t max_eager;
+    unsigned threads;
     tn_plan_memory *memory; /* or NULL */
     mpz_t *generated;       /* [max + 1]: by length */
     uint32_t *tray_column;  /* [trays]: column of `kept` */

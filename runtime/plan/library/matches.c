@@ -53,8 +53,8 @@ static tn_status count_both(const tn_library *library, const tn_classes *classes
                             const tn_dfa *rule, mpz_t matched, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    tn_status status =
-        tn_count_both(plans, rule, TN_DFA_AND, classes, library->min, library->max, "library", &bounds, matched, error);
+    tn_status status = tn_count_both(plans, rule, TN_DFA_AND, classes->size, library->min, library->max, "library",
+                                     &bounds, matched, error);
     if (status == TN_LIMIT)
         mpz_set_si(matched, -1);
     return status == TN_LIMIT ? TN_OK : status;
@@ -85,6 +85,8 @@ tn_status tn_library_matches(const tn_library *library, const uint32_t *function
     tn_status status = joint_classes(library, functions, count, &classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(classes, library->max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, library->max);
     if (status == TN_OK)
         status = tn_library_reletter(library, library->generator, classes, NULL, &plans[0], error);
     if (status == TN_OK)

@@ -55,6 +55,8 @@ static tn_status lower_clauses(tn_near_finder *finder, uint32_t max_states, tn_e
         status = tn_classes_new(finder->schema, functions, count, &finder->classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(finder->classes, max_states, &lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(lowering, finder->record->trays_max);
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = lower_clause(finder, lowering, &clauses[i], error);
     if (status == TN_OK && count == 0) { /* any plan of the library's lengths */

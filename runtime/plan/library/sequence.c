@@ -150,9 +150,8 @@ tn_status tn_sequence_apply(const tn_sequence *sequence, size_t from, tn_bounds 
     return status;
 }
 
-tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const tn_classes *classes, uint32_t min,
-                            uint32_t max, tn_bounds *bounds, const tn_bounds *last, tn_sparse **base, mpz_t count,
-                            tn_error *error)
+tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const uint32_t *sizes, uint32_t min, uint32_t max,
+                            tn_bounds *bounds, const tn_bounds *last, tn_sparse **base, mpz_t count, tn_error *error)
 {
     tn_status status = TN_OK;
     size_t i = from;
@@ -160,10 +159,9 @@ tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const tn_c
         const tn_clause_run *run = &sequence->runs[i];
         tn_bounds own = *last;
         if (run->keeps && run->end == sequence->count)
-            status =
-                tn_count_both(*base, run->keeps, TN_DFA_AND, classes, min, max, sequence->what, &own, count, error);
+            status = tn_count_both(*base, run->keeps, TN_DFA_AND, sizes, min, max, sequence->what, &own, count, error);
         else if (i + 1 == sequence->count)
-            return tn_count_both(*base, sequence->clauses[i].dfa, sequence->clauses[i].keeping, classes, min, max,
+            return tn_count_both(*base, sequence->clauses[i].dfa, sequence->clauses[i].keeping, sizes, min, max,
                                  sequence->what, &own, count, error);
         else
             status = TN_LIMIT; /* not the last */

@@ -7,7 +7,7 @@
 #ifndef TARTAN_PLAN_LIBRARY_SEQUENCE_H
 #define TARTAN_PLAN_LIBRARY_SEQUENCE_H
 
-#include "runtime/plan/library/count.h"
+#include "runtime/plan/automata/count.h"
 
 typedef struct tn_sequence_clause {
     const tn_dfa *dfa;
@@ -48,10 +48,9 @@ tn_status tn_sequence_before(const tn_sequence *sequence, size_t number, tn_boun
 tn_status tn_sequence_apply(const tn_sequence *sequence, size_t from, tn_bounds *bounds, tn_sparse **base,
                             tn_error *error);
 
-/* How many plans of min..max trays of *base the clauses from a number on keep; *base is used up on the way. The last
- * automaton is counted and not made, in steps of its own bounds. */
-tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const tn_classes *classes, uint32_t min,
-                            uint32_t max, tn_bounds *bounds, const tn_bounds *last, tn_sparse **base, mpz_t count,
-                            tn_error *error);
+/* How many plans of min..max trays of *base the clauses from a number on keep; *base is used up on the way. sizes:
+ * trays of each letter (count.h). The last automaton is counted and not made, in steps of its own bounds. */
+tn_status tn_sequence_count(const tn_sequence *sequence, size_t from, const uint32_t *sizes, uint32_t min, uint32_t max,
+                            tn_bounds *bounds, const tn_bounds *last, tn_sparse **base, mpz_t count, tn_error *error);
 
 #endif

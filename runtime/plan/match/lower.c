@@ -3,9 +3,11 @@
 #include <stdlib.h>
 
 #include "runtime/module/code.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/match/marked.h"
 #include "runtime/plan/match/rules.h"
+#include "runtime/plan/match/summing.h"
+#include "runtime/plan/match/tray_relations.h"
 
 /* The forms in which a function may be needed: of the plan as a whole (PLAIN: over the classes), or as a relation (over
  * marked words); each as it is written or with the plan reversed. */
@@ -24,6 +26,9 @@ struct tn_lowering {
     const tn_classes *classes;
     tn_bounds bounds;
     tn_marked marked;
+    uint32_t max_trays;       /* of the plans that the automata are asked about; 0: not known */
+    uint8_t *local;           /* [FUNCTION records]: tn_summing_is_local's */
+    tn_sum **sums;            /* [SUM records], NULL where not met yet */
     uint64_t spent;           /* work on the rules before */
     const uint32_t *disabled; /* code offsets of instructions that give nothing */
     size_t disabled_count;
@@ -54,8 +59,10 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
     lowering->bounds = tn_bounds_make(max_states ? max_states : TN_STATES_DEFAULT);
     lowering->bounds.watch = lowering->module->watch;
     lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
-    tn_status status = lowering->lowered ? tn_marked_make(&lowering->marked, classes, &lowering->bounds, error)
-                                         : tn_fail_memory(error);
+    lowering->local = calloc(lowering->module->FUNCTION_count + 1, 1);
+    tn_status status = lowering->lowered && lowering->local
+                           ? tn_marked_make(&lowering->marked, classes->count, &lowering->bounds, error)
+                           : tn_fail_memory(error);
     if (status != TN_OK) {
         tn_lowering_free(lowering);
         return status;
@@ -72,9 +79,18 @@ void tn_lowering_free(tn_lowering *lowering)
         tn_dfa_free(lowering->lowered[i].dfa);
         free(lowering->lowered[i].error);
     }
+    for (size_t i = 0; lowering->sums && i < lowering->module->SUM_count; i++)
+        tn_sum_free(lowering->sums[i]);
+    free(lowering->sums);
+    free(lowering->local);
     free(lowering->lowered);
     tn_marked_clear(&lowering->marked);
     free(lowering);
+}
+
+void tn_lowering_within(tn_lowering *lowering, uint32_t max_trays)
+{
+    lowering->max_trays = max_trays;
 }
 
 void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count)
@@ -191,10 +207,11 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
                                 tn_dfa **out, tn_error *error)
 {
     const tn_marked *marked = &lowering->marked;
+    const tn_classes *classes = lowering->classes;
     uint32_t first = (uint32_t)node->code.first, second = (uint32_t)node->code.second;
     switch (node->code.opcode) {
     case TN_OP_TRAY:
-        return tn_marked_tray(marked, first, out, error);
+        return tn_relate_tray(marked, classes, first, out, error);
     case TN_OP_SOMEWHERE:
         return tn_marked_somewhere(marked, in[0], out, error);
     case TN_OP_NONEMPTY:
@@ -211,18 +228,67 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
     case TN_OP_MANY:
         return tn_marked_many(marked, in[0], out, error);
     case TN_OP_QUANTITY:
-        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
+        return tn_relate_count(marked, classes, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
     case TN_OP_SUM:
-        first -= lowering->classes->schema->record->field_first;
-        return tn_marked_count(marked, in[0], TN_TALLY_SINGLES, second, first, out, error);
+        first -= classes->schema->record->field_first;
+        return tn_relate_count(marked, classes, in[0], TN_TALLY_SINGLES, second, first, out, error);
     case TN_OP_OCCURRENCES:
-        return tn_marked_count(marked, in[0], reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS, first, TN_NO_FIELD, out,
-                               error);
+        return tn_relate_count(marked, classes, in[0], reversed ? TN_TALLY_ENDS : TN_TALLY_STARTS, first, TN_NO_FIELD,
+                               out, error);
     case TN_OP_DISTANCE:
         return tn_marked_distance(marked, in[0], in[1], in[2], reversed, out, error);
     default:
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "an instruction that makes no relation");
     }
+}
+
+static tn_status summed(tn_lowering *lowering, uint32_t index, const tn_sum **sum, tn_error *error)
+{
+    if (!lowering->sums && !(lowering->sums = calloc(lowering->module->SUM_count + 1, sizeof(tn_sum *))))
+        return tn_fail_memory(error);
+    tn_status status =
+        lowering->sums[index] ? TN_OK : tn_sum_new(lowering->classes->schema, index, &lowering->sums[index], error);
+    if (status == TN_OK)
+        *sum = lowering->sums[index];
+    return status;
+}
+
+/* Is the term's automaton needed, or does each tray decide alone? */
+static bool needs_part(const tn_lowering *lowering, const tn_term_record *term)
+{
+    return term->kind == TN_SUM_STARTS || !tn_summing_is_local(lowering->module, term->part, lowering->local);
+}
+
+static uint32_t part_wanted(const tn_term_record *term, uint32_t form)
+{
+    return term->part * FORM_COUNT + (form & FORM_REVERSED);
+}
+
+/* BELOW, ZERO, ABOVE: the parts are lowered. */
+static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa **out,
+                                  tn_error *error)
+{
+    const tn_sum *sum = NULL;
+    tn_status status = summed(lowering, (uint32_t)node->code.first, &sum, error);
+    if (status != TN_OK)
+        return status;
+    tn_dfa **parts = calloc((size_t)sum->count + 1, sizeof(tn_dfa *));
+    if (!parts)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < sum->count; i++) {
+        const tn_term_record *term = &lowering->module->TERM_records[sum->record->term_first + i];
+        if (needs_part(lowering, term))
+            parts[i] = lowering->lowered[part_wanted(term, form)].dfa;
+    }
+    status = tn_relate_sum(&lowering->marked, lowering->classes, sum, parts, form & FORM_REVERSED, node->code.opcode,
+                           lowering->max_trays, out, error);
+    free(parts);
+    return status;
+}
+
+static bool compares(tn_opcode opcode)
+{
+    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
 }
 
 static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa *const *in, tn_dfa **out,
@@ -248,7 +314,9 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
         break;
     }
     tn_dfa *relation = NULL;
-    tn_status status = lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
+    tn_status status = compares(node->code.opcode)
+                           ? lower_comparison(lowering, node, form, &relation, error)
+                           : lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
     if (status != TN_OK || !node->plain) {
         *out = relation;
         return status;
@@ -282,25 +350,46 @@ static tn_status lower_term(tn_lowering *lowering, tn_term *term, uint32_t form,
 
 /* ---- functions: callees first, on a stack of our own */
 
+static tn_status push_callee(const tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
+{
+    const tn_lowered *callee = &lowering->lowered[wanted];
+    if (callee->error) {
+        if (error)
+            *error = *callee->error;
+        return callee->error->status;
+    }
+    return callee->dfa || tn_key_push(pending, wanted) ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status push_parts(const tn_lowering *lowering, const tn_node *node, uint32_t form, tn_key *pending,
+                            tn_error *error)
+{
+    const tn_sum_record *sum = &lowering->module->SUM_records[node->code.first];
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < sum->term_count; i++) {
+        const tn_term_record *term = &lowering->module->TERM_records[sum->term_first + i];
+        if (needs_part(lowering, term))
+            status = push_callee(lowering, part_wanted(term, form), pending, error);
+    }
+    return status;
+}
+
 /* Pushes the callees that are not lowered yet. A callee that failed is reported. */
 static tn_status push_callees(tn_lowering *lowering, const tn_term *term, uint32_t form, tn_key *pending,
                               tn_error *error)
 {
-    for (size_t i = 0; i < term->count; i++) {
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < term->count; i++) {
         const tn_node *node = &term->nodes[i];
-        if (node->code.opcode != TN_OP_CALL && node->code.opcode != TN_OP_MIRROR)
-            continue;
         uint32_t wanted;
-        const tn_lowered *callee = called(lowering, node, form, &wanted);
-        if (callee->error) {
-            if (error)
-                *error = *callee->error;
-            return callee->error->status;
+        if (compares(node->code.opcode)) {
+            status = push_parts(lowering, node, form, pending, error);
+        } else if (node->code.opcode == TN_OP_CALL || node->code.opcode == TN_OP_MIRROR) {
+            called(lowering, node, form, &wanted);
+            status = push_callee(lowering, wanted, pending, error);
         }
-        if (!callee->dfa && !tn_key_push(pending, wanted))
-            return tn_fail_memory(error);
     }
-    return TN_OK;
+    return status;
 }
 
 /* Keeps a failure for the other callers, since it would only be found again. */
@@ -378,6 +467,11 @@ static tn_status lower_form(tn_lowering *lowering, uint32_t function, uint32_t f
 tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
 {
     return lower_form(lowering, function, FORM_PLAIN, out, error);
+}
+
+tn_status tn_lower_marked(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)
+{
+    return lower_form(lowering, function, 0, out, error);
 }
 
 tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error)

@@ -6,8 +6,7 @@
 #ifndef TARTAN_PLAN_MATCH_LOWER_H
 #define TARTAN_PLAN_MATCH_LOWER_H
 
-#include "runtime/plan/automata/dfa.h"
-#include "runtime/plan/match/marked.h"
+#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 
 typedef struct tn_lowering tn_lowering;
@@ -16,6 +15,10 @@ typedef struct tn_lowering tn_lowering;
  * lowered. */
 tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_lowering **lowering, tn_error *error);
 void tn_lowering_free(tn_lowering *lowering);
+
+/* The plans that the automata will be asked about have at most so many trays: comparisons of sums are made for these,
+ * and may be wrong of longer ones. Only before the first function is lowered. */
+void tn_lowering_within(tn_lowering *lowering, uint32_t max_trays);
 
 /* Makes what the instructions at these code offsets give the empty relation, for coverage. Only before the first
  * function is lowered; the offsets are borrowed. */
@@ -28,6 +31,9 @@ tn_status tn_lower(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_er
 
 /* The same of the function on the reversed plan: the plans whose reverse tn_lower's automaton accepts. */
 tn_status tn_lower_reversed(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
+
+/* The automaton (over the classes and the marker, see marked.h) of the relation of a function of M. */
+tn_status tn_lower_marked(tn_lowering *lowering, uint32_t function, tn_dfa **out, tn_error *error);
 
 /* The automata (over the classes and the marker, see marked.h) of the relations that the instruction at `offset`, one
  * of the function's that makes a relation, takes from the stack: parts has room for TN_OPERANDS_MAX. The caller frees

@@ -103,6 +103,14 @@ static bool same_place(const tn_module *module, uint32_t a, uint32_t b)
     return !x || !y || (x->file == y->file && x->begin == y->begin && x->end == y->end);
 }
 
+/* Does the instruction go on with a comparison? `a <= b` is "not above", `in A..B` is two of them joined: the author
+ * wrote all of it in one place. */
+static bool goes_on(const reading *r, const tn_part *part, uint32_t offset)
+{
+    return part->kind == TN_PART_COMPARISON && !part->somewhere && tn_module_place(r->module, offset) &&
+           same_place(r->module, part->root, offset);
+}
+
 /* A call and the mirrored call of the same function: symmetric. What it mirrors is a rule's, or a function of its own,
  * which nothing else calls: so there are never more parts than instructions. */
 static tn_status read_symmetric(reading *r, uint32_t offset, uint32_t length)
@@ -135,6 +143,14 @@ static tn_status read_joined(reading *r, tn_part_kind kind, uint32_t offset, uin
                    : foreign(r, offset);
     if (first->kind == TN_PART_KIND_COUNT || second->kind == TN_PART_KIND_COUNT)
         return foreign(r, offset);
+    if (goes_on(r, second, offset) && same_place(r->module, first->root, offset)) {
+        first->kind = TN_PART_COMPARISON;
+        first->first = TN_NO_PART;
+        first->child_count = 0;
+        extend(first, offset, length);
+        r->depth--;
+        return TN_OK;
+    }
     if (first->kind != kind || first->somewhere || !same_place(r->module, first->root, offset))
         return wrap(r, leaf(kind, offset, length), 2);
     extend(first, offset, length);
@@ -213,6 +229,10 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
     case TN_OP_OR:
         return read_joined(r, TN_PART_OR, offset, code->length);
     case TN_OP_NOT:
+        if (goes_on(r, top(r), offset)) {
+            extend(top(r), offset, code->length);
+            return TN_OK;
+        }
         return wrap(r, leaf(TN_PART_NOT, offset, code->length), 1);
     case TN_OP_SOMEWHERE:
         if (top(r)->somewhere)
@@ -237,6 +257,10 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
         return read_counted(r, TN_PART_OCCURRENCES, offset, code);
     case TN_OP_DISTANCE:
         return wrap(r, leaf(TN_PART_DISTANCE, offset, code->length), 3);
+    case TN_OP_BELOW:
+    case TN_OP_ZERO:
+    case TN_OP_ABOVE:
+        return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
     default:
         return foreign(r, offset);
     }
@@ -352,8 +376,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",      "rule",     "and", "or",          "not",  "neighbour",
-        "symmetric", "quantity", "sum", "occurrences", "many", "distance",
+        "tray",     "rule", "and",         "or",   "not",      "neighbour",  "symmetric",
+        "quantity", "sum",  "occurrences", "many", "distance", "comparison",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }

@@ -25,7 +25,8 @@ typedef enum tn_part_kind {
     TN_PART_SUM,
     TN_PART_OCCURRENCES,
     TN_PART_MANY,
-    TN_PART_DISTANCE, /* source, destination, separator */
+    TN_PART_DISTANCE,   /* source, destination, separator */
+    TN_PART_COMPARISON, /* of sums: a leaf, what it counts is not opened */
     TN_PART_KIND_COUNT
 } tn_part_kind;
 
@@ -37,7 +38,7 @@ typedef struct tn_part {
     bool optional;                 /* in a neighbour: may be left out */
     bool beginning, end;           /* neighbour: tied to the plan's */
     uint32_t spec;                 /* tray: SPEC record */
-    uint32_t rule;                 /* rule: RULE record */
+    uint32_t rule;                 /* rule: RULE record; UINT32_MAX for a call of a rule with parameters */
     uint32_t function;             /* rule: the function called */
     uint32_t condition;            /* quantity, sum, occurrences: condition function */
     uint32_t field;                /* sum: FIELD record */

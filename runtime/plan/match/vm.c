@@ -101,6 +101,8 @@ static uint64_t cost(const tn_plan_vm *vm, const tn_instruction *op)
         condition = (uint32_t)op->second;
         asked = rows * rows / 2 + rows;
     }
+    if (op->opcode == TN_OP_BELOW || op->opcode == TN_OP_ZERO || op->opcode == TN_OP_ABOVE)
+        return rows * rows / 2 + rows * vm->module->SUM_records[op->first].term_count * (vm->words + 1);
     if (condition == UINT32_MAX)
         return vm->relation_size;
     const tn_function_record *record = &vm->module->FUNCTION_records[condition];
@@ -122,7 +124,7 @@ static tn_status spend(tn_plan_vm *vm, const tn_instruction *op, uint32_t offset
     return TN_LIMIT;
 }
 
-static uint64_t *found_relation(tn_plan_vm *vm, const vm_memo *memo)
+static uint64_t *found_relation(const tn_plan_vm *vm, const vm_memo *memo)
 {
     return vm->found.words + memo->slot * vm->relation_size;
 }
@@ -171,6 +173,38 @@ static tn_status run_return(tn_plan_vm *vm, const vm_frame *frame, tn_error *err
     return TN_OK;
 }
 
+const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed)
+{
+    const vm_memo *memo = &vm->memos[2 * (size_t)function + reversed];
+    return is_found(vm, memo) ? found_relation(vm, memo) : NULL;
+}
+
+/* BELOW, ZERO, ABOVE: starts finding what the sum counts, to come back to this instruction, or compares. */
+static tn_status run_compare(tn_plan_vm *vm, vm_frame *frame, const tn_instruction *op, tn_error *error)
+{
+    const tn_sum *sum;
+    uint32_t function;
+    tn_status status = tn_plan_vm_summed(vm, (uint32_t)op->first, &sum, error);
+    if (status != TN_OK) {
+        error->code_offset = frame->offset;
+        return status;
+    }
+    bool reversed = frame->reversed;
+    if (tn_plan_vm_sum_needs(vm, sum, reversed, &function))
+        return add_frame(vm, function, reversed, error);
+    status = add_relation(vm, &vm->stack, error);
+    if (status != TN_OK)
+        return status;
+    tn_plan_vm_compare(vm, op->opcode, sum, vm->stack.words + (vm->stack.count - 1) * vm->relation_size, reversed);
+    frame->offset += op->length;
+    return TN_OK;
+}
+
+static bool compares(tn_opcode opcode)
+{
+    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
+}
+
 static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
 {
     vm_frame *frame = &vm->frames[vm->frame_count - 1];
@@ -180,6 +214,8 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
         return status;
     if (op.opcode == TN_OP_CALL || op.opcode == TN_OP_MIRROR)
         return run_call(vm, frame, &op, error);
+    if (compares(op.opcode))
+        return run_compare(vm, frame, &op, error);
     if (op.opcode == TN_OP_RETURN)
         return run_return(vm, frame, error);
 
@@ -244,6 +280,9 @@ void tn_plan_vm_free(tn_plan_vm *vm)
 {
     if (!vm)
         return;
+    for (size_t i = 0; vm->summed && i < vm->module->SUM_count; i++)
+        tn_sum_free(vm->summed[i]);
+    free(vm->summed);
     free(vm->memos);
     free(vm->found.words);
     free(vm->stack.words);

@@ -9,6 +9,8 @@
 #ifndef TARTAN_PLAN_MATCH_VM_H
 #define TARTAN_PLAN_MATCH_VM_H
 
+#include <gmp.h>
+
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_plan_vm tn_plan_vm;
@@ -38,5 +40,8 @@ tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, s
  * words each (relation.h), valid until the vm is used again. */
 tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end, bool reversed,
                           const uint64_t **relation, size_t *words, tn_error *error);
+
+/* The value of a SUM record on the plan, in nanometres to its power. `value` is initialised. */
+tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t sum, mpq_t value, tn_error *error);
 
 #endif

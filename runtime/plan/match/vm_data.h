@@ -4,6 +4,7 @@
 
 #include "runtime/module/code.h"
 #include "runtime/plan/match/vm.h"
+#include "runtime/plan/schema/sum.h"
 
 #define TN_VM_ROWS 4 /* of bits, that an operation needs beside its relations */
 
@@ -38,6 +39,7 @@ struct tn_plan_vm {
     size_t length;
     size_t words;         /* of a row */
     size_t relation_size; /* words of a relation */
+    tn_sum **summed;      /* [SUM records], NULL where not met yet */
     uint32_t generation;  /* of the plan; a memo of another one is void */
     vm_memo *memos;       /* [function][reversed] */
     vm_relations found;   /* relations of functions */
@@ -54,6 +56,18 @@ struct tn_plan_vm {
     int64_t *sums;   /* [N + 1] */
     uint8_t *truths; /* [N + 1] */
 };
+
+/* Whether any of the relations that a sum's terms count is still to be found: then *function is one (vm_sum.c). */
+bool tn_plan_vm_sum_needs(const tn_plan_vm *vm, const tn_sum *sum, bool reversed, uint32_t *function);
+
+/* BELOW, ZERO, ABOVE: writes the relation of the stretches on which the sum compares so. */
+void tn_plan_vm_compare(tn_plan_vm *vm, tn_opcode opcode, const tn_sum *sum, uint64_t *relation, bool reversed);
+
+/* The sum made ready, now or before. */
+tn_status tn_plan_vm_summed(tn_plan_vm *vm, uint32_t index, const tn_sum **sum, tn_error *error);
+
+/* The relation of a function that has been found for this plan (or its reverse), or NULL. */
+const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed);
 
 /* Runs an operation on the relations from `top` on, the last of the stack: any instruction but CALL, MIRROR and RETURN
  * (vm_operations.c). */

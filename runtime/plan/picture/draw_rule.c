@@ -19,19 +19,25 @@
 #define DISTANCE_SIDE 13.0 /* beside the sections: the arrows */
 #define GREY 0.45
 
+/* Is the part drawn as a tag with its words? */
+static bool is_named(const tn_part *it)
+{
+    return it->kind == TN_PART_RULE || it->kind == TN_PART_COMPARISON;
+}
+
 /* Is the part a distance's separator, whose condition stands on top of its section? */
 static bool is_separator(const tn_rule_picture *p, uint32_t part)
 {
     const tn_part *it = tn_rule_part(p, part);
     return it->parent != TN_NO_PART && tn_rule_part(p, it->parent)->kind == TN_PART_DISTANCE &&
-           it->next == TN_NO_PART && it->kind != TN_PART_RULE;
+           it->next == TN_NO_PART && !is_named(it);
 }
 
 /* A neighbour has a box of its own only where it is the whole rule ("the box and symbol are omitted", section 3.2). */
 static bool is_boxed(const tn_rule_picture *p, uint32_t part)
 {
     const tn_part *it = tn_rule_part(p, part);
-    return it->kind != TN_PART_TRAY && it->kind != TN_PART_RULE && !is_separator(p, part) &&
+    return it->kind != TN_PART_TRAY && !is_named(it) && !is_separator(p, part) &&
            (it->kind != TN_PART_NEIGHBOUR || it->parent == TN_NO_PART);
 }
 
@@ -78,7 +84,7 @@ static void measure_part(tn_rule_picture *p, uint32_t part)
     char text[TN_RULE_WORDS_MAX];
     if (it->kind == TN_PART_TRAY) {
         tn_draw_spec_measure(p->context, &p->roles, it->spec, &made->width, &made->height);
-    } else if (it->kind == TN_PART_RULE) {
+    } else if (is_named(it)) {
         char name[TN_PART_TEXT_MAX];
         tn_part_text(&p->parts, part, name, sizeof name);
         tn_type_face(p->context, TN_RULE_SIGN_SIZE, true);
@@ -222,6 +228,7 @@ static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, doubl
         tn_draw_spec(p->context, &p->roles, tn_rule_part(p, part)->spec, x, y, mirrored);
         break;
     case TN_PART_RULE:
+    case TN_PART_COMPARISON:
         draw_name(p, part, x, y, room);
         break;
     case TN_PART_NEIGHBOUR:

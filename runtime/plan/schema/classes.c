@@ -5,6 +5,7 @@
 
 #include "runtime/module/code.h"
 #include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/schema/sum.h"
 
 typedef struct tn_class_finder {
     const tn_schema *schema;
@@ -12,6 +13,7 @@ typedef struct tn_class_finder {
     uint8_t *seen_function; /* [FUNCTION records] */
     uint8_t *seen_spec;     /* [SPEC records] */
     uint8_t *seen_field;    /* [FIELD records] */
+    uint8_t *seen_sum;      /* [SUM records] */
     tn_key pending;         /* functions to read */
     uint64_t looked;        /* trays compared so far */
 } tn_class_finder;
@@ -72,6 +74,52 @@ static tn_status look_at_trays(tn_class_finder *finder, tn_error *error)
     return TN_LIMIT;
 }
 
+/* Splits every class by what its trays count in a term. */
+static bool split_by_weight(tn_class_finder *finder, const int64_t *weight)
+{
+    tn_classes *classes = finder->classes;
+    tn_numbering values = {0}, pairs = {0};
+    bool ok = true;
+    for (tn_tray t = 0; ok && t < finder->schema->tray_count; t++) {
+        uint32_t value = tn_number(&values, (uint64_t)weight[t]);
+        uint32_t pair = value == UINT32_MAX ? value : tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | value);
+        ok = pair != UINT32_MAX;
+        classes->of_tray[t] = pair;
+    }
+    if (finder->schema->tray_count > 0)
+        classes->count = pairs.count;
+    tn_numbering_clear(&values);
+    tn_numbering_clear(&pairs);
+    return ok;
+}
+
+static tn_status push_function(tn_class_finder *finder, uint32_t function, tn_error *error)
+{
+    if (finder->seen_function[function])
+        return TN_OK;
+    finder->seen_function[function] = 1;
+    return tn_key_push(&finder->pending, function) ? TN_OK : tn_fail_memory(error);
+}
+
+/* A sum's trays differ by what they count, and by its parts. */
+static tn_status visit_sum(tn_class_finder *finder, uint32_t index, tn_error *error)
+{
+    if (finder->seen_sum[index])
+        return TN_OK;
+    finder->seen_sum[index] = 1;
+    tn_sum *sum = NULL;
+    tn_status status = tn_sum_new(finder->schema, index, &sum, error);
+    for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
+        status = push_function(finder, sum->terms[i].part, error);
+        if (status == TN_OK && sum->terms[i].weight)
+            status = look_at_trays(finder, error);
+        if (status == TN_OK && sum->terms[i].weight && !split_by_weight(finder, sum->terms[i].weight))
+            status = tn_fail_memory(error);
+    }
+    tn_sum_free(sum);
+    return status;
+}
+
 static tn_status visit(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
 {
     uint32_t first = (uint32_t)instruction->first;
@@ -87,6 +135,10 @@ static tn_status visit(tn_class_finder *finder, const tn_instruction *instructio
     case TN_OP_SUM:
         seen = &finder->seen_field[first];
         break;
+    case TN_OP_BELOW:
+    case TN_OP_ZERO:
+    case TN_OP_ABOVE:
+        return visit_sum(finder, first, error);
     default:
         break;
     }
@@ -139,6 +191,12 @@ static bool finish(tn_classes *classes)
 tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **out,
                          tn_error *error)
 {
+    return tn_classes_with_sums(schema, functions, count, NULL, 0, out, error);
+}
+
+tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *functions, size_t count, const uint32_t *sums,
+                               size_t sum_count, tn_classes **out, tn_error *error)
+{
     const tn_module *module = schema->module;
     tn_classes *classes = calloc(1, sizeof *classes);
     if (!classes)
@@ -150,19 +208,21 @@ tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, siz
     finder.seen_function = calloc(module->FUNCTION_count + 1, 1);
     finder.seen_spec = calloc(module->SPEC_count + 1, 1);
     finder.seen_field = calloc(module->FIELD_count + 1, 1);
-    bool ok = classes->of_tray && finder.seen_function && finder.seen_spec && finder.seen_field;
-    for (size_t i = 0; ok && i < count; i++) {
-        if (finder.seen_function[functions[i]])
-            continue;
-        finder.seen_function[functions[i]] = 1;
-        ok = tn_key_push(&finder.pending, functions[i]);
-    }
-    tn_status status = ok ? find(&finder, error) : tn_fail_memory(error);
+    finder.seen_sum = calloc(module->SUM_count + 1, 1);
+    bool ok = classes->of_tray && finder.seen_function && finder.seen_spec && finder.seen_field && finder.seen_sum;
+    tn_status status = ok ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = push_function(&finder, functions[i], error);
+    for (size_t i = 0; status == TN_OK && i < sum_count; i++)
+        status = visit_sum(&finder, sums[i], error);
+    if (status == TN_OK)
+        status = find(&finder, error);
     if (status == TN_OK && !finish(classes))
         status = tn_fail_memory(error);
     free(finder.seen_function);
     free(finder.seen_spec);
     free(finder.seen_field);
+    free(finder.seen_sum);
     free(finder.pending.data);
     if (status != TN_OK) {
         tn_classes_free(classes);

@@ -19,6 +19,9 @@ typedef struct tn_classes {
  * TN_LIMIT (E0803) where trays times specifiers pass TN_CLASS_LOOKS_MAX. */
 tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **classes,
                          tn_error *error);
+/* The same where trays also differ by what they count in SUM records, and by their parts. */
+tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *functions, size_t count, const uint32_t *sums,
+                               size_t sum_count, tn_classes **classes, tn_error *error);
 void tn_classes_free(tn_classes *classes);
 
 #endif

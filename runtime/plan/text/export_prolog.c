@@ -292,10 +292,30 @@ static void put_part(writing *w, const tn_parts *parts, uint32_t function, uint3
     put(w, ", !.\n");
 }
 
+/* What the predicates of the prelude have no words for. */
+static tn_status check_parts(const tn_parts *parts, tn_error *error)
+{
+    for (uint32_t i = 0; i < parts->count; i++) {
+        const tn_part *part = &parts->parts[i];
+        bool call = part->kind == TN_PART_RULE && part->rule == UINT32_MAX;
+        if (!call && part->kind != TN_PART_COMPARISON)
+            continue;
+        tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "a rule with %s is not exported to Prolog",
+                                   call ? "a call of a rule with parameters" : "a comparison of sums");
+        tn_error_help(error, "it can be matched, explained, drawn and counted");
+        if (error)
+            error->code_offset = part->root;
+        return status;
+    }
+    return TN_OK;
+}
+
 static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 {
     tn_parts parts;
     tn_status status = tn_parts_read(w->module, function, &parts, error);
+    if (status == TN_OK)
+        status = check_parts(&parts, error);
     for (uint32_t part = 0; status == TN_OK && part < parts.count; part++)
         put_part(w, &parts, function, part);
     put(w, "\n");

@@ -41,7 +41,12 @@ static tn_status too_few(const tn_schema *schema, const tn_word *tray, uint32_t 
     tn_fail(error, TN_INVALID, E_PLAN_SYNTAX,
             "a tray has %u values, and this one ends after %u: there is none for %.60s", (unsigned)schema->field_count,
             (unsigned)found, tn_text(schema->module, schema->fields[found].name));
-    tn_error_help(error, "write the values in the schema's order: %s", tn_value_fields(schema, fields, sizeof fields));
+    tn_value_fields(schema, fields, sizeof fields);
+    if (schema->fields[found].kind == TN_FIELD_FLAG)
+        tn_error_help(error, "write - where a tray is not %.60s; the values in the schema's order: %s",
+                      tn_text(schema->module, schema->fields[found].name), fields);
+    else
+        tn_error_help(error, "write the values in the schema's order: %s", fields);
     return tn_word_refuse(tray, error);
 }
 

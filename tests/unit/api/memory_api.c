@@ -112,7 +112,7 @@ static void fails_cleanly(void **state)
                     break;
                 }
                 if (status == TARTAN_OK)
-                    continue; /* GMP's and OpenMP's own allocations, and what can do without */
+                    continue; /* GMP's own allocations, and threads that are done without */
                 if (status != TARTAN_MEMORY || !error.message[0])
                     fail_msg("operation %zu, allocation %zu: status %d, %s", i, number, (int)status, error.message);
                 failures++;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "compiler/plan/program.h"
+#include "compiler/plan/syntax/program.h"
 #include "runtime/load.h"
 #include "runtime/module/code.h"
 #include "tests/support/compile_file.h"

@@ -2,12 +2,13 @@
  * fro, in threads, where the room for answers is small, and where memory runs out. */
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
-#include <omp.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_library.h"
@@ -20,8 +21,8 @@ static tn_status describe(const test_library *made, tn_plan_memory *memory, char
 {
     tn_library *library = NULL;
     tn_plan_analysis *analysis = NULL;
-    const tn_library_options options = {.max_states = 2000, .memory = memory};
-    const tn_plan_analysis_options analysing = {.max_states = 2000, .memory = memory};
+    const tn_library_options options = {.max_states = 2000, .memory = memory, .threads = 1};
+    const tn_plan_analysis_options analysing = {.max_states = 2000, .memory = memory, .threads = 1};
     size_t used = 0;
     mpz_t out, only;
     mpz_inits(out, only, NULL);
@@ -85,24 +86,34 @@ static void little_room_is_enough(void **state)
     tn_plan_memory_free(memory);
 }
 
+typedef struct sharing {
+    tn_plan_memory *memory;
+    atomic_size_t wrong;
+} sharing;
+
+static void find_or_keep(void *context, uint32_t number)
+{
+    sharing *s = context;
+    uint64_t i = number, kept[2];
+    const tn_memory_key key = {i * i % 97, i % 3};
+    const uint64_t answer[2] = {key.low * 7, key.high};
+    if (!tn_plan_memory_find(s->memory, key, kept, sizeof kept))
+        tn_plan_memory_keep(s->memory, key, answer, sizeof answer);
+    else if (memcmp(kept, answer, sizeof kept) != 0)
+        s->wrong++;
+}
+
 static void threads_share_it(void **state)
 {
     (void)state;
-    size_t wrong = 0;
-    tn_plan_memory *memory = tn_plan_memory_new(4096);
-    assert_non_null(memory);
-#pragma omp parallel for num_threads(4) reduction(+ : wrong)
-    for (uint64_t i = 0; i < 20000; i++) {
-        const tn_memory_key key = {i * i % 97, i % 3};
-        const uint64_t answer[2] = {key.low * 7, key.high};
-        uint64_t kept[2];
-        if (tn_plan_memory_find(memory, key, kept, sizeof kept))
-            wrong += memcmp(kept, answer, sizeof kept) != 0;
-        else
-            tn_plan_memory_keep(memory, key, answer, sizeof answer);
-    }
-    assert_int_equal(wrong, 0);
-    tn_plan_memory_free(memory);
+    sharing s = {.memory = tn_plan_memory_new(4096)};
+    tn_crew *crew = tn_crew_new(4, NULL);
+    assert_non_null(s.memory);
+    assert_non_null(crew);
+    assert_int_equal(tn_crew_share(crew, 20000, find_or_keep, &s, NULL), TN_OK);
+    assert_int_equal(s.wrong, 0);
+    tn_crew_free(crew);
+    tn_plan_memory_free(s.memory);
 }
 
 static void another_size_is_another_answer(void **state)
@@ -150,7 +161,6 @@ static void memory_runs_out(void **state)
 
 int main(void)
 {
-    omp_set_num_threads(1); /* libgomp ends the program where it gets no memory for threads */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_give_what_they_would_give_first),
         cmocka_unit_test(little_room_is_enough),

@@ -8,7 +8,6 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/share.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/library/diff.h"
 #include "runtime/plan/match/rules.h"
@@ -118,7 +117,7 @@ static tn_status analyse(void *context, uint64_t *result, tn_error *error)
     tn_plan_analysis *analysis = NULL;
     tn_shown_plan examples[3] = {{0}};
     tn_status status =
-        tn_plan_analysis_new(made->schema, &(tn_plan_analysis_options){.max_states = 2000}, &analysis, error);
+        tn_plan_analysis_new(made->schema, &(tn_plan_analysis_options){.max_states = 2000, .threads = 1}, &analysis, error);
     if (status == TN_OK && tn_plan_analysis_rule_count(analysis) > 1)
         status = tn_plan_analysis_examples(analysis, 0, 1, examples, error);
     for (size_t i = 0; status == TN_OK && i < tn_plan_analysis_rule_count(analysis); i++)
@@ -187,7 +186,6 @@ static void memory_runs_out(void **state)
 
 int main(void)
 {
-    tn_threads_limit(1); /* allocations are numbered */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(comparing_runs_out_of_memory),

@@ -52,6 +52,62 @@ static void cut(void **state)
     tn_close(&opened);
 }
 
+static const char sums[] = "schema s { width = 4m | 8m  public = flag }\n"
+                           "rule few = not quantity(tray(public)) <= trays - 1\n"
+                           "rule spread = sum(width of tray(public)) in 8m..12m\n"
+                           "rule whole = 2 * matches(few) + trays != 4\n"
+                           "rule beside(a, b) = symmetric neighbour(a, b)\n"
+                           "rule pair = not beside(tray(public), tray(4m))\n";
+
+static void assert_part(const tn_parts *parts, uint32_t part, tn_part_kind kind, const char *text)
+{
+    char found[TN_PART_TEXT_MAX];
+    assert_true(part < parts->count);
+    assert_int_equal(parts->parts[part].kind, kind);
+    tn_part_text(parts, part, found, sizeof found);
+    assert_string_equal(found, text);
+}
+
+static void read_holds(const tn_module *module, const char *name, tn_parts *parts)
+{
+    tn_error error;
+    for (uint32_t i = 0; i < module->RULE_count; i++)
+        if (strcmp(tn_text(module, module->RULE_records[i].name), name) == 0) {
+            test_ok(tn_parts_read(module, module->RULE_records[i].holds, parts, &error), &error);
+            return;
+        }
+    fail_msg("no rule %s", name);
+}
+
+/* A comparison is one part, however many instructions it has; a call of a rule with parameters has its author's words.
+ */
+static void compared(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rule, *text;
+    } alone[] = {{"spread", "sum(width of tray(public)) in 8m..12m"}, {"whole", "2 * matches(few) + trays != 4"}};
+    tn_opened opened;
+    tn_parts parts;
+    assert_int_equal(tn_open_bytes("r.plan", (const uint8_t *)sums, strlen(sums), false, &opened), TN_OK);
+    for (size_t i = 0; i < sizeof alone / sizeof *alone; i++) {
+        read_holds(opened.module, alone[i].rule, &parts);
+        assert_int_equal(parts.count, 1);
+        assert_part(&parts, 0, TN_PART_COMPARISON, alone[i].text);
+        tn_parts_clear(&parts);
+    }
+    read_holds(opened.module, "few", &parts);
+    assert_int_equal(parts.count, 2);
+    assert_int_equal(parts.parts[0].kind, TN_PART_NOT);
+    assert_part(&parts, 1, TN_PART_COMPARISON, "quantity(tray(public)) <= trays - 1");
+    tn_parts_clear(&parts);
+    read_holds(opened.module, "pair", &parts);
+    assert_int_equal(parts.parts[0].kind, TN_PART_NOT);
+    assert_part(&parts, 1, TN_PART_RULE, "beside(tray(public), tray(4m))");
+    tn_parts_clear(&parts);
+    tn_close(&opened);
+}
+
 /* ---- code that no author can have written */
 
 /* A rule of one tray, and a condition n > 1. */
@@ -137,6 +193,7 @@ static void doubled(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cut), cmocka_unit_test(foreign), cmocka_unit_test(doubled)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cut), cmocka_unit_test(compared), cmocka_unit_test(foreign),
+                                       cmocka_unit_test(doubled)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

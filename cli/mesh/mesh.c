@@ -1,0 +1,369 @@
+/* tartan mesh: meshes a surface of a .field file, or a design of boxes of a .solid file. */
+#include "cli/mesh/mesh.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "compiler/notation.h"
+#include "runtime/mesh/openmesh.h"
+
+/* ---- the surface */
+
+static tn_status no_surface(const tn_opened *opened, const char *name, tn_error *error)
+{
+    const tn_module *module = opened->module;
+    if (module->SURFACE_count == 0) {
+        tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface and no design of boxes", opened->path);
+        const tn_notation *notation = tn_notation_of_module(module);
+        const char *help = "a .field file defines a surface: `surface ball = x*x + y*y + z*z - 1`";
+        bool field = notation && strcmp(notation->name, "field") == 0;
+        tn_error_help(error, "%s", field ? help : tn_opened_help(opened, help).text);
+        return TN_INVALID;
+    }
+    const char **names = calloc(module->SURFACE_count, sizeof *names);
+    if (!names)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < module->SURFACE_count; i++)
+        names[i] = tn_text(module, module->SURFACE_records[i].name);
+    const char *near = tn_nearest(name, names, module->SURFACE_count);
+    tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface `%.100s`", opened->path, name);
+    if (near) {
+        tn_error_help(error, "did you mean `%s`?", near);
+    } else {
+        char list[300];
+        tn_word_list(names, module->SURFACE_count, list, sizeof list);
+        tn_error_help(error, "it has %s", list);
+    }
+    free(names);
+    return TN_INVALID;
+}
+
+tn_status tn_open_field_of(tn_job *job, tn_open_field *open, tn_error *error)
+{
+    const tn_module *module = job->opened.module;
+    const char *name = tn_mesh_settings_of(job)->surface;
+    size_t surface = name ? 0 : module->SURFACE_count - 1;
+    while (name && surface < module->SURFACE_count &&
+           strcmp(tn_text(module, module->SURFACE_records[surface].name), name) != 0)
+        surface++;
+    if (surface >= module->SURFACE_count)
+        return no_surface(&job->opened, name, error);
+    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, job->opened.path, &open->meshes, error);
+    if (status == TN_OK)
+        status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
+    return status;
+}
+
+void tn_open_field_close(tn_open_field *open)
+{
+    tn_field_clear(&open->field);
+    tn_field_meshes_clear(&open->meshes);
+}
+
+/* ---- what there is to say */
+
+static void warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static void warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+{
+    char text[300];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    tn_diagnostic *d = tn_report_bare(tn_job_diagnostics(job), TN_WARNING, code, "%s", text);
+    tn_help(tn_job_diagnostics(job), d, "%s", help);
+}
+
+static void warn_of_cut(tn_job *job, const tn_contour *contour)
+{
+    static const char *const sides[] = {"low x", "high x", "low y", "high y", "low z", "high z"};
+    const char *cut[6];
+    char list[100];
+    size_t count = 0;
+    for (unsigned side = 0; side < 6; side++)
+        if (contour->cut >> side & 1)
+            cut[count++] = sides[side];
+    if (count == 0)
+        return;
+    tn_word_list(cut, count, list, sizeof list);
+    warn(job, W_FIELD_CUT, "take a larger box, if that is not meant", "the box cuts the form at %s", list);
+}
+
+static void warn_of_contour(tn_job *job, const tn_contour *c, const tn_mesh_measures *m)
+{
+    if (!c->inside)
+        warn(job, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside, at this grid");
+    else if (!c->outside)
+        warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
+             "all of the box is inside");
+    else
+        warn_of_cut(job, c);
+    if (c->no_values)
+        warn(job, W_FIELD_NO_VALUE, "what has no value is outside",
+             "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values, c->no_value[0],
+             c->no_value[1], c->no_value[2]);
+    if (c->jumps)
+        warn(job, W_FIELD_JUMPS, "there the mesh is a wall between samples; --jumps open leaves it out",
+             "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
+             c->jump[1], c->jump[2]);
+    if (m->small_parts)
+        warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
+             "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts, m->parts,
+             m->small_part[0], m->small_part[1], m->small_part[2]);
+}
+
+/* ---- writing */
+
+/* The formats of --format's words. */
+static const tn_out_format formats[] = {TN_OUT_NONE, TN_OUT_OBJ, TN_OUT_PLY,  TN_OUT_STL, TN_OUT_OFF,
+                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_DXF};
+#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|dxf"
+
+static tn_out_format format_of(const tn_mesh_settings *s)
+{
+    tn_out_format named = s->format ? formats[s->format] : tn_out_format_of(s->output);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (formats[i] == named)
+            return named;
+    return TN_OUT_NONE;
+}
+
+static bool check_format(tn_job *job, tn_out_format *format)
+{
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    *format = TN_OUT_NONE;
+    if (!s->output)
+        return true;
+    *format = format_of(s);
+    if (*format == TN_OUT_NONE) {
+        tn_diagnostic *d = tn_job_usage(job, "%s does not say which mesh is to be written", s->output);
+        tn_help(tn_job_diagnostics(job), d,
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf, or say --format");
+        return false;
+    }
+    bool normals = *format == TN_OUT_OBJ || *format == TN_OUT_PLY || *format == TN_OUT_GLB;
+    if ((s->normals && !normals) || (s->up && *format == TN_OUT_GLB)) {
+        tn_diagnostic *d =
+            tn_job_usage(job, "--%s does nothing for this kind of file", s->normals && !normals ? "normals" : "up");
+        tn_help(tn_job_diagnostics(job), d,
+                s->normals && !normals ? "only .obj, .ply and .glb hold normals of vertices"
+                                       : "a .glb has y up always");
+        return false;
+    }
+    if (s->exact && *format != TN_OUT_STL) {
+        tn_diagnostic *d = tn_job_usage(job, "--exact does nothing for this kind of file");
+        tn_help(tn_job_diagnostics(job), d, "only an .stl tells vertices by their places");
+        return false;
+    }
+    if (strcmp(s->output, "-") == 0 && s->stats) {
+        tn_job_usage(job, "standard output takes one thing only: name a file with -o");
+        return false;
+    }
+    return true;
+}
+
+/* Options that say something about fields only, or about designs of boxes only. */
+static bool check_use(tn_job *job)
+{
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    bool solid = job->opened.module->SOLID_count > 0;
+    const struct {
+        bool given, solid;
+        const char *name;
+    } uses[] = {
+        {s->surface != NULL, false, "surface"},
+        {s->grid.given, false, "grid"},
+        {s->points != NULL, false, "points"},
+        {s->open, false, "open"},
+        {s->jumps != 0, false, "jumps"},
+        {s->engine != 0, false, "engine"},
+        {s->max_samples.given, false, "max-samples"},
+        {s->max_triangles.given, false, "max-triangles"},
+        {s->threads.given, false, "threads"},
+        {s->solid != NULL, true, "solid"},
+        {s->cells, true, "cells"},
+        {s->exact, true, "exact"},
+        {s->max_boxes.given, true, "max-boxes"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || uses[i].solid == solid)
+            continue;
+        tn_diagnostic *d =
+            tn_job_usage(job, "--%s does nothing for %s", uses[i].name, solid ? "a design of boxes" : "a field");
+        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
+                solid ? "fields (.field)" : "designs of boxes (.solid)");
+        return false;
+    }
+    return true;
+}
+
+void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size)
+{
+    const tn_module *module = job->opened.module;
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    snprintf(note, size, "%.60s, rules %016" PRIx64 ", %.40s", tn_text(module, name),
+             producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
+}
+
+void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char *note)
+{
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_output output;
+    tn_error error;
+    tn_status status = tn_out_rework(&s->changes, format, mesh, &error);
+    if (status == TN_OK && tn_job_output(job, s->output, &output)) {
+        status = tn_out_mesh(mesh, format, s->normals, s->up == 1, note, output.stream, &error);
+        if (status == TN_OK)
+            tn_job_commit(job, &output);
+        else
+            tn_output_discard(&output);
+    }
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+}
+
+static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
+{
+    static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_mesh_stats stats = {
+        .what = "surface",
+        .name = tn_text(open->field.module, open->field.record->name),
+        .unit = units[open->field.record->unit],
+        .mesh = &c->mesh,
+        .measures = m,
+        .closed = !s->open && s->jumps != 1,
+        .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
+        .count_count = 3};
+    tn_mesh_stats_write(stdout, s->stats == 2, &stats);
+}
+
+static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_format format, tn_error *error)
+{
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_contour_options options = {.threads = (unsigned)s->threads.value,
+                                  .interpret = s->engine == 1,
+                                  .open = s->open,
+                                  .jumps_open = s->jumps == 1,
+                                  .samples = s->max_samples.value,
+                                  .triangles = s->max_triangles.value};
+    tn_field_grid grid = tn_field_grid_of(&open->field, (uint32_t)s->grid.value);
+    tn_contour contour;
+    tn_mesh_measures measures;
+    options.every_sample = options.interpret;
+    tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
+    if (status == TN_OK)
+        status = tn_mesh_measure(&contour.mesh, 2 * contour.spacing, &measures, error);
+    if (status == TN_OK) {
+        warn_of_contour(job, &contour, &measures);
+        if (s->stats || !s->output)
+            write_stats(job, open, &contour, &measures);
+        if (s->output) {
+            char note[240];
+            tn_mesh_note(job, open->field.record->name, note, sizeof note);
+            tn_mesh_write(job, &contour.mesh, format, note);
+        }
+    }
+    tn_contour_clear(&contour);
+    return status;
+}
+
+/* The surface, or --points. */
+static void answer_field(tn_job *job, tn_out_format format)
+{
+    tn_open_field open = {0};
+    tn_error error;
+    tn_status status = tn_open_field_of(job, &open, &error);
+    if (status == TN_OK && tn_mesh_settings_of(job)->points)
+        tn_mesh_points(job, &open);
+    else if (status == TN_OK)
+        status = mesh_field(job, &open, format, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_open_field_close(&open);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    tn_job job;
+    tn_out_format format;
+    tn_job_begin(&job, common);
+    if (check_format(&job, &format) && tn_job_open(&job, common->operands.items[0]) && check_use(&job)) {
+        if (job.opened.module->SOLID_count)
+            tn_job_mesh_solid(&job, format);
+        else
+            answer_field(&job, format);
+    }
+    return tn_job_end(&job);
+}
+
+#define SETTINGS tn_mesh_settings
+
+static const tn_option options[] = {
+    TEXT("output", 'o', "FILE", output,
+         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf; - is standard output"),
+    CHOICE("format", 'f', "FORMAT", format, FORMAT_WORDS, "what is written, where the name of FILE does not say it"),
+    TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
+    TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
+    FLAG("cells", 0, cells,
+         "of a design of boxes: each box closed by itself, as a group with its name, instead of one surface of all"),
+    FLAG("exact", 0, exact,
+         "of a design of boxes as .stl: leave vertices where they are, though some share a place; otherwise these move "
+         "into their own boxes by 0.00001 of the diagonal"),
+    NUMBER("grid", 'n', "N", grid, 2, 8192,
+           "samples on the longest side of the box (default: what the file says, or 50)"),
+    MAYBE("stats", 0, "[table|json]", stats, "table|json", "write what the mesh measures to standard output"),
+    TEXT("points", 0, "FILE", points,
+         "instead of meshing, write for each line x y z of FILE: the field, its gradient, and whether it is inside"),
+    FLAG("open", 0, open, "end the mesh at the box instead of closing it there"),
+    CHOICE("jumps", 0, "KIND", jumps, "closed|open",
+           "where the field jumps: closed (the default) makes a wall, open leaves it out"),
+    FLAG("normals", 0, normals, "write normals of the vertices (OBJ, PLY, GLB)"),
+    CHOICE("up", 0, "AXIS", up, "z|y",
+           "which axis points up in the file (default z; GLB is always y; designs of boxes are written with y up)"),
+    NUMBER("subdivide", 0, "N", changes.subdivide, 1, 8, "subdivide the finished mesh N times (Loop)"),
+    NUMBER("smooth", 0, "N", changes.smooth, 1, 10000, "smooth the finished mesh N times (Laplace; the outline stays)"),
+    NUMBER("decimate", 0, "FACES", changes.decimate, 1, UINT32_MAX,
+           "reduce the finished mesh to about FACES triangles"),
+    NUMBER("max-samples", 0, "N", max_samples, 8, 1ull << 36, "the most samples of a grid (default 2000000000)"),
+    NUMBER("max-triangles", 0, "N", max_triangles, 1, UINT32_MAX / 3,
+           "the most triangles of a mesh (default 100000000)"),
+    OPTION_MAX_BOXES(max_boxes),
+    CHOICE("engine", 0, "ENGINE", engine, "tape|vm",
+           "tape (the default) evaluates rows of samples and skips what is proven; vm interprets the code at every "
+           "sample: the same mesh, more slowly"),
+    OPTION_THREADS(threads),
+    OPTION_WERROR,
+};
+
+const tn_command tn_command_mesh = {
+    .name = "mesh",
+    .summary = "mesh an implicit surface or a design of boxes",
+    .usage = "FILE.field [--surface NAME] [--grid N] -o FILE.obj\nFILE.field --points FILE\n"
+             "FILE.solid [--solid NAME] [--cells] -o FILE.obj\nFILE --stats",
+    .description =
+        "Meshes the boundary of what is inside a surface: where its expression is below 0. The mesh is closed, its "
+        "triangles are counter-clockwise seen from outside, each edge has two of them, and none cross. What reaches "
+        "the box is closed there. Without -o the mesh is measured. The same input gives the same bytes at any number "
+        "of threads.\n"
+        "Of a design of boxes (.solid), boxes that overlap are squashed and clipped first, and the mesh is the closed "
+        "surface of them all. Boxes that touch only along an edge or at a corner come apart. As .scad, each box is a "
+        "polyhedron of a union for OpenSCAD.",
+    .example = "$ tartan mesh pebble.field -o pebble.obj\n"
+               "$ tartan mesh primitives --surface torus --grid 100 --stats\n"
+               "$ echo '1 0 0' | tartan mesh pebble.field --points -\n"
+               "$ tartan mesh table.solid -o table.obj",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer samples with --grid",
+    .operands = "one FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,63 @@
+/* Evaluates a field at the places that the lines of a file name. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/mesh/mesh.h"
+
+/* Three numbers and nothing else. The program's locale is C's. */
+static bool read_place(const char *line, double place[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        char *end;
+        line += strspn(line, " \t,");
+        place[axis] = strtod(line, &end);
+        if (end == line)
+            return false;
+        line = end;
+    }
+    return line[strspn(line, " \t\r\n")] == '\0';
+}
+
+static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double *registers)
+{
+    char line[1000];
+    double place[3], gradient[3];
+    const tn_field *field = &open->field;
+    for (unsigned long number = 1; fgets(line, sizeof line, in); number++) {
+        if (line[strspn(line, " \t\r\n")] == '\0')
+            continue;
+        if (!read_place(line, place)) {
+            tn_error error;
+            tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %lu of %.200s is not three numbers", number,
+                    tn_mesh_settings_of(job)->points);
+            tn_error_help(&error, "write x, y and z with blanks between them");
+            tn_job_fail(job, &error);
+            return;
+        }
+        double value = tn_tape_gradient(&field->samples, place, &field->distances, registers, gradient);
+        printf("%.17g %.17g %.17g %.17g %s\n", value, gradient[0], gradient[1], gradient[2],
+               value < 0 ? "inside" : "outside");
+    }
+}
+
+void tn_mesh_points(tn_job *job, const tn_open_field *open)
+{
+    const char *path = tn_mesh_settings_of(job)->points;
+    bool standard = strcmp(path, "-") == 0;
+    FILE *in = standard ? stdin : fopen(path, "r");
+    double *registers = calloc((size_t)open->field.samples.register_count * 4, sizeof *registers);
+    tn_error error;
+    if (!in) {
+        tn_fail(&error, TN_IO, E_CANNOT_READ, "cannot read %.200s: %s", path, strerror(errno));
+        tn_job_fail(job, &error);
+    } else if (!registers) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    } else {
+        write_lines(job, open, in, registers);
+    }
+    if (in && !standard)
+        fclose(in);
+    free(registers);
+}

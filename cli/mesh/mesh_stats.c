@@ -1,0 +1,75 @@
+/* Writes what a mesh measures: as a table, or as JSON. */
+#include <inttypes.h>
+#include <math.h>
+
+#include "cli/mesh/mesh.h"
+
+static void write_json(FILE *out, const tn_mesh_stats *s)
+{
+    const tn_mesh_measures *m = s->measures;
+    fprintf(out, "{\"%s\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"parts\": %u, ", s->what, s->name,
+            s->mesh->vertex_count, s->mesh->face_count, m->parts);
+    if (s->closed)
+        fprintf(out, "\"euler\": %" PRId64 ", \"volume\": %.17g, ", m->euler, m->volume);
+    fprintf(out, "\"area\": %.17g, ", m->area);
+    if (s->closed) {
+        fprintf(out, "\"centroid\": [%.17g, %.17g, %.17g], \"inertia\": [", m->centroid[0], m->centroid[1],
+                m->centroid[2]);
+        for (int i = 0; i < 3; i++)
+            fprintf(out, "%s[%.17g, %.17g, %.17g]", i ? ", " : "", m->inertia[i][0], m->inertia[i][1],
+                    m->inertia[i][2]);
+        fputs("], ", out);
+    }
+    fprintf(out, "\"bounds\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]]", m->low[0], m->low[1], m->low[2],
+            m->high[0], m->high[1], m->high[2]);
+    for (size_t i = 0; i < s->count_count; i++)
+        fprintf(out, ", \"%s\": %" PRIu64, s->counts[i].key, s->counts[i].count);
+    fputs("}\n", out);
+}
+
+static double largest(const double p[3], double most)
+{
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, fabs(p[k]));
+    return most;
+}
+
+/* What only rounding left, beside numbers as large as `scale`, is written as 0. */
+static void write_triple(FILE *out, const char *word, const double p[3], double scale)
+{
+    fputs(word, out);
+    for (int k = 0; k < 3; k++)
+        fprintf(out, " %.6g", fabs(p[k]) < 1e-12 * scale ? 0 : p[k]);
+    fputc('\n', out);
+}
+
+static void write_table(FILE *out, const tn_mesh_stats *s)
+{
+    const tn_mesh_measures *m = s->measures;
+    const char *space = *s->unit ? " " : "", *square = *s->unit ? "^2" : "", *cube = *s->unit ? "^3" : "";
+    fprintf(out, "%-9s  %s\n", s->what, s->name);
+    fprintf(out, "vertices   %zu\ntriangles  %zu\nparts      %u\n", s->mesh->vertex_count, s->mesh->face_count,
+            m->parts);
+    if (s->closed)
+        fprintf(out, "Euler      %" PRId64 "\nvolume     %.12g%s%s%s\n", m->euler, m->volume, space, s->unit, cube);
+    fprintf(out, "area       %.12g%s%s%s\n", m->area, space, s->unit, square);
+    if (s->closed) {
+        write_triple(out, "centroid  ", m->centroid, largest(m->low, largest(m->high, 0)));
+        for (int i = 0; i < 3; i++)
+            write_triple(out, i ? "          " : "inertia   ", m->inertia[i],
+                         largest(m->inertia[0], largest(m->inertia[1], largest(m->inertia[2], 0))));
+    }
+    fprintf(out, "bounds     %.6g %.6g %.6g to %.6g %.6g %.6g\n", m->low[0], m->low[1], m->low[2], m->high[0],
+            m->high[1], m->high[2]);
+    for (size_t i = 0; i < s->count_count; i++)
+        if (!s->counts[i].json_only)
+            fprintf(out, "%-9s  %" PRIu64 "\n", s->counts[i].key, s->counts[i].count);
+}
+
+void tn_mesh_stats_write(FILE *out, bool json, const tn_mesh_stats *stats)
+{
+    if (json)
+        write_json(out, stats);
+    else
+        write_table(out, stats);
+}

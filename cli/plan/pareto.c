@@ -1,0 +1,174 @@
+/* tartan pareto: what can be had by two or three measures at once. */
+#include <jansson.h>
+#include <stdlib.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/plan/wishes.h"
+#include "driver/open/digits.h"
+#include "runtime/plan/measure/pareto.h"
+#include "runtime/plan/text/text.h"
+
+typedef struct pareto_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_option_list wanted; /* wishes */
+    bool json;
+    const char *output;
+} pareto_settings;
+
+static const pareto_settings *settings_of(const tn_job *job)
+{
+    return (const pareto_settings *)job->settings;
+}
+
+typedef struct paper {
+    const tn_ready_library *ready;
+    const tn_wishes *wishes;
+    const tn_weighed *weighed;
+    const tn_pareto_front *front;
+} paper;
+
+static const char *measure_name(const paper *p, uint32_t k)
+{
+    const tn_module *module = p->ready->schema->module;
+    return tn_text(module, module->MEASURE_records[p->wishes->measures[k]].name);
+}
+
+static json_t *point_json(const paper *p, const tn_pareto_point *point, bool *ok)
+{
+    json_t *item = json_object(), *values = json_array();
+    for (uint32_t k = 0; k < p->wishes->count; k++) {
+        tn_buffer text = {0};
+        *ok = *ok && tn_wishes_exact(p->wishes, p->weighed, k, point->values[k], &text);
+        json_array_append_new(values, json_string(text.data ? text.data : ""));
+        free(text.data);
+    }
+    tn_buffer line = {0};
+    mpz_t rank;
+    mpz_init(rank);
+    *ok = *ok && tn_library_rank(p->ready->library, point->trays, point->length, rank) &&
+          tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
+    char *plans = tn_digits(point->plans, false), *digits = tn_digits(rank, false);
+    json_object_set_new(item, "values", values);
+    json_object_set_new(item, "plans", json_string(plans ? plans : ""));
+    json_object_set_new(item, "rank", json_string(digits ? digits : ""));
+    json_object_set_new(item, "plan", json_string(line.data ? line.data : ""));
+    free(plans);
+    free(digits);
+    free(line.data);
+    mpz_clear(rank);
+    return item;
+}
+
+static bool write_json(const paper *p, FILE *out)
+{
+    json_t *root = json_object(), *names = json_array(), *points = json_array();
+    bool ok = true;
+    for (uint32_t k = 0; k < p->wishes->count; k++)
+        json_array_append_new(names, json_string(measure_name(p, k)));
+    for (size_t i = 0; i < p->front->count; i++)
+        json_array_append_new(points, point_json(p, &p->front->points[i], &ok));
+    json_object_set_new(root, "measures", names);
+    json_object_set_new(root, "points", points);
+    json_dumpf(root, out, JSON_INDENT(2));
+    fputc('\n', out);
+    json_decref(root);
+    return ok;
+}
+
+static bool write_text(const paper *p, FILE *out)
+{
+    bool ok = true;
+    for (uint32_t k = 0; k < p->wishes->count; k++)
+        fprintf(out, "%18s", measure_name(p, k));
+    fprintf(out, "  %20s  %s\n", "plans", "the first of them");
+    for (size_t i = 0; ok && i < p->front->count; i++) {
+        const tn_pareto_point *point = &p->front->points[i];
+        tn_buffer line = {0};
+        for (uint32_t k = 0; ok && k < p->wishes->count; k++) {
+            tn_buffer text = {0};
+            ok = tn_wishes_text(p->wishes, p->weighed, k, point->values[k], &text);
+            fprintf(out, "%18s", text.data ? text.data : "");
+            free(text.data);
+        }
+        char *plans = tn_digits(point->plans, true);
+        ok = ok && tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
+        fprintf(out, "  %20s  %s\n", plans ? plans : "", line.data ? line.data : "");
+        free(plans);
+        free(line.data);
+    }
+    return ok;
+}
+
+static void find_front(tn_job *job, const tn_ready_library *ready)
+{
+    tn_wishes wishes;
+    tn_weighed *weighed = NULL;
+    tn_pareto_front front = {0};
+    tn_error error;
+    tn_output output;
+    if (!tn_wishes_read(job, ready, &settings_of(job)->wanted, 2, &wishes))
+        return;
+    tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
+    if (status == TN_OK)
+        status = tn_pareto_make(&front, weighed, wishes.most, &error);
+    paper p = {ready, &wishes, weighed, &front};
+    tn_job_show(job);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
+        if (!(settings_of(job)->json ? write_json : write_text)(&p, output.stream)) {
+            tn_fail_memory(&error);
+            tn_job_fail(job, &error);
+        }
+        tn_job_commit(job, &output);
+    }
+    tn_pareto_clear(&front);
+    tn_weighed_free(weighed);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    const pareto_settings *settings = (const pareto_settings *)common;
+    tn_job job;
+    tn_ready_library ready = {0};
+    tn_job_begin(&job, common);
+    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+        find_front(&job, &ready);
+    tn_library_close(&ready);
+    return tn_job_end(&job);
+}
+
+#define SETTINGS pareto_settings
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    OPTION_WHERE,
+    WISH("least", wanted, "the less of MEASURE the better"),
+    WISH("most", wanted, "the more of MEASURE the better"),
+    FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
+    OPTION_OUTPUT,
+    OPTION_TRAYS,
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS(plans.threads),
+};
+
+const tn_command tn_command_pareto = {
+    .name = "pareto",
+    .summary = "show what can be had by two or three measures at once",
+    .usage = "FILE --least MEASURE --most MEASURE [--least MEASURE] [--json]",
+    .description =
+        "Lists the front of the library: the values that no plan betters in one measure without losing in another, "
+        "best "
+        "first by the measures in the order named, with how many plans have them and the first of these by rank. It is "
+        "found from the library's automaton, exactly; no plan is listed.",
+    .example = "$ tartan pareto lahave-houses --least cost --most area",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .operands = "a FILE",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,25 @@
+/* What `best` and `pareto` are told to make small or great: measures in their order. */
+#ifndef TARTAN_CLI_PLAN_WISHES_H
+#define TARTAN_CLI_PLAN_WISHES_H
+
+#include "cli/plan/library_job.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/weighed.h"
+
+typedef struct tn_wishes {
+    uint32_t count;
+    uint32_t measures[TN_WEIGHED_MAX]; /* MEASURE records */
+    bool most[TN_WEIGHED_MAX];
+    tn_amount_unit unit[TN_WEIGHED_MAX];
+} tn_wishes;
+
+/* Reads the options, which have added to `list`; `least` of them are needed. false where one is wrong: then reported.
+ */
+bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_list *list, uint32_t least,
+                    tn_wishes *wishes);
+
+/* Appends the value of measure k: "p/q" in its unit, or for people. */
+bool tn_wishes_exact(const tn_wishes *wishes, const tn_weighed *weighed, uint32_t k, int64_t steps, tn_buffer *out);
+bool tn_wishes_text(const tn_wishes *wishes, const tn_weighed *weighed, uint32_t k, int64_t steps, tn_buffer *out);
+
+#endif

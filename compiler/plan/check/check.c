@@ -1,0 +1,104 @@
+#include "compiler/plan/check/check.h"
+
+#include "compiler/plan/check/expand.h"
+
+/* What everything else needs to know of the rules: which schema they are for. */
+static void find_schemas(tn_check *check)
+{
+    tn_checked *result = check->result;
+    for (size_t i = 0; i < result->rule_count; i++) {
+        tn_checked_rule *rule = result->rules[i];
+        rule->schema = tn_check_schema_for(check, rule->unit, rule->ast->using, rule->ast->name->node.span);
+    }
+    for (size_t i = 0; i < check->template_count; i++) {
+        tn_checked_rule *rule = check->templates[i];
+        rule->schema = tn_check_schema_for(check, rule->unit, rule->ast->using, rule->ast->name->node.span);
+        tn_check_parameters(check, rule);
+    }
+}
+
+/* What is wrong inside a call is said once, with the call. */
+static void note_call(tn_check *check, tn_checked_rule *rule, size_t errors)
+{
+    tn_diagnostics *diagnostics = check->diagnostics;
+    if (!rule->call || diagnostics->error_count == errors || diagnostics->count == 0)
+        return;
+    tn_span place = rule->call->node.span;
+    tn_note(diagnostics, &diagnostics->items[diagnostics->count - 1], &place, "%s",
+            rule->of->is_template ? "it is called here" : "it is used here");
+    rule->of->failed = true;
+}
+
+static void check_rule(tn_check *check, tn_checked_rule *rule)
+{
+    check->unit = rule->unit;
+    check->rule = rule;
+    check->allow = rule->ast->allow;
+    check->schema = rule->schema;
+    if (rule->hidden && rule->of->failed) {
+        rule->ast->body->kind = TN_EXPR_BROKEN;
+        return;
+    }
+    size_t errors = check->diagnostics->error_count;
+    if (!rule->hidden) {
+        tn_check_allow(check, rule->ast->allow);
+        tn_expand(check, &rule->ast->body);
+    }
+    if (rule->is_measure)
+        tn_check_sum_expr(check, rule->ast->body);
+    else
+        tn_check_expr(check, rule->ast->body);
+    note_call(check, rule, errors);
+}
+
+/* What needs callees to be checked before their callers. */
+static void check_meaning(tn_check *check, tn_checked_rule *rule)
+{
+    check->unit = rule->unit;
+    check->rule = rule;
+    check->schema = rule->schema;
+    check->allow = rule->ast->allow;
+    tn_ast_expr *body = rule->ast->body;
+    size_t errors = check->diagnostics->error_count;
+    rule->meaning = body->kind != TN_EXPR_NAME ? body : body->rule ? body->rule->meaning : NULL;
+    rule->min_trays = tn_min_trays(body);
+    tn_check_meaning(check, body);
+    if (rule->is_measure)
+        tn_check_plan_measure(check, rule);
+    rule->about_plan = tn_check_whole(check, body) && !rule->is_measure;
+    tn_check_warnings(check, body);
+    note_call(check, rule, errors);
+}
+
+void tn_check_settle(tn_check *check)
+{
+    tn_checked *result = check->result;
+    size_t ordered = result->ordered;
+    for (; result->rule_count > result->settled && !tn_arena_failed(check->arena); result->settled++)
+        check_rule(check, result->rules[result->settled]);
+    tn_check_order(check);
+    for (size_t i = ordered; i < result->ordered; i++)
+        check_meaning(check, result->order[i]);
+}
+
+tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                           const tn_asked_for *asked, tn_checked *result)
+{
+    tn_check check = {.arena = arena, .diagnostics = diagnostics, .imports = imports, .asked = asked, .result = result};
+    check.schemas.arena = check.names.arena = check.specs.arena = check.conditions.arena = check.calls.arena = arena;
+    *result = (tn_checked){0};
+    tn_check_collect(&check);
+    if (tn_arena_failed(arena))
+        return TN_MEMORY;
+    for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
+        tn_check_schema(&check, result->schemas[i]);
+    for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
+        tn_check_forbids(&check, result->schemas[i]);
+    for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
+        tn_check_numbers(&check, result->schemas[i]);
+    static void (*const steps[])(tn_check *) = {find_schemas,   tn_check_settle, tn_check_libraries, tn_check_forms,
+                                                tn_check_asked, tn_check_tests,  tn_check_allowances};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
+        steps[i](&check);
+    return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;
+}

@@ -1,0 +1,346 @@
+/* Checking: from syntax trees to what the emitter needs, with every name resolved. Internal to check_*.c and emit_*.c.
+ *
+ * Everything lives in the compilation's arena and borrows the syntax trees.
+ */
+#ifndef TARTAN_COMPILER_PLAN_CHECK_CHECK_H
+#define TARTAN_COMPILER_PLAN_CHECK_CHECK_H
+
+#include "compiler/common/compilation.h"
+#include "compiler/common/import.h"
+#include "compiler/common/names.h"
+#include "compiler/plan/syntax/ast.h"
+#include "runtime/module/module.h"
+#include "runtime/module/opcodes.h"
+
+#define TN_NONE UINT32_MAX
+#define TN_NUMBER_CASES_MAX 256  /* of a number of a tray */
+#define TN_EXPANSIONS_MAX 10000u /* of calls and quantifiers, over all files */
+
+typedef struct tn_checked_value {
+    const char *name, *spelling, *measure, *doc; /* as in a VALUE record; doc may be NULL */
+    tn_fill_role role;
+    int64_t length;
+    bool has_depth; /* of a zone's fill */
+    tn_span span;
+} tn_checked_value;
+
+typedef struct tn_checked_field {
+    const tn_ast_field *ast;
+    const char *name, *doc;
+    tn_field_kind kind;
+    tn_field_role role;
+    tn_checked_value *values;
+    uint32_t value_count;
+    uint32_t first_bit; /* of its values in the schema's masks */
+} tn_checked_field;
+
+typedef struct tn_checked_spec {
+    struct tn_checked_schema *schema;
+    uint64_t *mask; /* schema->words; a bit per value */
+    tn_span span;
+    const char *key; /* equal for equal masks of one schema */
+    uint32_t index;  /* emitted: of its record */
+    bool broken;     /* already reported */
+} tn_checked_spec;
+
+/* A number of a tray: its cases in order, the first that fits counts. */
+typedef struct tn_checked_number {
+    const tn_ast_number *ast;
+    const char *name, *doc;
+    int power;
+    tn_checked_spec **specs; /* of each case */
+    bool broken;
+} tn_checked_number;
+
+typedef struct tn_checked_schema {
+    const tn_ast_schema *ast;
+    const char *name, *doc;
+    size_t unit;
+    tn_checked_field *fields;
+    uint32_t field_count;
+    uint32_t value_count, words; /* over all fields; 64-bit words of a mask */
+    uint32_t length_field;       /* the first of kind length, or TN_NONE */
+    tn_checked_spec **forbids;
+    uint32_t forbid_count;
+    tn_checked_number *numbers;
+    uint32_t number_count;
+    int state;
+    bool broken;          /* something of it was already reported */
+    uint32_t index;       /* of its record */
+    uint32_t field_first; /* emitted: of its first FIELD record */
+} tn_checked_schema;
+
+/* One instruction of a condition. */
+typedef struct tn_condition_step {
+    tn_opcode opcode;
+    int64_t first, second;
+    tn_span span;
+} tn_condition_step;
+
+typedef struct tn_checked_condition {
+    tn_condition_step *steps; /* in postfix order, without ANSWER */
+    size_t count, capacity;
+    tn_span span;
+    bool broken;
+    uint32_t function; /* emitted: its function plus one; 0: not yet */
+} tn_checked_condition;
+
+typedef enum tn_term_kind {
+    TN_TERM_SINGLES = TN_SUM_SINGLES, /* trays that the part fits, each with what its figure says (1 without one) */
+    TN_TERM_STARTS = TN_SUM_STARTS,   /* places where the part starts */
+    TN_TERM_MATCHES = TN_SUM_MATCHES, /* 1 where the plan as a whole is matched */
+} tn_term_kind;
+
+typedef struct tn_checked_term {
+    tn_term_kind kind;
+    const char *factor; /* "p/q", in nanometres */
+    tn_ast_expr *part;  /* what is counted; an expression whose specifier is the part, for TRAYS and SUM without one */
+    struct tn_checked_rule *rule; /* the part is this rule's name */
+    tn_ast_expr *figure;
+} tn_checked_term;
+
+typedef struct tn_checked_sum {
+    struct tn_checked_schema *schema;
+    tn_checked_term *terms;
+    size_t count;
+    const char *constant;
+    int power;
+    bool any;   /* 0: of any dimension */
+    bool whole; /* has `matches` */
+    tn_span span;
+    uint32_t index; /* emitted: of its SUM record */
+} tn_checked_sum;
+
+typedef struct tn_checked_rule {
+    tn_ast_rule *ast;
+    const char *name;
+    size_t unit;
+    tn_checked_schema *schema; /* NULL: already reported */
+    tn_ast_expr *meaning;      /* the body, through names: not a TN_EXPR_NAME; NULL where names go round */
+    uint32_t min_trays;        /* what its body fits takes at least so many */
+    struct tn_checked_rule **uses;
+    tn_ast_expr **use_places;
+    size_t use_count, use_capacity;
+    int state; /* of ordering */
+    size_t next_use;
+    bool is_measure;
+    const struct tn_checked_rule *outer; /* while it is being written out: the call that it stands in */
+    tn_ast_expr *written;                /* the body before anything was written out */
+    bool is_template;                    /* has parameters: only calls of it mean something */
+    bool is_let;
+    bool hidden;                  /* made of a call: it has no record of its own */
+    bool about_plan;              /* has a comparison that speaks of the whole plan */
+    bool failed;                  /* of a template: a call of it was wrong inside */
+    const tn_ast_expr *call;      /* what a hidden rule was made for first, or NULL */
+    struct tn_checked_rule *of;   /* the template that a hidden rule was made of */
+    tn_checked_sum *sum;          /* of a measure; NULL: already reported */
+    uint32_t serial;              /* among all that is checked as rules are */
+    uint32_t index, whole, holds; /* emitted: of its record and functions */
+} tn_checked_rule;
+
+typedef struct tn_checked_clause {
+    const tn_ast_clause *ast;
+    tn_clause_kind kind;
+    const char *name, *doc;
+    tn_ast_expr *expr;
+    tn_checked_rule *rule;           /* the clause is this rule's */
+    tn_checked_condition *condition; /* total */
+    tn_checked_spec *any;            /* total */
+    uint32_t field;                  /* total */
+    tn_span span;
+    uint32_t function; /* emitted: plus one; 0: not yet */
+} tn_checked_clause;
+
+typedef struct tn_checked_library {
+    const tn_ast_library *ast;
+    const char *name;
+    size_t unit;
+    tn_checked_schema *schema; /* NULL: already reported */
+    struct tn_checked_library *from;
+    tn_checked_clause **clauses;
+    size_t clause_count, clause_capacity;
+    tn_names clause_names;      /* name -> tn_checked_clause */
+    const tn_ast_clause *trays; /* its own, or taken over */
+    uint32_t trays_min, trays_max;
+    tn_ast_list allow;
+    int state;
+    bool broken; /* what it is made from is not known */
+    uint32_t index;
+} tn_checked_library;
+
+/* What a rule's or library's name means: exactly one of the two. */
+typedef struct tn_checked_name {
+    tn_checked_rule *rule;
+    tn_checked_library *library;
+    tn_span span;
+    size_t unit;
+} tn_checked_name;
+
+typedef struct tn_checked {
+    tn_checked_schema **schemas;
+    size_t schema_count;
+    tn_checked_rule **rules;         /* in file order, imported files first */
+    tn_checked_rule **order;         /* callees first */
+    size_t records, measure_records; /* of rules and measures so far */
+    size_t rule_count, rule_capacity, ordered, settled;
+    tn_checked_library **libraries;
+    size_t library_count;
+    struct tn_checked_form **forms;
+    size_t form_count;
+    tn_program *program;
+    tn_checked_library *asked; /* the library that the command line is about; NULL: not clear */
+    tn_ast_expr **pattern;     /* an open plan's trays: each a rule expression, a gap NULL */
+    size_t pattern_count;
+} tn_checked;
+
+/* Expressions that the command line gives: parsed. */
+typedef struct tn_asked_for {
+    const char *library; /* or NULL */
+    tn_ast_expr **wheres;
+    size_t where_count;
+    tn_ast_list pattern;
+    tn_span pattern_span;
+    bool has_pattern;
+} tn_asked_for;
+
+typedef struct tn_check {
+    tn_arena *arena;
+    tn_diagnostics *diagnostics;
+    const tn_imports *imports;
+    const tn_asked_for *asked;
+    tn_checked *result;
+    tn_names schemas;     /* name -> tn_checked_schema */
+    tn_names names;       /* name -> tn_checked_name */
+    tn_names specs;       /* key -> tn_checked_spec */
+    tn_names conditions;  /* key -> tn_checked_condition */
+    bool incomplete;      /* names may be missing because of errors already reported */
+    bool skipped;         /* clauses may be missing because of errors already reported */
+    bool *no_schema_said; /* per unit */
+    bool too_many_said;
+    tn_names calls;  /* key -> tn_checked_rule made of a call */
+    size_t expanded; /* calls and values of quantifiers written out so far */
+    bool has_lets;
+    tn_checked_rule **templates; /* rules with parameters */
+    size_t template_count;
+    const tn_checked_rule *open; /* the call that is being written out, or NULL */
+
+    /* of the rule or library being checked */
+    size_t unit;
+    tn_checked_schema *schema;
+    tn_checked_rule *rule; /* NULL in a library */
+    tn_ast_list allow;
+} tn_check;
+
+/* Checks everything. TN_MEMORY, else TN_OK: errors are in the diagnostics. */
+tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                           const tn_asked_for *asked, tn_checked *result);
+
+/* ---- names.c */
+typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want; /* RULE: or a measure */
+void tn_check_collect(tn_check *check); /* makes the lists and tables of schemas, rules, libraries */
+/* Is there room for one more than `count`? The first time that there is none is reported (E0831). */
+bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span, const char *help);
+tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_ast_word *using,
+                                       tn_span place);                                        /* NULL: reported */
+const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, tn_want want); /* NULL: reported */
+const tn_checked_name *tn_check_call_name(tn_check *check,
+                                          const tn_ast_expr *call); /* the rule called; NULL: reported */
+bool tn_check_grow_rules(tn_check *check);                          /* room for one more */
+/* Is the word that a parameter or quantifier binds none that means something already? */
+bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word, bool bound);
+void tn_check_allow(tn_check *check,
+                    tn_ast_list codes);    /* resolves the words of an `allow`: value is the tn_code, 0 where wrong */
+void tn_check_allowances(tn_check *check); /* collects all of them for the program */
+bool tn_check_wanted(const tn_check *check, tn_code warning); /* is it not allowed in what is being checked? */
+
+/* ---- schema.c */
+void tn_check_schema(tn_check *check, tn_checked_schema *schema);
+void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
+
+/* ---- values.c: fields and values by name, and in words */
+uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);
+bool tn_field_has(const tn_checked_field *field, const char *name); /* a choice's value or a zone's fill of that name */
+/* The one field that has the value; TN_NONE where none or several have: then reported, unless the schema is broken. */
+uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
+void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
+/* A value that the field does not have: E0303. */
+void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
+void tn_report_unit(tn_check *check, const tn_ast_word *number); /* E0008 */
+bool tn_word_is(const tn_ast_word *word, const char *text);      /* case does not count */
+
+/* ---- spec.c */
+tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
+/* One alternative of an item, from `first` on, for whoever puts items together in another way: the trays that meet it.
+ * `context`: the field and fill of the alternatives before it in the item (field TN_NONE: none). NULL: reported. */
+typedef struct tn_item_context {
+    uint32_t field;
+    const char *fill;
+} tn_item_context;
+tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema, const tn_ast_word *first,
+                                      tn_span span, tn_item_context *context);
+tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span);
+
+/* ---- condition.c */
+/* `field`: whose lengths are added, or TN_NONE for a count. */
+tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field);
+/* The condition of a `total`. */
+tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *clause, uint32_t field);
+bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths); /* false: reported */
+
+/* ---- analysis.c: always, never, remainders that cannot be */
+void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field);
+
+/* ---- rule.c */
+/* Is the word after the field of a sum or total `depth`, and the field a zone? NULL is good. */
+bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail);
+void tn_check_expr(tn_check *check, tn_ast_expr *expr);       /* names, specifiers, conditions, what may stand where */
+void tn_check_expr_known(tn_check *check, tn_ast_expr *expr); /* the same where a name in its place is resolved */
+void tn_check_expr_name(tn_check *check, tn_ast_expr *expr);  /* finds what a name means, once */
+void tn_check_meaning(tn_check *check, tn_ast_expr *expr);    /* what needs the rules that it names to be in order */
+uint32_t tn_min_trays(const tn_ast_expr *expr);               /* a lower bound of what it fits */
+
+/* ---- sum.c */
+bool tn_is_sum(const tn_ast_expr *expr); /* is it a number, not a rule? Names are to be resolved */
+void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr);
+tn_checked_sum *tn_check_sum(tn_check *check, tn_ast_expr *expr); /* NULL: reported */
+void tn_check_comparison(tn_check *check, tn_ast_expr *expr);     /* makes its sums; what it names is checked */
+void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure);
+
+/* ---- comparison.c */
+void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);     /* makes comparisons of a sum's condition */
+void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray); /* takes the items about numbers out: `tests` */
+
+/* ---- whole.c */
+/* Comparisons with `matches` stand only where the plan as a whole is meant. Is one in it? */
+bool tn_check_whole(tn_check *check, const tn_ast_expr *expr);
+
+/* ---- numbers.c */
+void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
+
+/* ---- expand.c: calls, values of `let`, quantifiers */
+void tn_expand(tn_check *check, tn_ast_expr **expr);
+tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: reported */
+#define TN_PARAMETERS_MAX 16                                      /* of a rule */
+
+/* ---- check.c */
+void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
+
+/* ---- warnings.c */
+void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
+
+/* ---- order.c */
+void tn_check_order(tn_check *check); /* orders the rules, callees first; reports circles */
+
+/* ---- library.c */
+void tn_check_libraries(tn_check *check);
+void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
+
+/* ---- form.c */
+void tn_check_forms(tn_check *check);
+
+/* ---- test.c, literal.c */
+void tn_check_tests(tn_check *check);
+/* The values of a plan's trays, field by field; NULL where reported or empty. */
+const uint8_t *tn_check_plan(tn_check *check, const tn_checked_schema *schema, tn_ast_list trays, size_t *length);
+
+#endif

@@ -1,0 +1,309 @@
+/* Conditions on a number: from comparisons to the steps that a condition function takes. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/plan/check/check.h"
+
+typedef struct tn_condition_builder {
+    tn_check *check;
+    tn_checked_condition *condition;
+    uint32_t field;              /* whose lengths are added, or TN_NONE */
+    const tn_ast_word *variable; /* as first written */
+    bool warned;                 /* about a remainder: nothing more is said about the whole */
+} tn_condition_builder;
+
+/* ---- steps */
+
+static void step(tn_condition_builder *b, tn_opcode opcode, int64_t first, int64_t second, tn_span span)
+{
+    tn_checked_condition *condition = b->condition;
+    if (condition->count == condition->capacity) {
+        size_t capacity = condition->capacity ? condition->capacity * 2 : 4;
+        tn_condition_step *steps = TN_NEW_ARRAY(b->check->arena, tn_condition_step, capacity);
+        if (!steps)
+            return;
+        if (condition->count > 0)
+            memcpy(steps, condition->steps, condition->count * sizeof *steps);
+        condition->steps = steps;
+        condition->capacity = capacity;
+    }
+    condition->steps[condition->count++] = (tn_condition_step){opcode, first, second, span};
+}
+
+static void opposite(tn_condition_builder *b, tn_span span)
+{
+    step(b, TN_OP_NEITHER, 0, 0, span);
+}
+
+static void compare(tn_condition_builder *b, tn_operator op, int64_t value, tn_span span)
+{
+    static const tn_opcode opcodes[] = {
+        [TN_LESS] = TN_OP_LESS,     [TN_AT_MOST] = TN_OP_GREATER, [TN_EQUAL] = TN_OP_EQUAL,
+        [TN_UNEQUAL] = TN_OP_EQUAL, [TN_AT_LEAST] = TN_OP_LESS,   [TN_GREATER] = TN_OP_GREATER,
+    };
+    step(b, opcodes[op], value, 0, span);
+    if (op == TN_AT_MOST || op == TN_UNEQUAL || op == TN_AT_LEAST)
+        opposite(b, span);
+}
+
+/* ---- what may stand where */
+
+static bool fail(tn_condition_builder *b)
+{
+    b->condition->broken = true;
+    return false;
+}
+
+/* A number that is neither a count nor a length. */
+static void report_constant(tn_check *check, const tn_ast_word *word, bool lengths)
+{
+    size_t digits = strspn(word->text, "0123456789.");
+    if (word->kind == TN_WORD_DECIMAL && word->text[digits] == '\0') {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, word->node.span, "`%s` has no unit", word->text);
+        tn_help(check->diagnostics, d, "write a length with its unit, such as `%s'` or `%sm`; counts are whole numbers",
+                word->text, word->text);
+        return;
+    }
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is none",
+                  lengths ? "a sum of one field is a length" : "trays are counted in whole numbers", word->text);
+    tn_help(check->diagnostics, d, "compare sums with sums: `sum(width * body) > 90m2`, `quantity(a) >= 25%% * trays`");
+}
+
+/* A constant with a unit where lengths are added, a plain number where trays are counted. 0 has no need of a unit. */
+static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
+{
+    if (word->broken)
+        return false;
+    if (word->kind == TN_WORD_DECIMAL || word->kind == TN_WORD_AREA) {
+        report_constant(check, word, lengths);
+        return false;
+    }
+    if ((word->kind == TN_WORD_LENGTH) == lengths || (lengths && word->value == 0))
+        return true;
+    tn_diagnostic *d;
+    if (lengths) {
+        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "a sum is a length, and `%s` has no unit",
+                      word->text);
+        tn_help(check->diagnostics, d, "write it with its unit, such as `%s'` or `%sm`", word->text, word->text);
+    } else {
+        d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "trays are counted, and `%s` is a length",
+                      word->text);
+        tn_help(check->diagnostics, d, "write a plain number; lengths are added up by `sum(FIELD, w > %s)` or `total`",
+                word->text);
+    }
+    return false;
+}
+
+static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
+{
+    if (word->kind != TN_WORD_NAME)
+        return check_unit(b->check, word, b->field != TN_NONE) || fail(b);
+    if (!word->broken) {
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
+                                     "a number has to stand here, and `%s` is none", word->text);
+        tn_help(b->check->diagnostics, d, "a condition compares its one variable with numbers");
+    }
+    return fail(b);
+}
+
+static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
+{
+    if (word->kind != TN_WORD_NAME) {
+        if (!word->broken) {
+            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, word->node.span,
+                                         "a variable has to stand here, such as `n`");
+            tn_help(b->check->diagnostics, d, "a condition says something about a number that you name: `n > 1`");
+        }
+        return fail(b);
+    }
+    if (!b->variable)
+        b->variable = word;
+    if (strcmp(b->variable->text, word->text) == 0)
+        return true;
+    tn_diagnostic *d =
+        tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
+                  "a condition has one variable, and this one has `%s` and `%s`", b->variable->text, word->text);
+    tn_note(b->check->diagnostics, d, &b->variable->node.span, "`%s` is here", b->variable->text);
+    tn_help(b->check->diagnostics, d, "use the same name for both, or join two rules by `and`");
+    return fail(b);
+}
+
+bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths)
+{
+    bool good = check_unit(check, range->low, lengths);
+    if (range->high != range->low)
+        good &= check_unit(check, range->high, lengths);
+    if (!good || range->low->value <= range->high->value)
+        return good;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RANGE_BACKWARDS, range->span, "this range ends before it starts");
+    tn_advise(check->diagnostics, d, "%s..%s", range->high->text, range->low->text);
+    return false;
+}
+
+/* ---- the kinds of comparison */
+
+static tn_operator turned(tn_operator op)
+{
+    static const tn_operator table[] = {
+        [TN_LESS] = TN_GREATER,    [TN_AT_MOST] = TN_AT_LEAST, [TN_EQUAL] = TN_EQUAL,
+        [TN_UNEQUAL] = TN_UNEQUAL, [TN_AT_LEAST] = TN_AT_MOST, [TN_GREATER] = TN_LESS,
+    };
+    return table[op];
+}
+
+static void add_compare(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    const tn_ast_word *left = cond->left, *right = cond->right;
+    if (left->kind != TN_WORD_NAME && right->kind != TN_WORD_NAME) {
+        if (!left->broken && !right->broken) {
+            tn_diagnostic *d = tn_report(b->check->diagnostics, E_NO_VARIABLE, cond->node.span,
+                                         "this compares two numbers, and no variable");
+            tn_help(b->check->diagnostics, d, "write a name of your choice for the number that is counted: `n > 1`");
+        }
+        fail(b);
+        return;
+    }
+    bool constant_left = left->kind != TN_WORD_NAME;
+    const tn_ast_word *variable = constant_left ? right : left, *constant = constant_left ? left : right;
+    if (check_variable(b, variable) && check_constant(b, constant))
+        compare(b, constant_left ? turned(cond->op) : cond->op, constant->value, cond->node.span);
+}
+
+static void add_within(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    if (!check_variable(b, cond->left))
+        return;
+    if (tn_check_range(b->check, &cond->range, b->field != TN_NONE))
+        step(b, TN_OP_WITHIN, cond->range.low->value, cond->range.high->value, cond->node.span);
+    else
+        fail(b);
+}
+
+static bool warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    if (!tn_check_wanted(b->check, W_REMAINDER_NEVER))
+        return false;
+    tn_diagnostic *d = tn_report(b->check->diagnostics, W_REMAINDER_NEVER, cond->node.span,
+                                 "a remainder by %s is never %s", cond->modulus->text, cond->right->text);
+    if (cond->modulus->kind == TN_WORD_NUMBER)
+        tn_help(b->check->diagnostics, d, "it can be 0 to %lld", (long long)cond->modulus->value - 1);
+    else
+        tn_help(b->check->diagnostics, d, "it is at least 0 and less than %s", cond->modulus->text);
+    return true;
+}
+
+static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    if (!check_variable(b, cond->left) || !check_constant(b, cond->modulus) || !check_constant(b, cond->right))
+        return;
+    int64_t modulus = cond->modulus->value, remainder = cond->right->value;
+    if (modulus <= 0) {
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->modulus->node.span,
+                                     "there is no remainder by %s", cond->modulus->text);
+        tn_help(b->check->diagnostics, d, "write a number above 0: `%s mod 2 = 0` means even", cond->left->text);
+        fail(b);
+        return;
+    }
+    if (cond->op != TN_EQUAL && cond->op != TN_UNEQUAL) {
+        tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->node.span,
+                                     "a remainder is compared by `=` or `!=` only");
+        tn_help(b->check->diagnostics, d, "join several by `or`: `%s mod %s = 0 or %s mod %s = 1`", cond->left->text,
+                cond->modulus->text, cond->left->text, cond->modulus->text);
+        fail(b);
+        return;
+    }
+    if (remainder < 0 || remainder >= modulus)
+        b->warned = warn_remainder(b, cond);
+    if (remainder < 0)
+        step(b, TN_OP_LESS, 0, 0, cond->node.span); /* never: the number is not below 0 */
+    else
+        step(b, TN_OP_REMAINDER, modulus, remainder, cond->node.span);
+    if (cond->op == TN_UNEQUAL)
+        opposite(b, cond->node.span);
+}
+
+static void add(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    switch (cond->kind) {
+    case TN_COND_COMPARE:
+        add_compare(b, cond);
+        break;
+    case TN_COND_WITHIN:
+        add_within(b, cond);
+        break;
+    case TN_COND_REMAINDER:
+        add_remainder(b, cond);
+        break;
+    case TN_COND_NOT:
+        add(b, (const tn_ast_cond *)cond->parts.first);
+        opposite(b, cond->node.span);
+        break;
+    case TN_COND_AND:
+    case TN_COND_OR:
+        for (TN_EACH(const tn_ast_cond, part, cond->parts)) {
+            add(b, part);
+            if ((const tn_ast_node *)part != cond->parts.first)
+                step(b, cond->kind == TN_COND_AND ? TN_OP_BOTH : TN_OP_EITHER, 0, 0, cond->node.span);
+        }
+        break;
+    }
+}
+
+/* ---- sharing */
+
+/* Equal conditions are one function. */
+static tn_checked_condition *share(tn_check *check, tn_checked_condition *condition)
+{
+    enum { STEP = 48 };
+    char *key = tn_arena_alloc(check->arena, STEP * condition->count + 1);
+    size_t used = 0;
+    if (!key)
+        return NULL;
+    for (size_t i = 0; i < condition->count; i++)
+        used += (size_t)snprintf(key + used, STEP, "%d %llx %llx;", (int)condition->steps[i].opcode,
+                                 (unsigned long long)condition->steps[i].first,
+                                 (unsigned long long)condition->steps[i].second);
+    tn_checked_condition *same = tn_names_get(&check->conditions, key);
+    if (same)
+        return same;
+    tn_names_put(&check->conditions, key, condition);
+    return condition;
+}
+
+tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field)
+{
+    tn_checked_condition *condition = TN_NEW(check->arena, tn_checked_condition);
+    if (!condition)
+        return NULL;
+    *condition = (tn_checked_condition){.span = cond->node.span};
+    tn_condition_builder b = {.check = check, .condition = condition, .field = field};
+    add(&b, cond);
+    if (condition->broken || tn_arena_failed(check->arena))
+        return condition;
+    if (!b.warned)
+        tn_check_truth(check, condition, b.variable->text, field);
+    return share(check, condition);
+}
+
+tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *clause, uint32_t field)
+{
+    tn_checked_condition *condition = TN_NEW(check->arena, tn_checked_condition);
+    if (!condition)
+        return NULL;
+    *condition = (tn_checked_condition){.span = clause->node.span};
+    tn_condition_builder b = {.check = check, .condition = condition, .field = field};
+    if (clause->form == TN_FORM_TOTAL_COMPARE && check_constant(&b, clause->word))
+        compare(&b, clause->op, clause->word->value, clause->node.span);
+    if (clause->form == TN_FORM_TOTAL_RANGE) {
+        if (tn_check_range(check, &clause->range, true))
+            step(&b, TN_OP_WITHIN, clause->range.low->value, clause->range.high->value, clause->node.span);
+        else
+            fail(&b);
+    }
+    if (condition->broken || tn_arena_failed(check->arena))
+        return condition;
+    tn_check_truth(check, condition, "the total", field);
+    return share(check, condition);
+}

@@ -1,0 +1,494 @@
+/* Calls of rules with parameters, `let` and quantifiers, written out.
+ *
+ * Names that are bound have to be new (names.c sees to it), so nothing is ever captured. A call becomes the name
+ * of a rule made for it; equal calls share one. Recursion is as deep as calls are inside one another, which is limited.
+ */
+#include "compiler/plan/check/expand.h"
+
+#include <string.h>
+
+#include "compiler/common/limits.h"
+
+enum { CALLS_DEEP = 64 };
+
+tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
+{
+    for (const tn_bound_name *b = expansion->bindings; b; b = b->outer)
+        if (strcmp(b->word->text, word->text) == 0)
+            return *b;
+    const tn_check *check = expansion->check;
+    const tn_checked_name *name = check->has_lets ? tn_names_get(&check->names, word->text) : NULL;
+    if (!name || !name->rule || !name->rule->is_let || !tn_import_reaches(check->imports, expansion->unit, name->unit))
+        return (tn_bound_name){0};
+    return (tn_bound_name){.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+}
+
+/* ---- does anything have to be written out? */
+
+static bool words_bound(const tn_rule_expansion *expansion, const tn_ast_item *item)
+{
+    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
+        for (TN_EACH(const tn_ast_word, word, alternative->words))
+            if ((word->kind == TN_WORD_NAME && tn_bound(expansion, word).value) ||
+                (word->group && words_bound(expansion, word->group)))
+                return true;
+    return false;
+}
+
+static bool operand_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
+{
+    return word && word->kind == TN_WORD_NAME && tn_bound(expansion, word).value;
+}
+
+static bool condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *cond)
+{
+    bool bound = operand_bound(expansion, cond->left) || operand_bound(expansion, cond->right) ||
+                 operand_bound(expansion, cond->modulus) || operand_bound(expansion, cond->range.low) ||
+                 operand_bound(expansion, cond->range.high);
+    for (TN_EACH(const tn_ast_cond, part, cond->parts))
+        bound = bound || condition_bound(expansion, part);
+    return bound;
+}
+
+static tn_checked_rule *rule_named(const tn_rule_expansion *expansion, const tn_ast_word *word)
+{
+    const tn_checked_name *name = tn_names_get(&expansion->check->names, word->text);
+    return name ? name->rule : NULL;
+}
+
+static bool needs_expansion(const tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    if (expr->kind == TN_EXPR_CALL || expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH)
+        return true;
+    if (expr->kind == TN_EXPR_NAME || expr->kind == TN_EXPR_FIGURE) {
+        const tn_checked_rule *rule = expr->kind == TN_EXPR_NAME ? rule_named(expansion, expr->name) : NULL;
+        if (tn_bound(expansion, expr->name).value || (rule && rule->is_template))
+            return true;
+    }
+    for (TN_EACH(const tn_ast_item, item, expr->items))
+        if (expansion->check->has_lets && words_bound(expansion, item))
+            return true;
+    if (expr->condition && expansion->check->has_lets && condition_bound(expansion, expr->condition))
+        return true;
+    if (expr->figure && needs_expansion(expansion, expr->figure))
+        return true;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        if (needs_expansion(expansion, part))
+            return true;
+    return false;
+}
+
+/* ---- copies */
+
+static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr);
+
+static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    tn_ast_expr *copy = TN_NEW(expansion->check->arena, tn_ast_expr);
+    if (!copy)
+        return NULL;
+    *copy = *expr;
+    copy->node.next = NULL;
+    if (!copy->unit)
+        copy->unit = expansion->unit + 1;
+    if (copy->rule && !copy->rule->hidden) /* it was checked where it was written; here it may mean something else */
+        copy->rule = NULL;
+    copy->spec = NULL;
+    copy->sum = copy->high = NULL;
+    copy->condition_checked = NULL;
+    copy->tests = tn_ast_empty();
+    copy->whole = copy->resolved = false;
+    return copy;
+}
+
+static tn_ast_expr *broken(tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    tn_ast_expr *copy = shallow(expansion, expr);
+    if (copy) {
+        copy->kind = TN_EXPR_BROKEN;
+        copy->parts = tn_ast_empty();
+    }
+    return copy;
+}
+
+static tn_ast_list expand_parts(tn_rule_expansion *expansion, tn_ast_list parts)
+{
+    tn_ast_list made = tn_ast_empty();
+    for (TN_EACH(const tn_ast_expr, part, parts))
+        made = tn_ast_append(made, expand(expansion, part));
+    return made;
+}
+
+/* Counts one more that is written out; the first past the limit is reported. */
+static bool count_expansion(tn_check *check, tn_span span)
+{
+    return tn_check_room(check, check->expanded++, TN_EXPANSIONS_MAX, "expansion of a call or quantifier", span,
+                         "quantify over fewer values at a time, or leave calls out");
+}
+
+/* ---- quantifiers */
+
+/* What `v` stands for as one value of a field. */
+static tn_ast_expr *value_expr(tn_rule_expansion *expansion, const tn_ast_expr *quantifier,
+                               const tn_checked_field *field, uint32_t v)
+{
+    tn_arena *arena = expansion->check->arena;
+    const tn_checked_value *value = &field->values[v];
+    tn_ast_expr *expr = TN_NEW(arena, tn_ast_expr);
+    tn_ast_word *word = TN_NEW(arena, tn_ast_word), *depth = TN_NEW(arena, tn_ast_word);
+    if (!expr || !word || !depth)
+        return NULL;
+    bool length = field->kind == TN_FIELD_LENGTH;
+    *word = (tn_ast_word){.node.span = quantifier->name->node.span,
+                          .kind = length ? TN_WORD_LENGTH : TN_WORD_NAME,
+                          .text = value->name,
+                          .value = value->length};
+    *depth = (tn_ast_word){
+        .node.span = word->node.span, .kind = TN_WORD_LENGTH, .text = value->measure, .value = value->length};
+    *expr = (tn_ast_expr){
+        .node.span = word->node.span, .kind = length ? TN_EXPR_NUMBER : TN_EXPR_FIGURE, .depth = 1, .name = word};
+    if (field->kind == TN_FIELD_ZONE && value->has_depth)
+        expr->detail = depth;
+    return expr;
+}
+
+/* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
+static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
+{
+    tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE,
+                 idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
+    tn_ast_list left = tn_ast_empty();
+    tn_ast_expr *result = shallow(expansion, place);
+    if (!result)
+        return NULL;
+    result->names = result->items = tn_ast_empty();
+    result->name = NULL;
+    for (tn_ast_node *node = parts.first, *next; node; node = next) {
+        tn_ast_expr *part = (tn_ast_expr *)node;
+        next = node->next;
+        node->next = NULL;
+        if (part->kind == decides) {
+            result->kind = decides;
+            result->parts = tn_ast_empty();
+            return result;
+        }
+        if (part->kind != idle)
+            left = tn_ast_append(left, part);
+    }
+    if (left.count == 1)
+        return (tn_ast_expr *)left.first;
+    result->kind = left.count ? kind : idle;
+    result->parts = left;
+    return result;
+}
+
+static bool bound_names_good(tn_rule_expansion *expansion, const tn_ast_expr *quantifier)
+{
+    bool good = true;
+    for (TN_EACH(const tn_ast_word, word, quantifier->names))
+        good &= tn_check_new_word(expansion->check, expansion->check->schema, word,
+                                  expansion->bindings != NULL && tn_bound(expansion, word).value);
+    return good;
+}
+
+static bool quantify(tn_rule_expansion *expansion, const tn_ast_expr *quantifier, const tn_ast_word *name,
+                     const tn_checked_field *field, tn_ast_list *parts)
+{
+    if (!name) {
+        if (!count_expansion(expansion->check, quantifier->node.span))
+            return false;
+        *parts = tn_ast_append(*parts, expand(expansion, (const tn_ast_expr *)quantifier->parts.first));
+        return true;
+    }
+    const tn_bound_name *outer = expansion->bindings;
+    bool good = true;
+    for (uint32_t v = 0; good && v < field->value_count; v++) {
+        tn_bound_name binding = {
+            .outer = outer, .word = name, .value = value_expr(expansion, quantifier, field, v), .is_value = true};
+        expansion->bindings = &binding;
+        good = binding.value && quantify(expansion, quantifier, (const tn_ast_word *)name->node.next, field, parts);
+        expansion->bindings = outer;
+    }
+    return good;
+}
+
+static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    tn_check *check = expansion->check;
+    const tn_checked_schema *schema = check->schema;
+    uint32_t field = schema ? tn_field_find(schema, expr->name->text) : TN_NONE;
+    if (schema && field == TN_NONE && !schema->broken) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span,
+                                     "`%s` is no field of schema `%s`", expr->name->text, schema->name);
+        tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
+        tn_help(check->diagnostics, d, "a quantifier goes through the values of a field: `some v in %s (...)`",
+                schema->field_count ? schema->fields[0].name : "width");
+    }
+    tn_ast_list parts = tn_ast_empty();
+    if (field == TN_NONE || !bound_names_good(expansion, expr) ||
+        !quantify(expansion, expr, (const tn_ast_word *)expr->names.first, &schema->fields[field], &parts))
+        return broken(expansion, expr);
+    return joined(expansion, expr->kind == TN_EXPR_SOME ? TN_EXPR_OR : TN_EXPR_AND, expr, parts);
+}
+
+/* Both sides are bound values: decided at once. */
+static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left,
+                           const tn_ast_expr *right)
+{
+    bool lengths = left->kind == TN_EXPR_NUMBER && right->kind == TN_EXPR_NUMBER;
+    bool same = lengths ? left->name->value == right->name->value
+                        : strcmp(left->name->text, right->name->text) == 0 &&
+                              (left->detail ? left->detail->value : -1) == (right->detail ? right->detail->value : -1);
+    bool less = lengths && left->name->value < right->name->value;
+    if (!lengths && expr->op != TN_EQUAL && expr->op != TN_UNEQUAL) {
+        tn_check *check = expansion->check;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values have no size to compare");
+        tn_help(check->diagnostics, d, "lengths are compared by order; names and zones by `=` and `!=`");
+        return broken(expansion, expr);
+    }
+    bool truths[] = {[TN_LESS] = less,     [TN_AT_MOST] = less || same, [TN_EQUAL] = same,
+                     [TN_UNEQUAL] = !same, [TN_AT_LEAST] = !less,       [TN_GREATER] = !less && !same};
+    tn_ast_expr *made = shallow(expansion, expr);
+    if (made) {
+        made->kind = truths[expr->op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
+        made->parts = tn_ast_empty();
+    }
+    return made;
+}
+
+/* ---- calls */
+
+static tn_checked_rule *new_rule(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of)
+{
+    tn_check *check = expansion->check;
+    tn_checked *result = check->result;
+    tn_ast_rule *ast = TN_NEW(check->arena, tn_ast_rule);
+    tn_checked_rule *rule = TN_NEW(check->arena, tn_checked_rule);
+    if (!ast || !rule)
+        return NULL;
+    *ast = *of->ast;
+    ast->params = tn_ast_empty();
+    const char *source = check->diagnostics->sources->files[call->node.span.file].text;
+    size_t size = call->node.span.end - call->node.span.begin;
+    *rule = (tn_checked_rule){.ast = ast,
+                              .name = of->is_template ? tn_arena_copy(check->arena, source + call->node.span.begin,
+                                                                      size < TN_NAME_MAX ? size : TN_NAME_MAX)
+                                                      : of->name,
+                              .unit = of->unit,
+                              .schema = check->schema,
+                              .is_measure = of->is_measure,
+                              .hidden = true,
+                              .call = call,
+                              .of = of,
+                              .serial = (uint32_t)result->rule_count};
+    if (result->rule_count == result->rule_capacity && !tn_check_grow_rules(check))
+        return NULL;
+    result->rules[result->rule_count++] = rule;
+    return rule;
+}
+
+static void report_circle(tn_rule_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *of)
+{
+    tn_check *check = expansion->check;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RULE_CYCLE, of->ast->name->node.span, "rule `%s` uses itself", of->name);
+    tn_note(check->diagnostics, d, &call->node.span, "it is called here, while it is being written out");
+    tn_help(check->diagnostics, d, "write out what one of them means instead of naming the other");
+}
+
+/* The rule made for the template (or older rule) with these arguments; NULL: reported. */
+static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of,
+                                 tn_ast_list arguments)
+{
+    tn_check *check = expansion->check;
+    const char *key = tn_expression_key(check, check->schema, of->name, arguments);
+    tn_checked_rule *rule = key ? tn_names_get(&check->calls, key) : NULL;
+    if (rule || !key)
+        return rule;
+    size_t deep = 0;
+    for (const tn_checked_rule *open = check->open; open; open = open->outer, deep++) {
+        if (open->of != of || of->schema != check->schema)
+            continue;
+        if (of->is_template) {
+            report_circle(expansion, call, of);
+            return NULL;
+        }
+    }
+    if (deep > CALLS_DEEP) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_DEEP, call->node.span,
+                                     "calls are nested more than %d deep", CALLS_DEEP);
+        tn_help(check->diagnostics, d, "write out what some of the rules mean");
+        return NULL;
+    }
+    if (!count_expansion(check, call->node.span))
+        return NULL;
+    rule = new_rule(expansion, call, of);
+    if (!rule)
+        return NULL;
+    tn_names_put(&check->calls, key, rule);
+    rule->outer = check->open;
+    check->open = rule;
+    tn_bound_name bindings[TN_PARAMETERS_MAX];
+    size_t count = 0;
+    tn_rule_expansion inner = {.check = check, .unit = of->unit};
+    tn_ast_expr *argument = (tn_ast_expr *)arguments.first;
+    for (TN_EACH(const tn_ast_word, word, of->ast->params)) {
+        bindings[count] = (tn_bound_name){.outer = inner.bindings, .word = word, .value = argument};
+        inner.bindings = &bindings[count++];
+        argument = (tn_ast_expr *)argument->node.next;
+    }
+    rule->ast->body = expand(&inner, of->written);
+    if (!rule->ast->body)
+        rule->ast->body = of->written; /* out of memory */
+    check->open = rule->outer;
+    return rule;
+}
+
+static tn_ast_expr *name_of(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *rule)
+{
+    tn_ast_expr *name = shallow(expansion, call);
+    if (!name || !rule)
+        return name ? broken(expansion, call) : NULL;
+    name->kind = TN_EXPR_NAME;
+    name->parts = tn_ast_empty();
+    name->rule = rule;
+    return name;
+}
+
+static bool arguments_fit(tn_rule_expansion *expansion, const tn_ast_expr *call, const tn_checked_rule *rule,
+                          size_t given)
+{
+    tn_check *check = expansion->check;
+    size_t wanted = rule->ast->params.count;
+    if (wanted == given)
+        return true;
+    tn_diagnostic *d = wanted == 0  ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` has no parameters", rule->name)
+                       : given == 0 ? tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` needs %zu argument%s", rule->name, wanted, wanted == 1 ? "" : "s")
+                                    : tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span,
+                                                "`%s` needs %zu argument%s, and this call has %zu", rule->name, wanted,
+                                                wanted == 1 ? "" : "s", given);
+    tn_note(check->diagnostics, d, &rule->ast->name->node.span, "`%s` is here", rule->name);
+    tn_help(check->diagnostics, d,
+            wanted == 0 ? "write its name alone" : "write one argument for each parameter, in their order");
+    return false;
+}
+
+/* `name(...)` or `name` of a rule with parameters. */
+static tn_ast_expr *expand_call(tn_rule_expansion *expansion, const tn_ast_expr *call)
+{
+    tn_check *check = expansion->check;
+    size_t unit = check->unit;
+    check->unit = call->unit ? call->unit - 1 : expansion->unit;
+    const tn_checked_name *name = tn_check_call_name(check, call);
+    check->unit = unit;
+    if (!name || !arguments_fit(expansion, call, name->rule, call->parts.count))
+        return broken(expansion, call);
+    tn_ast_list arguments = expand_parts(expansion, call->parts);
+    return name_of(expansion, call, instance(expansion, call, name->rule, arguments));
+}
+
+/* Is it a value of a field, or alternatives: words of a specifier? */
+static bool is_word_value(const tn_rule_expansion *expansion, const tn_ast_expr *value)
+{
+    if (value->kind == TN_EXPR_NAME)
+        return !rule_named(expansion, value->name);
+    bool words = value->kind == TN_EXPR_OR || value->kind == TN_EXPR_NOT;
+    for (TN_EACH(const tn_ast_expr, part, value->parts))
+        words = words && (part->kind == TN_EXPR_NUMBER || is_word_value(expansion, part));
+    return words;
+}
+
+static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    tn_bound_name bound = tn_bound(expansion, expr->name);
+    if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
+        tn_check *check = expansion->check;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
+                                     "`%s` stands for values of a field", expr->name->text);
+        tn_help(check->diagnostics, d, "write `tray(%s)`", expr->name->text);
+        return broken(expansion, expr);
+    }
+    if (bound.value) {
+        tn_rule_expansion none = {.check = expansion->check,
+                                  .unit = expansion->unit}; /* what is bound is written out already */
+        return expand(&none, bound.value);
+    }
+    tn_checked_rule *rule = rule_named(expansion, expr->name);
+    if (rule && rule->is_template)
+        return expand_call(expansion, expr);
+    return shallow(expansion, expr);
+}
+
+static const tn_ast_expr *bound_value(const tn_rule_expansion *expansion, const tn_ast_node *node)
+{
+    const tn_ast_expr *expr = (const tn_ast_expr *)node;
+    if (expr->kind != TN_EXPR_NAME)
+        return NULL;
+    tn_bound_name bound = tn_bound(expansion, expr->name);
+    return bound.value && bound.is_value ? bound.value : NULL;
+}
+
+static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr)
+{
+    if (expr->rule && expr->rule->hidden) /* written out already */
+        return shallow(expansion, expr);
+    switch (expr->kind) {
+    case TN_EXPR_NAME:
+        return expand_name(expansion, expr);
+    case TN_EXPR_CALL:
+        return expand_call(expansion, expr);
+    case TN_EXPR_SOME:
+    case TN_EXPR_EACH:
+        return expand_quantifier(expansion, expr);
+    case TN_EXPR_COMPARE: {
+        const tn_ast_expr *left = bound_value(expansion, expr->parts.first),
+                          *right = bound_value(expansion, expr->parts.last);
+        if (left && right)
+            return decide(expansion, expr, left, right);
+        break;
+    }
+    case TN_EXPR_FIGURE: {
+        tn_bound_name bound = expr->detail ? (tn_bound_name){0} : tn_bound(expansion, expr->name);
+        if (!bound.value)
+            break;
+        tn_rule_expansion none = {.check = expansion->check, .unit = expansion->unit};
+        return expand(&none, bound.value);
+    }
+    default:
+        break;
+    }
+    tn_ast_expr *copy = shallow(expansion, expr);
+    if (!copy)
+        return NULL;
+    copy->items = tn_expand_items(expansion, expr->items);
+    copy->condition = expr->condition ? tn_expand_condition(expansion, expr->condition) : NULL;
+    copy->figure = expr->figure ? expand(expansion, expr->figure) : NULL;
+    tn_ast_list parts = expand_parts(expansion, expr->parts);
+    if (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR)
+        return joined(expansion, expr->kind, expr, parts);
+    copy->parts = parts;
+    return copy;
+}
+
+tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let)
+{
+    if (let->meaning || let->state)
+        return let->meaning;
+    let->state = 1; /* a circle through itself ends here, without a value */
+    tn_rule_expansion expansion = {.check = check, .unit = let->unit};
+    let->meaning = expand(&expansion, let->ast->body);
+    return let->meaning;
+}
+
+void tn_expand(tn_check *check, tn_ast_expr **expr)
+{
+    tn_rule_expansion expansion = {.check = check, .unit = check->unit};
+    if (!needs_expansion(&expansion, *expr))
+        return;
+    tn_ast_expr *made = expand(&expansion, *expr);
+    if (made)
+        *expr = made;
+}

@@ -1,0 +1,39 @@
+/* Writing out what is written shorter than it means: calls of rules with parameters, words that `let` or a quantifier
+ * binds. Copies of the syntax tree, with the words replaced. Internal to expand*.c. */
+#ifndef TARTAN_COMPILER_PLAN_CHECK_EXPAND_H
+#define TARTAN_COMPILER_PLAN_CHECK_EXPAND_H
+
+#include "compiler/plan/check/check.h"
+
+/* A word and what it stands for: an expression; a NUMBER for a length; a FIGURE for a value that is a name (and a
+ * depth). */
+typedef struct tn_bound_name {
+    const struct tn_bound_name *outer;
+    const tn_ast_word *word;
+    tn_ast_expr *value;
+    bool is_value;               /* of a quantifier */
+    struct tn_checked_rule *let; /* of a `let`, or NULL */
+} tn_bound_name;
+
+typedef struct tn_rule_expansion {
+    tn_check *check;
+    const tn_bound_name *bindings; /* innermost first */
+    size_t unit;                   /* the file whose words are being read */
+} tn_rule_expansion;
+
+/* What a word stands for where it is read; value NULL where it stands for itself. */
+tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *word);
+
+/* expand_words.c: copies with the words replaced. */
+tn_ast_list tn_expand_items(tn_rule_expansion *expansion, tn_ast_list items);
+tn_ast_cond *tn_expand_condition(tn_rule_expansion *expansion, const tn_ast_cond *cond);
+/* The one number or length that an expression of constants comes to, as a word; NULL: reported at `place`. */
+const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr *value, tn_span place);
+
+/* expand_key.c: a text that is the same for equal expressions. */
+const char *tn_expression_key(tn_check *check, const tn_checked_schema *schema, const char *name, tn_ast_list parts);
+
+/* expand_parameters.c: what each parameter is, told by its uses. */
+void tn_check_parameters(tn_check *check, const tn_checked_rule *rule);
+
+#endif

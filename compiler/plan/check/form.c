@@ -1,0 +1,347 @@
+/* Checks forms: their parts in an order in which each knows what it needs, whatever order they are written in. */
+#include <stdio.h>
+#include <string.h>
+
+#include "compiler/common/limits.h"
+#include "compiler/plan/check/form.h"
+#include "runtime/base/length.h"
+
+static const char *const part_words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
+
+int64_t tn_form_length(tn_check *check, const tn_ast_word *word)
+{
+    if (!word || word->broken)
+        return -1;
+    if (word->kind == TN_WORD_NUMBER && word->value != 0) {
+        tn_report_unit(check, word);
+        return -1;
+    }
+    if (word->value > TN_HOUSE_LENGTH_MAX) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_NUMBER_TOO_LARGE, word->node.span, "this length is too large for a house");
+        tn_help(check->diagnostics, d, "the largest is 1,099 m");
+        return -1;
+    }
+    return word->value;
+}
+
+void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
+                     const char *const *names, size_t count)
+{
+    if (word->broken || check->skipped)
+        return;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "there is no %s `%s`", what, word->text);
+    const char *near = tn_nearest(word->text, names, count);
+    char list[300] = "";
+    for (size_t i = 0; i < count && strlen(list) + strlen(names[i]) + 8 < sizeof list; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
+                 i == 0           ? ""
+                 : i + 1 == count ? " or "
+                                  : ", ",
+                 names[i]);
+    if (near)
+        tn_suggest(check->diagnostics, d, "%s", near);
+    else if (count > 0)
+        tn_help(check->diagnostics, d, "it can be %s", list);
+    else
+        tn_help(check->diagnostics, d, "form `%s` declares none", form->name);
+}
+
+uint32_t tn_form_storey(const tn_checked_form *form, const char *name)
+{
+    for (uint32_t i = 0; i < form->storey_count; i++)
+        if (strcmp(form->storeys[i].ast->name->text, name) == 0)
+            return i;
+    return TN_NONE;
+}
+
+uint32_t tn_form_function(const tn_checked_form *form, const char *name)
+{
+    for (uint32_t i = 0; i < form->function_count; i++)
+        if (strcmp(form->rules[i].ast->name->text, name) == 0)
+            return i;
+    return TN_NONE;
+}
+
+/* ---- names */
+
+/* A storey's or function's name is a word of `cell(...)`: nothing else may be called so. */
+static bool word_is_free(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    static const char *const own[] = {"any", "void", "area", "not", "or", "and"};
+    const tn_checked_schema *schema = form->schema;
+    uint32_t storey = tn_form_storey(form, name->text), function = tn_form_function(form, name->text);
+    bool taken = storey != TN_NONE || function != TN_NONE;
+    const char *what = "another part of the form";
+    for (size_t i = 0; i < sizeof own / sizeof *own && !taken; i++)
+        if (strcmp(own[i], name->text) == 0) {
+            taken = true;
+            what = "a word of `cell(...)`";
+        }
+    for (uint32_t f = 0; f < schema->field_count && !taken; f++)
+        if (strcmp(schema->fields[f].name, name->text) == 0 || tn_field_has(&schema->fields[f], name->text)) {
+            taken = true;
+            what = "a word of the schema";
+        }
+    if (!taken && strlen(name->text) <= TN_NAME_MAX)
+        return true;
+    tn_diagnostic *d = tn_report(
+        check->diagnostics, taken ? E_PART_TWICE : E_NAME_TOO_LONG, name->node.span,
+        taken ? "the name `%.80s` is that of %s already" : "the name `%.80s...` is too long%.0s", name->text, what);
+    tn_help(check->diagnostics, d, "choose another name, so that `cell(%.40s)` is clear", taken ? "NAME" : "...");
+    return false;
+}
+
+/* ---- parts */
+
+static void add_storey(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    int64_t height = tn_form_length(check, ast->length);
+    if (!word_is_free(check, form, ast->name) ||
+        !tn_check_room(check, form->storey_count, TN_STOREYS_MAX, "storey", ast->node.span, "leave some of them out"))
+        return;
+    form->storeys[form->storey_count++] = (tn_checked_storey){ast, height};
+}
+
+static void set_spine(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    const tn_checked_schema *schema = form->schema;
+    const char *zones[TN_FIELDS_MAX];
+    size_t count = 0;
+    for (uint32_t f = 0; f < schema->field_count; f++)
+        if (schema->fields[f].kind == TN_FIELD_ZONE)
+            zones[count++] = schema->fields[f].name;
+    uint32_t field = tn_field_find(schema, ast->name->text);
+    if (field != TN_NONE && schema->fields[field].kind == TN_FIELD_ZONE)
+        form->spine = field;
+    else
+        tn_form_unknown(check, form, ast->name, "zone", zones, count);
+}
+
+static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    static const char *const helps[] = {"half of it goes to each side of a plane: write an even number of nanometres",
+                                        "write a length above 0"};
+    int64_t length = tn_form_length(check, ast->length);
+    bool halved = ast->part == TN_PART_WALL || ast->part == TN_PART_PARTITION;
+    form->thickness[ast->part - TN_PART_WALL] = length > 0 ? length : 2;
+    if (length < 0 || (length > 0 && !(halved && length % 2)))
+        return;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
+                  length == 0 ? "a %s cannot be 0 thick" : "half of this %s is no whole number of nanometres",
+                  part_words[ast->part]);
+    tn_help(check->diagnostics, d, "%s", helps[length == 0]);
+}
+
+static void add_rule(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast, tn_cell_rule_kind kind)
+{
+    if (!tn_check_room(check, form->rule_count, TN_CELL_RULES_MAX, "line of cells", ast->node.span,
+                       "join some of them by `or`"))
+        return;
+    if (kind == TN_CELL_FUNCTION && !word_is_free(check, form, ast->name))
+        return;
+    form->rules[form->rule_count++] = (tn_checked_cell_rule){.ast = ast, .kind = kind};
+    form->function_count += kind == TN_CELL_FUNCTION;
+}
+
+static void check_rules(tn_check *check, tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->rule_count; i++) {
+        tn_checked_cell_rule *rule = &form->rules[i];
+        if (rule->kind == TN_CELL_FORBID)
+            tn_form_section(check, form, rule->ast->first, &rule->decision);
+        else
+            tn_form_cell(check, form, rule->ast->first, false, &rule->decision);
+    }
+}
+
+/* ---- a pass over the clauses for each kind of part */
+
+static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
+{
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
+        if (clause->part != part)
+            continue;
+        if (part == TN_PART_STOREY)
+            add_storey(check, form, clause);
+        else if (part == TN_PART_SPINE)
+            set_spine(check, form, clause);
+        else if (part <= TN_PART_ROOF)
+            set_thickness(check, form, clause);
+        else if (part == TN_PART_SECTION)
+            tn_check_choice(check, form, clause);
+        else if (part <= TN_PART_FUNCTION)
+            add_rule(check, form, clause,
+                     part == TN_PART_FUNCTION ? TN_CELL_FUNCTION
+                     : part == TN_PART_VOID   ? TN_CELL_VOID
+                     : part == TN_PART_NO     ? TN_CELL_NO
+                                              : TN_CELL_FORBID);
+        else if (part == TN_PART_OPENING)
+            tn_check_opening(check, form, clause);
+        else if (part == TN_PART_FACE)
+            tn_check_face(check, form, clause);
+        else
+            tn_check_tile(check, form, clause);
+    }
+}
+
+/* Said at most once: the spine and the thicknesses; what a form cannot be without. */
+static void check_once(tn_check *check, tn_checked_form *form)
+{
+    const tn_ast_form_clause *first[TN_PART_TILE + 1] = {NULL};
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
+        if (first[clause->part] && clause->part >= TN_PART_SPINE && clause->part <= TN_PART_ROOF) {
+            tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, clause->node.span, "`%s` is there twice",
+                                         part_words[clause->part]);
+            tn_note(check->diagnostics, d, &first[clause->part]->node.span, "the first time is here");
+            tn_help(check->diagnostics, d, "leave one of the two out");
+        }
+        first[clause->part] = first[clause->part] ? first[clause->part] : clause;
+    }
+    static const tn_form_part needed[] = {TN_PART_STOREY, TN_PART_WALL, TN_PART_PARTITION, TN_PART_DECK, TN_PART_ROOF};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
+        if (first[needed[i]] || check->skipped)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_FORM_LACKS, form->ast->name->node.span,
+                                     "form `%s` has no `%s`", form->name, part_words[needed[i]]);
+        tn_help(check->diagnostics, d, "add a line such as `%s %s`", part_words[needed[i]],
+                needed[i] == TN_PART_STOREY ? "ground 9'" : "6\"");
+    }
+}
+
+static void check_heights(tn_check *check, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->storey_count; i++) {
+        const tn_checked_storey *storey = &form->storeys[i];
+        if (storey->height < 0 || storey->height > form->thickness[2])
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, storey->ast->length->node.span,
+                                     "storey `%s` is no higher than the deck above it", storey->ast->name->text);
+        tn_help(check->diagnostics, d, "a storey is measured from floor to floor, the `deck` included");
+    }
+}
+
+/* ---- walls that would overlap */
+
+/* Two walls of one cell are a wall apart at least: a tray's length, and each depth. What trays side by side do is found
+ * when a house stands up (E1610 too). */
+static void check_walls(tn_check *check, const tn_checked_form *form)
+{
+    for (uint32_t f = 0; f < form->schema->field_count; f++) {
+        const tn_checked_field *field = &form->schema->fields[f];
+        for (uint32_t v = 0; v < field->value_count; v++) {
+            const tn_checked_value *value = &field->values[v];
+            bool measured = f == form->schema->length_field || (field->kind == TN_FIELD_ZONE && value->length > 0);
+            if (!measured || value->length >= form->thickness[0])
+                continue;
+            char shown[64];
+            tn_length_write(value->length, shown, sizeof shown);
+            tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_NEAR, form->ast->name->node.span,
+                                         "walls of form `%s` can be %s apart, and are thicker", form->name, shown);
+            tn_note(check->diagnostics, d, &value->span, "the length is here");
+            tn_help(check->diagnostics, d, "make `wall` thinner, or the length larger");
+            return;
+        }
+    }
+}
+
+/* ---- forms */
+
+/* A form stands on trays that have a length, in zones. */
+static bool schema_stands(tn_check *check, tn_checked_form *form)
+{
+    tn_checked_schema *schema = form->schema;
+    form->spine = TN_NONE;
+    for (uint32_t f = schema->field_count; f-- > 0;)
+        if (schema->fields[f].kind == TN_FIELD_ZONE)
+            form->spine = f;
+    if (form->spine != TN_NONE && schema->length_field != TN_NONE)
+        return true;
+    if (schema->broken)
+        return false;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_FORM_SCHEMA, form->ast->schema->node.span, "trays of schema `%s` have no %s",
+                  schema->name, form->spine == TN_NONE ? "zones" : "length");
+    tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
+    tn_help(check->diagnostics, d, "add a field such as `%s`",
+            form->spine == TN_NONE ? "zone body = open(8')" : "width = 8' | 12'");
+    return false;
+}
+
+static bool make_room(tn_check *check, tn_checked_form *form)
+{
+    size_t count = form->ast->clauses.count;
+    form->storeys = TN_NEW_ARRAY(check->arena, tn_checked_storey, count);
+    form->choices = TN_NEW_ARRAY(check->arena, tn_checked_choice, count);
+    form->rules = TN_NEW_ARRAY(check->arena, tn_checked_cell_rule, count);
+    form->openings = TN_NEW_ARRAY(check->arena, tn_checked_opening, count);
+    form->faces = TN_NEW_ARRAY(check->arena, tn_checked_face, count);
+    form->tiles = TN_NEW_ARRAY(check->arena, tn_checked_tile, count);
+    return !tn_arena_failed(check->arena);
+}
+
+static void check_form(tn_check *check, tn_checked_form *form)
+{
+    static const tn_form_part before[] = {TN_PART_STOREY, TN_PART_SPINE,  TN_PART_WALL,     TN_PART_PARTITION,
+                                          TN_PART_DECK,   TN_PART_ROOF,   TN_PART_FUNCTION, TN_PART_VOID,
+                                          TN_PART_NO,     TN_PART_FORBID, TN_PART_SECTION};
+    check->unit = form->unit;
+    check->allow = tn_ast_empty();
+    form->schema = tn_check_schema_for(check, form->unit, form->ast->schema, form->ast->schema->node.span);
+    check->schema = form->schema;
+    if (!form->schema || !make_room(check, form) || !schema_stands(check, form))
+        return;
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        each(check, form, before[i]);
+    check_once(check, form);
+    check_heights(check, form);
+    check_walls(check, form);
+    check_rules(check, form);
+    each(check, form, TN_PART_OPENING);
+    each(check, form, TN_PART_FACE);
+    each(check, form, TN_PART_TILE);
+}
+
+static void add_form(tn_check *check, const tn_ast_form *ast, size_t unit)
+{
+    tn_checked *result = check->result;
+    for (size_t i = 0; i < result->form_count; i++) {
+        if (strcmp(result->forms[i]->name, ast->name->text) != 0)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_NAME, ast->name->node.span,
+                                     "the name `%s` is already taken", ast->name->text);
+        tn_note(check->diagnostics, d, &result->forms[i]->ast->name->node.span, "the form `%s` is here",
+                ast->name->text);
+        tn_help(check->diagnostics, d, "choose another name for one of the two");
+        return;
+    }
+    tn_checked_form *form = TN_NEW(check->arena, tn_checked_form);
+    if (!form)
+        return;
+    *form = (tn_checked_form){.ast = ast, .name = ast->name->text, .unit = unit};
+    result->forms[result->form_count++] = form;
+    if (strlen(form->name) > TN_NAME_MAX) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span,
+                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
+        tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
+    } else {
+        check_form(check, form);
+    }
+}
+
+void tn_check_forms(tn_check *check)
+{
+    size_t count = 0;
+    for (size_t u = 0; u < check->imports->count; u++)
+        for (TN_EACH(const tn_ast_top, item, ((const tn_ast_file *)check->imports->units[u]->tree)->items))
+            count += item->kind == TN_ITEM_FORM;
+    check->result->forms = TN_NEW_ARRAY(check->arena, tn_checked_form *, count);
+    if (!check->result->forms)
+        return;
+    for (size_t u = 0; u < check->imports->count && !tn_arena_failed(check->arena); u++)
+        for (TN_EACH(const tn_ast_top, item, ((const tn_ast_file *)check->imports->units[u]->tree)->items))
+            if (item->kind == TN_ITEM_FORM)
+                add_form(check, (const tn_ast_form *)item, u);
+}

@@ -1,0 +1,117 @@
+/* Forms, checked: what their records are made of, with every name resolved. Internal to form.c and form_*.c.
+ *
+ * Everything lives in the compilation's arena and borrows the syntax trees.
+ */
+#ifndef TARTAN_COMPILER_PLAN_CHECK_FORM_H
+#define TARTAN_COMPILER_PLAN_CHECK_FORM_H
+
+#include "compiler/plan/check/check.h"
+#include "compiler/plan/syntax/form_ast.h"
+
+/* One instruction of what decides on cells or sections. */
+typedef struct tn_decision_step {
+    tn_opcode opcode;
+    uint32_t index; /* of a field, storey, function or shape of the form; an area's test */
+    tn_checked_spec *spec;
+    int64_t area;
+    tn_span span;
+} tn_decision_step;
+
+typedef struct tn_decision {
+    tn_decision_step *steps;
+    size_t count, capacity;
+    tn_span span;
+} tn_decision;
+
+typedef struct tn_checked_storey {
+    const tn_ast_form_clause *ast;
+    int64_t height;
+} tn_checked_storey;
+
+/* Its record, but for texts and places. */
+typedef struct tn_checked_shape {
+    const tn_ast_shape *ast;
+    const char *spelling;
+    tn_shape_record record;
+} tn_checked_shape;
+
+typedef struct tn_checked_choice {
+    const tn_ast_form_clause *ast;
+    const char *name; /* "machine storeys" */
+    tn_choice_kind kind;
+    uint32_t zone; /* a field, or TN_NONE */
+    tn_checked_shape *shapes;
+    uint32_t shape_count, shape_first; /* shape_first: of all of the form */
+} tn_checked_choice;
+
+typedef struct tn_checked_cell_rule {
+    const tn_ast_form_clause *ast;
+    tn_cell_rule_kind kind;
+    tn_decision decision;
+} tn_checked_cell_rule;
+
+typedef struct tn_checked_opening {
+    const tn_ast_form_clause *ast;
+    int64_t wide, high, sill, clear;
+    bool passage;
+} tn_checked_opening;
+
+typedef struct tn_checked_face {
+    const tn_ast_form_clause *ast;
+    tn_decision first, second;
+    uint32_t *kinds;
+    uint32_t kind_count;
+} tn_checked_face;
+
+typedef struct tn_checked_tile {
+    const tn_ast_form_clause *ast;
+    uint32_t *purposes, *against;
+    uint32_t purpose_count, against_count;
+    int64_t wide[2], deep[2];
+    tn_tile_box_record *boxes;        /* but for texts and places */
+    const tn_ast_tile_part **box_ast; /* where each is written */
+    uint32_t box_count;
+} tn_checked_tile;
+
+typedef struct tn_checked_form {
+    const tn_ast_form *ast;
+    const char *name;
+    size_t unit;
+    tn_checked_schema *schema; /* NULL: already reported */
+    uint32_t spine;
+    int64_t thickness[4]; /* wall, partition, deck, roof */
+    tn_checked_storey *storeys;
+    tn_checked_choice *choices;
+    tn_checked_cell_rule *rules; /* functions, then void, no, forbid */
+    tn_checked_opening *openings;
+    tn_checked_face *faces;
+    tn_checked_tile *tiles;
+    uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
+} tn_checked_form;
+
+/* ---- form.c (tn_check_forms: check.h) */
+/* The length that a word says, where 0 may stand without a unit; -1 where it is none: then reported. */
+int64_t tn_form_length(tn_check *check, const tn_ast_word *word);
+/* A name that the form does not know: E1602, with the nearest of `names`. */
+void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
+                     const char *const *names, size_t count);
+uint32_t tn_form_storey(const tn_checked_form *form, const char *name);   /* TN_NONE where there is none */
+uint32_t tn_form_function(const tn_checked_form *form, const char *name); /* likewise */
+
+/* ---- form_shape.c */
+void tn_check_choice(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+bool tn_form_section(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision);
+
+/* ---- form_cell.c */
+void tn_decision_add(tn_check *check, tn_decision *decision, tn_decision_step step);
+/* `decided`: may it ask for functions and voids, which are known after `at`, `void` and `no`? False: reported. */
+bool tn_form_cell(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, bool decided,
+                  tn_decision *decision);
+
+/* ---- form_face.c, form_tile.c */
+void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word); /* TN_NONE: reported */
+void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+
+#endif

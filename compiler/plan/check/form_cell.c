@@ -1,0 +1,191 @@
+/* Reads what a form asks of cells: the items of `cell(...)`, joined by and, or, not, as code that decides on one cell.
+ *
+ * An item is a storey, a function, `void`, `any`, an area, a zone (then the cell is of that zone), or whatever a tray
+ * specifier says of the cell's tray. */
+#include <string.h>
+
+#include "compiler/plan/check/amount.h"
+#include "compiler/plan/check/form.h"
+
+void tn_decision_add(tn_check *check, tn_decision *decision, tn_decision_step step)
+{
+    if (decision->count == decision->capacity) {
+        size_t capacity = decision->capacity ? 2 * decision->capacity : 8;
+        tn_decision_step *steps = TN_NEW_ARRAY(check->arena, tn_decision_step, capacity);
+        if (!steps)
+            return;
+        if (decision->count)
+            memcpy(steps, decision->steps, decision->count * sizeof *steps);
+        decision->steps = steps;
+        decision->capacity = capacity;
+    }
+    decision->steps[decision->count++] = step;
+}
+
+/* Where a cell's item is read. */
+typedef struct tn_cell_reader {
+    tn_check *check;
+    const tn_checked_form *form;
+    tn_decision *decision;
+    bool decided;
+    tn_item_context context; /* the field that the alternatives before were about */
+} tn_cell_reader;
+
+static void add(tn_cell_reader *reader, tn_opcode opcode, uint32_t index, tn_span span)
+{
+    tn_decision_add(reader->check, reader->decision,
+                    (tn_decision_step){.opcode = opcode, .index = index, .span = span});
+}
+
+static bool bad_cell(tn_check *check, tn_span span, const char *message, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, span, "%s", message);
+    tn_help(check->diagnostics, d, "%s", help);
+    return false;
+}
+
+/* area < 90sf */
+static bool read_area(tn_cell_reader *reader, const tn_ast_word *word)
+{
+    const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
+    const tn_ast_word *area = sign ? (const tn_ast_word *)sign->node.next : NULL;
+    if (!sign || sign->kind != TN_WORD_OPERATOR || !area || area->kind != TN_WORD_AREA || area->node.next)
+        return bad_cell(reader->check, word->node.span, "an area is compared with another",
+                        "write `area < 90sf` or `area >= 8.5m2`");
+    static const tn_area_test tests[] = {
+        [TN_LESS] = TN_AREA_LESS,       [TN_AT_MOST] = TN_AREA_AT_MOST,   [TN_EQUAL] = TN_AREA_EQUAL,
+        [TN_UNEQUAL] = TN_AREA_UNEQUAL, [TN_AT_LEAST] = TN_AREA_AT_LEAST, [TN_GREATER] = TN_AREA_GREATER,
+    };
+    int64_t square_micrometres;
+    if (!tn_amount_read_cell(reader->check, area, &square_micrometres))
+        return false;
+    tn_decision_add(reader->check, reader->decision,
+                    (tn_decision_step){.opcode = TN_OP_HAS_AREA,
+                                       .index = tests[sign->op],
+                                       .area = square_micrometres,
+                                       .span = tn_span_join(word->node.span, area->node.span)});
+    return true;
+}
+
+/* A storey, a function, `void`, `any`: words that stand alone. *found is false where it is none of these. */
+static bool read_own_word(tn_cell_reader *reader, const tn_ast_word *word, bool *found)
+{
+    const tn_checked_form *form = reader->form;
+    tn_span span = word->node.span;
+    uint32_t storey = tn_form_storey(form, word->text), function = tn_form_function(form, word->text);
+    bool is_void = strcmp(word->text, "void") == 0, any = strcmp(word->text, "any") == 0;
+    *found = storey != TN_NONE || function != TN_NONE || is_void || any;
+    if (!*found)
+        return true;
+    if (word->node.next)
+        return bad_cell(reader->check, ((const tn_ast_word *)word->node.next)->node.span,
+                        "this does not belong to the item",
+                        "items are separated by commas, alternatives joined by `or`");
+    if ((is_void || function != TN_NONE) && !reader->decided)
+        return bad_cell(reader->check, span, "functions and voids are not known yet where this is decided",
+                        "ask for zones, storeys, areas and what the tray is");
+    add(reader,
+        any                 ? TN_OP_EVERY
+        : is_void           ? TN_OP_IS_VOID
+        : storey != TN_NONE ? TN_OP_IN_STOREY
+                            : TN_OP_IS_FOR,
+        storey != TN_NONE ? storey : function, span);
+    return true;
+}
+
+/* A zone alone, or what a tray specifier says. */
+static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span span)
+{
+    tn_checked_schema *schema = reader->form->schema;
+    uint32_t field = word->kind == TN_WORD_NAME ? tn_field_find(schema, word->text) : TN_NONE;
+    bool zone = field != TN_NONE && schema->fields[field].kind == TN_FIELD_ZONE;
+    if (zone && !word->node.next) {
+        reader->context.field = field;
+        add(reader, TN_OP_IN_ZONE, field, span);
+        return true;
+    }
+    tn_checked_spec *spec = tn_check_alternative(reader->check, schema, word, span, &reader->context);
+    if (!spec)
+        return false;
+    tn_decision_add(reader->check, reader->decision,
+                    (tn_decision_step){.opcode = TN_OP_IN_TRAY, .spec = spec, .span = span});
+    if (schema->fields[reader->context.field].kind == TN_FIELD_ZONE) {
+        add(reader, TN_OP_IN_ZONE, reader->context.field, span);
+        add(reader, TN_OP_ALL_OF, 0, span);
+    }
+    return true;
+}
+
+static bool read_alternative(tn_cell_reader *reader, const tn_ast_alternative *alternative)
+{
+    const tn_ast_word *word = (const tn_ast_word *)alternative->words.first;
+    bool negated = false, found = false;
+    for (; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
+        negated = !negated;
+    if (!word)
+        return bad_cell(reader->check, alternative->node.span, "`not` of nothing", "say what the cell is not");
+    if (word->kind == TN_WORD_NAME && strcmp(word->text, "area") == 0) {
+        if (!read_area(reader, word))
+            return false;
+    } else {
+        if (word->kind == TN_WORD_NAME && !read_own_word(reader, word, &found))
+            return false;
+        if (!found && !read_tray_words(reader, word, alternative->node.span))
+            return false;
+    }
+    if (negated)
+        add(reader, TN_OP_NONE_OF, 0, alternative->node.span);
+    return true;
+}
+
+static bool read_item(tn_cell_reader *reader, const tn_ast_item *item)
+{
+    bool good = true, first = true;
+    reader->context = (tn_item_context){.field = TN_NONE};
+    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
+        good &= read_alternative(reader, alternative);
+        if (!first)
+            add(reader, TN_OP_ONE_OF, 0, alternative->node.span);
+        first = false;
+    }
+    return good;
+}
+
+static bool read_cell(tn_cell_reader *reader, const tn_ast_expr *expr)
+{
+    bool good = true, first = true;
+    if (!expr->items.first)
+        add(reader, TN_OP_EVERY, 0, expr->node.span);
+    for (TN_EACH(const tn_ast_item, item, expr->items)) {
+        good &= read_item(reader, item);
+        if (!first)
+            add(reader, TN_OP_ALL_OF, 0, item->node.span);
+        first = false;
+    }
+    return good;
+}
+
+/* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */
+static bool read_cells(tn_cell_reader *reader, const tn_ast_expr *expr)
+{
+    if (expr->kind == TN_EXPR_CELL)
+        return read_cell(reader, expr);
+    bool good = expr->kind != TN_EXPR_BROKEN, first = true;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
+        good &= read_cells(reader, part);
+        if (!first)
+            add(reader, expr->kind == TN_EXPR_AND ? TN_OP_ALL_OF : TN_OP_ONE_OF, 0, part->node.span);
+        first = false;
+    }
+    if (expr->kind == TN_EXPR_NOT)
+        add(reader, TN_OP_NONE_OF, 0, expr->node.span);
+    return good;
+}
+
+bool tn_form_cell(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, bool decided,
+                  tn_decision *decision)
+{
+    tn_cell_reader reader = {.check = check, .form = form, .decision = decision, .decided = decided};
+    decision->span = expr ? expr->node.span : (tn_span){0};
+    return expr && read_cells(&reader, expr);
+}

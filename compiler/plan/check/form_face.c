@@ -1,0 +1,129 @@
+/* Checks the openings of a form, and the lines that say what is in its faces. */
+#include <string.h>
+
+#include "compiler/plan/check/form.h"
+
+static const char *const kind_words[] = {"wall", "party", "open", "floor", "stair"};
+
+/* ---- openings */
+
+static bool opening_is_new(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    const char *what = NULL;
+    for (size_t i = 0; i < TN_FACE_KIND_COUNT; i++)
+        if (strcmp(kind_words[i], name->text) == 0)
+            what = "a kind of face";
+    for (uint32_t i = 0; i < form->opening_count; i++)
+        if (strcmp(form->openings[i].ast->name->text, name->text) == 0)
+            what = "another opening";
+    if (!what)
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, name->node.span,
+                                 "the name `%s` is that of %s already", name->text, what);
+    tn_help(check->diagnostics, d, "choose another name");
+    return false;
+}
+
+/* The sizes of an opening; false where one of them is wrong: then reported. */
+static bool read_opening(tn_check *check, tn_checked_opening *opening)
+{
+    const tn_ast_form_clause *ast = opening->ast;
+    opening->wide = tn_form_length(check, ast->length);
+    opening->high = tn_form_length(check, ast->high);
+    for (TN_EACH(const tn_ast_opening_part, part, ast->parts)) {
+        if (part->part == TN_OPENING_SILL)
+            opening->sill = tn_form_length(check, part->length);
+        else if (part->part == TN_OPENING_CLEAR)
+            opening->clear = tn_form_length(check, part->length);
+        opening->passage |= part->part == TN_OPENING_PASSAGE;
+    }
+    if (opening->wide != 0 && opening->high != 0)
+        return opening->wide > 0 && opening->high > 0 && opening->sill >= 0 && opening->clear >= 0;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_OPENING, ast->node.span, "opening `%s` has no size", ast->name->text);
+    tn_help(check->diagnostics, d, "write `wide` and `high` with lengths above 0");
+    return false;
+}
+
+void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    tn_checked_opening opening = {.ast = ast};
+    if (!opening_is_new(check, form, ast->name) || !tn_check_room(check, form->opening_count, TN_OPENINGS_MAX,
+                                                                  "opening", ast->node.span, "leave some of them out"))
+        return;
+    bool good = read_opening(check, &opening), fits = false;
+    for (uint32_t i = 0; i < form->storey_count; i++)
+        fits |= opening.sill + opening.high <= form->storeys[i].height - form->thickness[2];
+    if (good && !fits && form->storey_count > 0) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_OPENING, ast->high->node.span,
+                                     "opening `%s` is higher than every storey", ast->name->text);
+        tn_help(check->diagnostics, d, "`sill` and `high` together fit between the floor and the deck above it");
+    }
+    form->openings[form->opening_count++] = opening;
+}
+
+/* ---- faces */
+
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
+{
+    const char *names[TN_FACE_KIND_COUNT + TN_OPENINGS_MAX];
+    size_t count = 0;
+    for (; count < TN_FACE_KIND_COUNT; count++)
+        names[count] = kind_words[count];
+    for (uint32_t i = 0; i < form->opening_count; i++)
+        names[count++] = form->openings[i].ast->name->text;
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(names[i], word->text) == 0)
+            return i;
+    tn_form_unknown(check, form, word, "opening or kind of face", names, count);
+    return TN_NONE;
+}
+
+/* Can a kind be in a face of this relation? floor, stair and open are of cells one over another. */
+static bool kind_belongs(tn_face_relation relation, uint32_t kind)
+{
+    if (relation == TN_FACE_UNDER)
+        return kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR || kind == TN_FACE_OPEN;
+    return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR && !(relation == TN_FACE_OUTSIDE && kind == TN_FACE_OPEN);
+}
+
+static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_face *face, const tn_ast_word *word)
+{
+    uint32_t kind = tn_form_kind(check, form, word);
+    if (kind == TN_NONE)
+        return;
+    for (uint32_t i = 0; i < face->kind_count; i++)
+        if (face->kinds[i] == kind) {
+            tn_diagnostic *d =
+                tn_report(check->diagnostics, E_PART_TWICE, word->node.span, "`%s` is there twice", word->text);
+            tn_help(check->diagnostics, d, "leave one of the two out");
+            return;
+        }
+    if (!kind_belongs(face->ast->relation, kind)) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "`%s` cannot be in such a face", word->text);
+        tn_help(check->diagnostics, d,
+                face->ast->relation == TN_FACE_UNDER ? "between storeys there is `floor`, `stair` or `open`"
+                : face->ast->relation == TN_FACE_OUTSIDE
+                    ? "outside there is `wall`, `party` or an opening"
+                    : "between rooms there is `wall`, `party`, `open` or an opening");
+        return;
+    }
+    face->kinds[face->kind_count++] = kind;
+}
+
+void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    if (!tn_check_room(check, form->face_count, TN_FACE_LINES_MAX, "line of faces", ast->node.span,
+                       "join some of them by `or`"))
+        return;
+    tn_checked_face *face = &form->faces[form->face_count++];
+    *face = (tn_checked_face){.ast = ast, .kinds = TN_NEW_ARRAY(check->arena, uint32_t, ast->list.count)};
+    if (!face->kinds)
+        return;
+    tn_form_cell(check, form, ast->first, true, &face->first);
+    if (ast->relation != TN_FACE_OUTSIDE)
+        tn_form_cell(check, form, ast->second, true, &face->second);
+    for (TN_EACH(const tn_ast_word, word, ast->list))
+        add_kind(check, form, face, word);
+}

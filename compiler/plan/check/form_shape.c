@@ -1,0 +1,320 @@
+/* Reads the choices that a form has for a whole house, their values, and what is asked of them (`section(...)`). */
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "compiler/plan/check/form.h"
+
+static bool bad_shape(tn_check *check, tn_span span, const char *message, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, span, "%s", message);
+    tn_help(check->diagnostics, d, "%s", help);
+    return false;
+}
+
+/* ---- roofs */
+
+static const tn_ast_argument *argument(const tn_ast_shape *shape, size_t index)
+{
+    const tn_ast_node *node = shape->arguments.first;
+    while (node && index-- > 0)
+        node = node->next;
+    return (const tn_ast_argument *)node;
+}
+
+static bool read_slope(tn_check *check, const tn_ast_argument *slope, tn_shape_record *record)
+{
+    if (!slope || !slope->run)
+        return false;
+    if (slope->word->value < 1 || slope->word->value > TN_SLOPE_MAX || slope->run->value < 1 ||
+        slope->run->value > TN_SLOPE_MAX) {
+        bad_shape(check, slope->node.span, "this is no slope",
+                  "a slope is how far the roof rises for how far, such as 4:12; each from 1 to 1000");
+        return true;
+    }
+    record->rise = (uint32_t)slope->word->value;
+    record->run = (uint32_t)slope->run->value;
+    return true;
+}
+
+static bool read_roof(tn_check *check, const tn_ast_shape *shape, tn_shape_record *record)
+{
+    const tn_ast_argument *first = argument(shape, 0), *second = argument(shape, 1);
+    size_t count = shape->arguments.count;
+    if (tn_word_is(shape->word, "flat") && count == 0) {
+        record->roof = TN_ROOF_FLAT;
+        return true;
+    }
+    if (tn_word_is(shape->word, "gable") && count == 1) {
+        record->roof = TN_ROOF_GABLE;
+        return read_slope(check, first, record);
+    }
+    bool sides = first && (tn_word_is(first->word, "back") || tn_word_is(first->word, "front"));
+    if (tn_word_is(shape->word, "shed") && count == 2 && sides) {
+        record->roof = tn_word_is(first->word, "back") ? TN_ROOF_SHED_BACK : TN_ROOF_SHED_FRONT;
+        return read_slope(check, second, record);
+    }
+    if (tn_word_is(shape->word, "vault") && count == 1 && first->word->kind == TN_WORD_LENGTH) {
+        record->roof = TN_ROOF_VAULT;
+        int64_t height = tn_form_length(check, first->word);
+        record->height = height > 0 ? height : 1;
+        return height != 0;
+    }
+    return false;
+}
+
+/* ---- values */
+
+/* "shed(back,4:12)": without blanks, as house lines write it. */
+static const char *spell(tn_check *check, const tn_ast_shape *shape)
+{
+    const char *text = check->diagnostics->sources->files[shape->node.span.file].text;
+    char *spelling =
+        tn_arena_copy(check->arena, text + shape->node.span.begin, shape->node.span.end - shape->node.span.begin);
+    size_t used = 0;
+    for (size_t i = 0; spelling && spelling[i]; i++) {
+        bool digit_before = used > 0 && spelling[used - 1] >= '0' && spelling[used - 1] <= '9';
+        size_t next = i + strspn(spelling + i, " \t\r\n");
+        bool fraction = next > i && digit_before && spelling[next] >= '0' && spelling[next] <= '9';
+        if (fraction)
+            spelling[used++] = '-'; /* 6 1/2" */
+        i = next;
+        if (!spelling[i])
+            break;
+        spelling[used++] = spelling[i];
+    }
+    if (spelling)
+        spelling[used] = '\0';
+    return spelling ? spelling : "";
+}
+
+static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_ast_shape *shape,
+                         tn_shape_record *record)
+{
+    int64_t count = shape->word->value;
+    if (shape->word->kind != TN_WORD_NUMBER || shape->arguments.count > 0)
+        return bad_shape(check, shape->node.span, "this is no number of storeys",
+                         "write `section ZONE storeys = 1 | 2`");
+    if (count < 1 || count > form->storey_count) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span, "the form has no %lld storeys",
+                                     (long long)count);
+        tn_help(check->diagnostics, d, "it has %u: declare another `storey`, or write a number from 1 to %u",
+                form->storey_count, form->storey_count);
+        return false;
+    }
+    record->storeys = (uint32_t)count;
+    return true;
+}
+
+static void read_shape(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
+                       const tn_ast_shape *ast, tn_checked_shape *shape)
+{
+    *shape = (tn_checked_shape){.ast = ast, .spelling = spell(check, ast)};
+    if (strlen(shape->spelling) > TN_NAME_MAX)
+        bad_shape(check, ast->node.span, "this value is too long", "values have at most 255 bytes");
+    else if (choice->kind == TN_CHOICE_STOREYS)
+        read_storeys(check, form, ast, &shape->record);
+    else if (choice->kind == TN_CHOICE_ROOF && !read_roof(check, ast, &shape->record))
+        bad_shape(check, ast->node.span, "this is no roof",
+                  "write `flat`, `shed(back, 4:12)`, `shed(front, 4:12)`, `gable(12:12)` or `vault(4')`");
+    else if (choice->kind == TN_CHOICE_PLAIN && ast->arguments.count > 0)
+        bad_shape(check, ast->node.span, "this choice has names only", "leave out what is in the parentheses");
+}
+
+/* ---- choices */
+
+static bool choice_is_new(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice)
+{
+    for (uint32_t i = 0; i < form->choice_count; i++) {
+        if (strcmp(form->choices[i].name, choice->name) != 0)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, choice->ast->node.span,
+                                     "`section %s` is there twice", choice->name);
+        tn_note(check->diagnostics, d, &form->choices[i].ast->node.span, "the first time is here");
+        tn_help(check->diagnostics, d, "put all values into one line, joined by `|`");
+        return false;
+    }
+    return true;
+}
+
+/* `section ZONE storeys`, `section ZONE roof`, `section NAME`, `section ZONE NAME`. */
+static bool choice_head(tn_check *check, const tn_checked_form *form, tn_checked_choice *choice)
+{
+    const tn_ast_form_clause *ast = choice->ast;
+    size_t size = strlen(ast->name->text) + (ast->detail ? strlen(ast->detail->text) : 0) + 2;
+    char *name = tn_arena_alloc(check->arena, size);
+    if (!name)
+        return false;
+    snprintf(name, size, "%s%s%s", ast->name->text, ast->detail ? " " : "", ast->detail ? ast->detail->text : "");
+    choice->name = name;
+    choice->zone = TN_NONE;
+    if (!ast->detail)
+        return true;
+    choice->kind = tn_word_is(ast->detail, "storeys") ? TN_CHOICE_STOREYS
+                   : tn_word_is(ast->detail, "roof")  ? TN_CHOICE_ROOF
+                                                      : TN_CHOICE_PLAIN;
+    choice->zone = tn_field_find(form->schema, ast->name->text);
+    if (choice->zone != TN_NONE && form->schema->fields[choice->zone].kind == TN_FIELD_ZONE)
+        return true;
+    const char *names[TN_FIELDS_MAX];
+    size_t count = 0;
+    for (uint32_t f = 0; f < form->schema->field_count; f++)
+        if (form->schema->fields[f].kind == TN_FIELD_ZONE)
+            names[count++] = form->schema->fields[f].name;
+    tn_form_unknown(check, form, ast->name, "zone", names, count);
+    return false;
+}
+
+void tn_check_choice(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    tn_checked_choice choice = {.ast = ast};
+    if (!choice_head(check, form, &choice) || !choice_is_new(check, form, &choice) ||
+        !tn_check_room(check, form->choice_count, TN_CHOICES_MAX, "choice", ast->node.span,
+                       "join some of them into one") ||
+        !tn_check_room(check, ast->list.count, TN_VALUES_MAX + 1, "value", ast->node.span, "leave some of them out"))
+        return;
+    choice.shapes = TN_NEW_ARRAY(check->arena, tn_checked_shape, ast->list.count);
+    if (!choice.shapes)
+        return;
+    for (TN_EACH(const tn_ast_shape, shape, ast->list)) {
+        tn_checked_shape *next = &choice.shapes[choice.shape_count];
+        read_shape(check, form, &choice, shape, next);
+        for (uint32_t i = 0; i < choice.shape_count; i++)
+            if (strcmp(choice.shapes[i].spelling, next->spelling) == 0) {
+                tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, shape->node.span, "`%s` is there twice",
+                                             next->spelling);
+                tn_help(check->diagnostics, d, "leave one of the two out");
+            }
+        choice.shape_count++;
+    }
+    const tn_checked_choice *last = form->choice_count ? &form->choices[form->choice_count - 1] : NULL;
+    choice.shape_first = last ? last->shape_first + last->shape_count : 0;
+    form->choices[form->choice_count++] = choice;
+}
+
+/* ---- section(...) */
+
+/* The choice that words name: `machine storeys 2`, `cladding board`; words before the value. */
+static const tn_checked_choice *find_choice(const tn_checked_form *form, const tn_ast_word *first,
+                                            const tn_ast_word *second)
+{
+    for (uint32_t i = 0; i < form->choice_count; i++) {
+        const tn_ast_form_clause *ast = form->choices[i].ast;
+        if (strcmp(ast->name->text, first->text) == 0 &&
+            (second ? ast->detail && strcmp(ast->detail->text, second->text) == 0 : !ast->detail))
+            return &form->choices[i];
+    }
+    return NULL;
+}
+
+static void unknown_choice(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
+{
+    const char *names[TN_CHOICES_MAX];
+    for (uint32_t i = 0; i < form->choice_count; i++)
+        names[i] = form->choices[i].name;
+    tn_form_unknown(check, form, word, "choice", names, form->choice_count);
+}
+
+/* The values that a shape means: those of its name, or, where it has parentheses, the one that is spelled so. */
+static bool add_values(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
+                       const tn_ast_shape *shape, tn_decision *decision)
+{
+    const char *spelling = spell(check, shape), *names[TN_VALUES_MAX];
+    bool found = false;
+    for (uint32_t i = 0; i < choice->shape_count; i++) {
+        const tn_checked_shape *value = &choice->shapes[i];
+        names[i] = value->ast->word->text;
+        bool meant = shape->arguments.count ? strcmp(value->spelling, spelling) == 0
+                                            : strcmp(value->ast->word->text, shape->word->text) == 0;
+        if (!meant)
+            continue;
+        tn_decision_add(
+            check, decision,
+            (tn_decision_step){.opcode = TN_OP_CHOSEN, .index = choice->shape_first + i, .span = shape->node.span});
+        if (found)
+            tn_decision_add(check, decision, (tn_decision_step){.opcode = TN_OP_ONE_OF, .span = shape->node.span});
+        found = true;
+    }
+    if (!found)
+        tn_form_unknown(check, form, shape->word, "value", names, choice->shape_count);
+    return found;
+}
+
+/* [not] [choice] value; the choice of the alternative before counts where none is named. */
+static bool read_alternative(tn_check *check, const tn_checked_form *form, const tn_ast_alternative *alternative,
+                             const tn_checked_choice **choice, tn_decision *decision)
+{
+    const tn_ast_node *node = alternative->words.first;
+    bool negated = false;
+    const tn_ast_word *words[2] = {NULL, NULL};
+    size_t count = 0;
+    for (; node && node != alternative->words.last; node = node->next) {
+        const tn_ast_word *word = (const tn_ast_word *)node;
+        if (word->kind == TN_WORD_NOT && count == 0)
+            negated = !negated;
+        else if (word->kind != TN_WORD_NAME || count == 2)
+            return bad_shape(check, word->node.span, "this is no choice of a section",
+                             "write `section(body roof gable)`, `section(cladding board)`");
+        else
+            words[count++] = word;
+    }
+    if (!node)
+        return false;
+    if (count > 0)
+        *choice = find_choice(form, words[0], words[1]);
+    if (!*choice && count > 0)
+        unknown_choice(check, form, words[0]);
+    else if (!*choice)
+        bad_shape(check, alternative->node.span, "this value stands alone",
+                  "name what it is a value of: `section(body roof gable)`");
+    if (!*choice || !add_values(check, form, *choice, (const tn_ast_shape *)node, decision))
+        return false;
+    if (negated)
+        tn_decision_add(check, decision, (tn_decision_step){.opcode = TN_OP_NONE_OF, .span = alternative->node.span});
+    return true;
+}
+
+static bool read_items(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision)
+{
+    bool first_item = true;
+    for (TN_EACH(const tn_ast_item, item, expr->items)) {
+        const tn_checked_choice *choice = NULL;
+        bool first = true;
+        for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
+            if (!read_alternative(check, form, alternative, &choice, decision))
+                return false;
+            if (!first)
+                tn_decision_add(check, decision,
+                                (tn_decision_step){.opcode = TN_OP_ONE_OF, .span = alternative->node.span});
+            first = false;
+        }
+        if (!first_item)
+            tn_decision_add(check, decision, (tn_decision_step){.opcode = TN_OP_ALL_OF, .span = item->node.span});
+        first_item = false;
+    }
+    return !first_item;
+}
+
+/* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */
+bool tn_form_section(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision)
+{
+    if (!expr || expr->kind == TN_EXPR_BROKEN)
+        return false;
+    decision->span = expr->node.span;
+    if (expr->kind == TN_EXPR_SECTION)
+        return read_items(check, form, expr, decision);
+    bool first = true;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
+        if (!tn_form_section(check, form, part, decision))
+            return false;
+        if (!first)
+            tn_decision_add(check, decision,
+                            (tn_decision_step){.opcode = expr->kind == TN_EXPR_AND ? TN_OP_ALL_OF : TN_OP_ONE_OF,
+                                               .span = part->node.span});
+        first = false;
+    }
+    if (expr->kind == TN_EXPR_NOT)
+        tn_decision_add(check, decision, (tn_decision_step){.opcode = TN_OP_NONE_OF, .span = expr->node.span});
+    decision->span = expr->node.span;
+    return true;
+}

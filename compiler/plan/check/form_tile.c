@@ -1,0 +1,137 @@
+/* Checks the tiles of a form: what stands in a room, and what is kept free there. */
+#include <string.h>
+
+#include "compiler/plan/check/form.h"
+#include "runtime/base/length.h"
+
+static void bad_tile(tn_check *check, tn_span span, const char *message, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TILE, span, "%s", message);
+    tn_help(check->diagnostics, d, "%s", help);
+}
+
+/* wide, deep: from the least to the most */
+static void read_range(tn_check *check, const tn_ast_tile_part *part, int64_t range[2])
+{
+    range[0] = tn_form_length(check, part->low);
+    range[1] = tn_form_length(check, part->high);
+    if (range[0] >= 0 && range[1] >= 0 && range[0] > range[1])
+        bad_tile(check, part->node.span, "no room is so wide or deep: the larger length is first",
+                 "write the smaller length first");
+}
+
+static void add_against(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile,
+                        const tn_ast_tile_part *part)
+{
+    uint32_t *kinds = TN_NEW_ARRAY(check->arena, uint32_t, part->list.count);
+    if (!kinds || tile->against) {
+        if (kinds)
+            bad_tile(check, part->node.span, "`against` is there twice", "join the kinds by `or`");
+        return;
+    }
+    tile->against = kinds;
+    for (TN_EACH(const tn_ast_word, word, part->list)) {
+        uint32_t kind = tn_form_kind(check, form, word);
+        if (kind != TN_NONE)
+            kinds[tile->against_count++] = kind;
+    }
+}
+
+/* ---- boxes */
+
+/* One stretch; a box has at most one across, one into the room, one up. */
+static void read_reach(tn_check *check, const tn_ast_reach *reach, bool said[3], tn_tile_box_record *box)
+{
+    int axis = reach->from <= TN_BOX_RIGHT ? 0 : reach->from <= TN_BOX_FRONT ? 1 : 2;
+    int other = reach->to <= TN_BOX_RIGHT ? 0 : reach->to <= TN_BOX_FRONT ? 1 : 2;
+    int64_t low = tn_form_length(check, reach->low), high = tn_form_length(check, reach->high);
+    if (axis != other || said[axis]) {
+        bad_tile(check, reach->node.span,
+                 axis != other ? "a stretch goes from a side to the opposite one" : "this stretch is there twice",
+                 "write `left 0 .. right 0, back 0 .. 2', up 0 .. 3'`");
+        return;
+    }
+    said[axis] = true;
+    bool opposite = reach->from != reach->to, far = reach->from == TN_BOX_RIGHT || reach->from == TN_BOX_FRONT;
+    bool inside_out = low >= 0 && high >= 0 && !opposite && (far ? low <= high : low >= high);
+    if (inside_out || (opposite && far))
+        bad_tile(check, reach->node.span, "this box is turned inside out at every size",
+                 far ? "from the right or the front the larger length is first: `right 2' .. right 0`"
+                     : "write the smaller length first");
+    if (axis == 2) {
+        box->up_low = low;
+        box->up_high = high;
+    } else if (axis == 1) {
+        box->y_from = low;
+        box->y_to = high;
+        box->flags |= (far ? TN_TILE_Y_FROM_FRONT : 0) | (reach->to == TN_BOX_FRONT ? TN_TILE_Y_TO_FRONT : 0);
+    } else {
+        box->x_from = low;
+        box->x_to = high;
+        box->flags |= (far ? TN_TILE_X_FROM_RIGHT : 0) | (reach->to == TN_BOX_RIGHT ? TN_TILE_X_TO_RIGHT : 0);
+    }
+}
+
+static void add_box(tn_check *check, tn_checked_tile *tile, const tn_ast_tile_part *part)
+{
+    bool said[3] = {false};
+    tn_tile_box_record box = {.flags = part->part == TN_TILE_KEEPS ? TN_TILE_KEEP : 0};
+    for (TN_EACH(const tn_ast_reach, reach, part->list))
+        read_reach(check, reach, said, &box);
+    box.flags |= (said[0] ? 0 : TN_TILE_X_TO_RIGHT) | (said[1] ? 0 : TN_TILE_Y_TO_FRONT);
+    if (!tn_check_room(check, tile->box_count, TN_TILE_BOXES_MAX, "item", part->node.span, "make two tiles of it"))
+        return;
+    tile->box_ast[tile->box_count] = part;
+    tile->boxes[tile->box_count++] = box;
+}
+
+/* ---- tiles */
+
+static void read_purposes(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile)
+{
+    const char *names[TN_CELL_RULES_MAX];
+    for (uint32_t i = 0; i < form->function_count; i++)
+        names[i] = form->rules[i].ast->name->text;
+    for (TN_EACH(const tn_ast_word, word, tile->ast->list)) {
+        uint32_t function = tn_form_function(form, word->text);
+        if (function == TN_NONE)
+            tn_form_unknown(check, form, word, "function", names, form->function_count);
+        else
+            tile->purposes[tile->purpose_count++] = function;
+    }
+}
+
+static bool tile_is_new(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    for (uint32_t i = 0; i < form->tile_count; i++) {
+        if (strcmp(form->tiles[i].ast->name->text, name->text) != 0)
+            continue;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_PART_TWICE, name->node.span, "there is a tile `%s` already", name->text);
+        tn_note(check->diagnostics, d, &form->tiles[i].ast->name->node.span, "it is here");
+        tn_help(check->diagnostics, d, "choose another name");
+        return false;
+    }
+    return true;
+}
+
+void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    tn_checked_tile tile = {.ast = ast, .wide = {0, TN_HOUSE_LENGTH_MAX}, .deep = {0, TN_HOUSE_LENGTH_MAX}};
+    tile.purposes = TN_NEW_ARRAY(check->arena, uint32_t, ast->list.count);
+    tile.boxes = TN_NEW_ARRAY(check->arena, tn_tile_box_record, ast->parts.count);
+    tile.box_ast = TN_NEW_ARRAY(check->arena, const tn_ast_tile_part *, ast->parts.count);
+    if (!tile.purposes || !tile.boxes || !tile.box_ast || !tile_is_new(check, form, ast->name) ||
+        !tn_check_room(check, form->tile_count, TN_TILES_MAX, "tile", ast->node.span, "leave some of them out"))
+        return;
+    read_purposes(check, form, &tile);
+    for (TN_EACH(const tn_ast_tile_part, part, ast->parts)) {
+        if (part->part == TN_TILE_AGAINST)
+            add_against(check, form, &tile, part);
+        else if (part->part <= TN_TILE_DEEP)
+            read_range(check, part, part->part == TN_TILE_WIDE ? tile.wide : tile.deep);
+        else
+            add_box(check, &tile, part);
+    }
+    form->tiles[form->tile_count++] = tile;
+}

@@ -1,0 +1,334 @@
+/* Libraries: clauses with their names, and what one library takes over from another. */
+#include <string.h>
+
+#include "compiler/common/limits.h"
+#include "compiler/plan/check/check.h"
+
+enum { UNSEEN, OPEN, DONE };
+
+/* ---- clauses and their names */
+
+static void put_clause(tn_check *check, tn_checked_library *library, tn_checked_clause *clause)
+{
+    if (library->clause_count == library->clause_capacity) {
+        size_t capacity = library->clause_capacity ? library->clause_capacity * 2 : 8;
+        tn_checked_clause **clauses = TN_NEW_ARRAY(check->arena, tn_checked_clause *, capacity);
+        if (!clauses)
+            return;
+        if (library->clause_count > 0)
+            memcpy(clauses, library->clauses, library->clause_count * sizeof *clauses);
+        library->clauses = clauses;
+        library->clause_capacity = capacity;
+    }
+    library->clauses[library->clause_count++] = clause;
+    tn_names_put(&library->clause_names, clause->name, clause);
+}
+
+/* "require@12"; with ".2" and so on where the library has that already. */
+static const char *make_name(tn_check *check, const tn_checked_library *library, const char *word, size_t line)
+{
+    char name[64], numbered[96];
+    snprintf(name, sizeof name, "%s@%zu", word, line);
+    snprintf(numbered, sizeof numbered, "%s", name);
+    for (unsigned n = 2; tn_names_get(&library->clause_names, numbered); n++)
+        snprintf(numbered, sizeof numbered, "%s.%u", name, n);
+    return tn_arena_copy(check->arena, numbered, strlen(numbered));
+}
+
+/* Is the name that the author gave free? Where it is not, says so. The same rule pruned twice is harmless. */
+static bool name_is_free(tn_check *check, const tn_checked_library *library, const tn_checked_clause *clause,
+                         tn_span place)
+{
+    const tn_checked_clause *before = tn_names_get(&library->clause_names, clause->name);
+    if (!before)
+        return true;
+    if (clause->rule && before->rule == clause->rule && before->kind == clause->kind) {
+        if (tn_check_wanted(check, W_PRUNED_TWICE)) {
+            const char *verb = clause->kind == TN_CLAUSE_PRUNE ? "prunes" : "requires";
+            tn_diagnostic *d = tn_report(check->diagnostics, W_PRUNED_TWICE, place, "library `%s` %s `%s` twice",
+                                         library->name, verb, clause->name);
+            tn_note(check->diagnostics, d, &before->span, "the first time is here");
+            tn_help(check->diagnostics, d, "leave this one out");
+        }
+        return false;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_CLAUSE, place,
+                                 "library `%s` has a clause `%s` already", library->name, clause->name);
+    tn_note(check->diagnostics, d, &before->span, "it is here");
+    tn_help(check->diagnostics, d, "give one of the two another name with `as`");
+    return false;
+}
+
+/* Calls in it make rules, which are checked first. */
+static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
+{
+    tn_expand(check, &clause->expr);
+    tn_ast_expr *expr = clause->expr;
+    size_t unit = check->unit;
+    tn_checked_schema *schema = check->schema;
+    tn_ast_list allow = check->allow;
+    tn_check_settle(check);
+    check->unit = unit;
+    check->schema = schema;
+    check->allow = allow;
+    check->rule = NULL;
+    tn_check_expr(check, expr);
+    tn_check_meaning(check, expr);
+    tn_check_whole(check, expr);
+    tn_check_warnings(check, expr);
+}
+
+static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast, tn_checked_clause *clause)
+{
+    check_clause_expr(check, ast);
+    clause->expr = ast->expr;
+    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule &&
+        (!ast->expr->rule->hidden || !ast->expr->rule->of->is_template)) {
+        clause->rule = ast->expr->rule;
+        clause->name = clause->rule->name;
+        if (!clause->doc && clause->rule->ast->doc)
+            clause->doc = clause->rule->ast->doc->text;
+    }
+    if (ast->name)
+        clause->name = ast->name->text;
+    if (ast->name && strlen(clause->name) > TN_NAME_MAX) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span,
+                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
+        tn_help(check->diagnostics, d, "choose a shorter name");
+    } else if (clause->name) {
+        if (name_is_free(check, library, clause, ast->name ? ast->name->node.span : ast->expr->node.span))
+            put_clause(check, library, clause);
+    } else {
+        size_t line = tn_sources_place(check->diagnostics->sources, ast->node.span).line;
+        clause->name = make_name(check, library, ast->form == TN_FORM_PRUNE ? "prune" : "require", line);
+        if (clause->name)
+            put_clause(check, library, clause);
+    }
+}
+
+static void add_total(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast, tn_checked_clause *clause)
+{
+    const tn_checked_schema *schema = library->schema;
+    clause->field = ast->field ? tn_field_find(schema, ast->field->text) : schema->length_field;
+    const tn_checked_field *field = clause->field == TN_NONE ? NULL : &schema->fields[clause->field];
+    if (!field || (field->kind != TN_FIELD_LENGTH && field->kind != TN_FIELD_ZONE)) {
+        if (schema->broken)
+            return;
+        tn_span place = ast->field ? ast->field->node.span : ast->node.span;
+        tn_diagnostic *d = ast->field
+                               ? tn_report(check->diagnostics, E_NOT_A_LENGTH, place,
+                                           "schema `%s` has no field of lengths `%s`", schema->name, ast->field->text)
+                               : tn_report(check->diagnostics, E_NO_LENGTH_FIELD, place,
+                                           "schema `%s` has no field of lengths to add up", schema->name);
+        tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
+        tn_help(check->diagnostics, d,
+                "name a field of lengths, or a zone, whose depths are added: `total width 40'..56'`");
+        return;
+    }
+    if (!tn_check_detail(check, field, ast->detail))
+        return;
+    clause->condition = tn_check_total(check, ast, clause->field);
+    clause->any = tn_check_any(check, library->schema, ast->node.span);
+    clause->name = "total"; /* several have the same name: `drop ... by total` means any of them */
+    if (clause->condition)
+        put_clause(check, library, clause);
+}
+
+static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast)
+{
+    bool own = library->trays && (!library->from || library->trays != library->from->trays);
+    if (own) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_TRAYS_TWICE, ast->node.span,
+                                     "library `%s` says twice how many trays a plan has", library->name);
+        tn_note(check->diagnostics, d, &library->trays->node.span, "the first time is here");
+        tn_help(check->diagnostics, d, "write one range: `trays 4..9`");
+        return;
+    }
+    library->trays = ast;
+    if (!tn_check_range(check, &ast->range, false))
+        return;
+    int64_t low = ast->range.low->value, high = ast->range.high->value;
+    if (low < 0 || high > TN_TRAYS_MAX) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TRAYS, ast->range.span, "a plan cannot have %lld trays",
+                                     (long long)(low < 0 ? low : high));
+        tn_help(check->diagnostics, d, "the number of trays lies between 0 and %u", TN_TRAYS_MAX);
+        return;
+    }
+    library->trays_min = (uint32_t)low;
+    library->trays_max = (uint32_t)high;
+}
+
+static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast)
+{
+    static const tn_clause_kind kinds[] = {
+        [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
+        [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
+        [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
+    };
+    if (ast->form == TN_FORM_TRAYS) {
+        set_trays(check, library, ast);
+        return;
+    }
+    if (ast->form == TN_FORM_ALLOW || !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause",
+                                                     ast->node.span, "join some of them by `or`"))
+        return;
+    tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
+    if (!clause)
+        return;
+    *clause = (tn_checked_clause){.ast = ast,
+                                  .kind = kinds[ast->form],
+                                  .doc = ast->doc ? ast->doc->text : NULL,
+                                  .span = ast->node.span,
+                                  .field = TN_NONE};
+    if (clause->kind != TN_CLAUSE_TOTAL)
+        add_expr_clause(check, library, ast, clause);
+    else if (library->schema)
+        add_total(check, library, ast, clause);
+}
+
+/* ---- libraries */
+
+static void check_library(tn_check *check, tn_checked_library *library);
+
+/* Takes over the clauses of another library. */
+static void take_over(tn_check *check, tn_checked_library *library)
+{
+    const tn_ast_word *word = library->ast->from;
+    check->unit = library->unit;
+    check->schema = NULL;
+    const tn_checked_name *name = tn_check_name(check, word, TN_WANT_LIBRARY);
+    if (!name)
+        return;
+    if (name->library->state == OPEN) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_LIBRARY_CYCLE, word->node.span, "library `%s` is made from itself%s",
+                      library->name, name->library == library ? "" : ", by way of others");
+        tn_note(check->diagnostics, d, &name->span, "`%s` is here", name->library->name);
+        tn_help(check->diagnostics, d, "start one of them with `using SCHEMA` instead of `from`");
+        return;
+    }
+    check_library(check, name->library);
+    const tn_checked_library *from = library->from = name->library;
+    library->schema = from->schema;
+    library->trays = from->trays;
+    library->trays_min = from->trays_min;
+    library->trays_max = from->trays_max;
+    for (size_t i = 0; i < from->clause_count; i++)
+        put_clause(check, library, from->clauses[i]);
+}
+
+/* Recursion is as deep as libraries are made from each other: at most TN_LIBRARIES_MAX. */
+static void check_library(tn_check *check, tn_checked_library *library)
+{
+    if (library->state != UNSEEN)
+        return;
+    library->state = OPEN;
+    const tn_ast_library *ast = library->ast;
+    if (ast->from)
+        take_over(check, library);
+    else
+        library->schema = tn_check_schema_for(check, library->unit, ast->using, ast->name->node.span);
+    check->unit = library->unit;
+    check->schema = library->schema;
+    check->rule = NULL;
+    for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
+        if (clause->form != TN_FORM_ALLOW)
+            continue;
+        tn_check_allow(check, clause->allow);
+        for (TN_EACH(const tn_ast_word, word, clause->allow)) {
+            tn_ast_word *copy = TN_NEW(check->arena, tn_ast_word);
+            if (!copy)
+                return;
+            *copy = *word;
+            copy->node.next = NULL;
+            library->allow = tn_ast_append(library->allow, copy);
+        }
+    }
+    check->allow = library->allow;
+    for (TN_EACH(tn_ast_clause, clause, ast->clauses))
+        add_clause(check, library, clause);
+    library->state = DONE;
+    library->broken |= ast->from && (!library->from || library->from->broken);
+    if (library->trays || check->skipped || library->broken)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_TRAYS, ast->name->node.span,
+                                 "library `%s` does not say how many trays its plans have", library->name);
+    tn_help(check->diagnostics, d, "add a line such as `trays 4..9`");
+}
+
+void tn_check_libraries(tn_check *check)
+{
+    for (size_t i = 0; i < check->result->library_count; i++)
+        check_library(check, check->result->libraries[i]);
+}
+
+/* ---- what the command line asks */
+
+/* The library named, or the only one of the file itself, or the only one at all; NULL where that is not clear: the
+ * command says so. */
+static tn_checked_library *asked_library(const tn_check *check)
+{
+    const tn_checked *result = check->result;
+    tn_checked_library *own = NULL, *any = NULL;
+    size_t owns = 0;
+    for (size_t i = 0; i < result->library_count; i++) {
+        tn_checked_library *library = any = result->libraries[i];
+        if (check->asked->library && strcmp(library->name, check->asked->library) == 0)
+            return library;
+        if (library->unit + 1 < check->imports->count)
+            continue;
+        own = library;
+        owns++;
+    }
+    if (check->asked->library)
+        return NULL;
+    return owns == 1 ? own : owns == 0 && result->library_count == 1 ? any : NULL;
+}
+
+static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr *expr, size_t number)
+{
+    tn_ast_clause *ast = TN_NEW(check->arena, tn_ast_clause);
+    tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
+    if (!ast || !clause)
+        return;
+    *ast = (tn_ast_clause){.node.span = expr->node.span, .form = TN_FORM_REQUIRE, .expr = expr};
+    check_clause_expr(check, ast);
+    *clause = (tn_checked_clause){
+        .ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
+    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && !ast->expr->rule->hidden)
+        clause->rule = ast->expr->rule;
+    clause->name = make_name(check, library, "where", number);
+    if (clause->name)
+        put_clause(check, library, clause);
+}
+
+static void check_pattern(tn_check *check)
+{
+    tn_checked *result = check->result;
+    result->pattern = TN_NEW_ARRAY(check->arena, tn_ast_expr *, check->asked->pattern.count);
+    for (TN_EACH(tn_ast_expr, tray, check->asked->pattern)) {
+        if (!result->pattern)
+            return;
+        if (tray->kind != TN_EXPR_OPTIONAL) {
+            tn_check_expr(check, tray);
+            tn_check_meaning(check, tray);
+        }
+        result->pattern[result->pattern_count++] = tray->kind == TN_EXPR_OPTIONAL ? NULL : tray;
+    }
+}
+
+void tn_check_asked(tn_check *check)
+{
+    const tn_asked_for *asked = check->asked;
+    tn_checked_library *library = asked->where_count || asked->has_pattern ? asked_library(check) : NULL;
+    check->result->asked = library;
+    if (!library || !library->schema)
+        return;
+    check->unit = check->imports->count - 1;
+    check->schema = library->schema;
+    check->rule = NULL;
+    check->allow = library->allow;
+    for (size_t i = 0; i < asked->where_count; i++)
+        add_where(check, library, asked->wheres[i], i + 1);
+    check_pattern(check);
+}

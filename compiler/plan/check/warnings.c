@@ -1,0 +1,202 @@
+/* Rules that are legal, but hardly say what was meant. */
+#include <string.h>
+
+#include "compiler/plan/check/check.h"
+
+/* Could one tray meet both? And does each leave trays out that the other lets in? (If not, one of them says nothing
+ * new.) */
+static bool both_and_neither(const tn_checked_spec *a, const tn_checked_spec *b)
+{
+    const tn_checked_schema *schema = a->schema;
+    bool narrows_a = false, narrows_b = false;
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        bool common = false;
+        for (uint32_t v = 0; v < schema->fields[f].value_count; v++) {
+            uint32_t bit = schema->fields[f].first_bit + v;
+            bool in_a = a->mask[bit / 64] >> (bit % 64) & 1, in_b = b->mask[bit / 64] >> (bit % 64) & 1;
+            common |= in_a && in_b;
+            narrows_a |= in_a && !in_b;
+            narrows_b |= in_b && !in_a;
+        }
+        if (!common)
+            return false;
+    }
+    return narrows_a && narrows_b;
+}
+
+static bool lets_all_in(const tn_checked_spec *spec, uint32_t field)
+{
+    const tn_checked_field *f = &spec->schema->fields[field];
+    bool all = true;
+    for (uint32_t bit = f->first_bit; bit < f->first_bit + f->value_count; bit++)
+        all = all && spec->mask[bit / 64] >> (bit % 64) & 1;
+    return all;
+}
+
+/* Do both ask for one field? In one specifier that would be asking twice. */
+static bool share_field(const tn_checked_spec *a, const tn_checked_spec *b)
+{
+    for (uint32_t f = 0; f < a->schema->field_count; f++)
+        if (!lets_all_in(a, f) && !lets_all_in(b, f))
+            return true;
+    return false;
+}
+
+/* ---- the author's own words, for fixes */
+
+typedef struct words {
+    const char *text;
+    size_t size;
+} words;
+
+/* The source from one place to another, without the blanks at its ends. */
+static words words_between(const tn_check *check, uint32_t file, uint32_t begin, uint32_t end)
+{
+    const char *text = check->diagnostics->sources->files[file].text;
+    while (begin < end && strchr(" \t\r\n", text[begin]))
+        begin++;
+    while (end > begin && strchr(" \t\r\n", text[end - 1]))
+        end--;
+    return (words){text + begin, end - begin};
+}
+
+/* What stands inside `tray(...)`; nothing where it does not fit into a line. */
+static words inside_tray(const tn_check *check, const tn_ast_expr *tray)
+{
+    tn_span span = tray->node.span;
+    words all = words_between(check, span.file, span.begin, span.end);
+    const char *open = memchr(all.text, '(', all.size);
+    if (!open || all.text[all.size - 1] != ')' || memchr(all.text, '\n', all.size))
+        return (words){0};
+    uint32_t begin = span.begin + (uint32_t)(open + 1 - all.text);
+    return words_between(check, span.file, begin, span.begin + (uint32_t)all.size - 1);
+}
+
+static bool is_word(words w, const char *word)
+{
+    return w.size == strlen(word) && strncmp(w.text, word, w.size) == 0;
+}
+
+/* ---- warnings */
+
+/* `tray(a) and tray(b)`: one specifier for both, where the two stand side by side. */
+static void help_two_trays(tn_check *check, tn_diagnostic *d, const tn_ast_expr *first, const tn_ast_expr *second)
+{
+    words between = words_between(check, first->node.span.file, first->node.span.end, second->node.span.begin);
+    words a = inside_tray(check, first), b = inside_tray(check, second);
+    if (share_field(first->spec, second->spec)) {
+        tn_help(check->diagnostics, d, "for one tray that is both write one specifier, which asks for each field once");
+        return;
+    }
+    if (!is_word(between, "and") || !a.size || !b.size) {
+        tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(..., ...)`");
+        return;
+    }
+    tn_help(check->diagnostics, d, "for one tray that is both write one specifier: `tray(%.*s, %.*s)`", (int)a.size,
+            a.text, (int)b.size, b.text);
+    tn_replace_with(check->diagnostics, d, "tray(%.*s, %.*s)", (int)a.size, a.text, (int)b.size, b.text);
+}
+
+static void warn_two_trays(tn_check *check, const tn_ast_expr *conjunction)
+{
+    const tn_ast_expr *first = NULL;
+    for (TN_EACH(const tn_ast_expr, part, conjunction->parts)) {
+        if (part->kind != TN_EXPR_TRAY || !part->spec || part->spec->broken)
+            continue;
+        if (!first) {
+            first = part;
+            continue;
+        }
+        if (!both_and_neither(first->spec, part->spec) || !tn_check_wanted(check, W_TWO_TRAYS))
+            return;
+        tn_diagnostic *d = tn_report(check->diagnostics, W_TWO_TRAYS, tn_span_join(first->node.span, part->node.span),
+                                     "these two may be met by two different trays of the plan");
+        help_two_trays(check, d, first, part);
+        return;
+    }
+}
+
+static void warn_not_tray(tn_check *check, const tn_ast_expr *part)
+{
+    if (!tn_check_wanted(check, W_NOT_TRAY_PART))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span,
+                                 "this part fits any number of trays, of which none is so");
+    const tn_ast_expr *tray = (const tn_ast_expr *)part->parts.first;
+    words inside = inside_tray(check, tray);
+    words before = words_between(check, part->node.span.file, part->node.span.begin, tray->node.span.begin);
+    bool one = inside.size && !memchr(inside.text, ' ', inside.size) && !memchr(inside.text, ',', inside.size);
+    if (!one || !is_word(before, "not") || part->node.span.end != tray->node.span.end) {
+        tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not 8')`");
+        return;
+    }
+    tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not %.*s)`",
+            (int)inside.size, inside.text);
+    tn_replace_with(check->diagnostics, d, "tray(not %.*s)", (int)inside.size, inside.text);
+}
+
+static void warn_neighbour(tn_check *check, const tn_ast_expr *neighbour)
+{
+    for (TN_EACH(const tn_ast_expr, part, neighbour->parts)) {
+        bool outer =
+            (const tn_ast_node *)part == neighbour->parts.first || (const tn_ast_node *)part == neighbour->parts.last;
+        if (!outer && part->kind == TN_EXPR_NOT && ((const tn_ast_expr *)part->parts.first)->kind == TN_EXPR_TRAY)
+            warn_not_tray(check, part);
+    }
+}
+
+static void warn_counted(tn_check *check, const tn_ast_expr *expr)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)expr->parts.first;
+    uint32_t trays = part ? tn_min_trays(part) : 1;
+    if (trays < 2 || !tn_check_wanted(check, W_NEVER_ONE_TRAY))
+        return;
+    const char *what = expr->kind == TN_EXPR_QUANTITY ? "quantity" : expr->kind == TN_EXPR_SUM ? "sum" : "many";
+    tn_span keyword = expr->node.span;
+    keyword.end = keyword.begin + (uint32_t)strlen(what);
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, keyword,
+                                 "`%s` looks at single trays, and its part takes %u or more", what, (unsigned)trays);
+    if (expr->kind == TN_EXPR_QUANTITY) {
+        tn_help(check->diagnostics, d, "did you mean `occurrences`, which counts the places where it starts?");
+        tn_replace_with(check->diagnostics, d, "occurrences");
+    } else {
+        tn_help(check->diagnostics, d, "name what a single tray has to be");
+    }
+}
+
+/* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one
+ * place? */
+static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
+{
+    switch (expr->kind) {
+    case TN_EXPR_AND:
+        if (somewhere)
+            warn_two_trays(check, expr);
+        break;
+    case TN_EXPR_NEIGHBOUR:
+        warn_neighbour(check, expr);
+        somewhere = false;
+        break;
+    case TN_EXPR_QUANTITY:
+    case TN_EXPR_SUM:
+    case TN_EXPR_MANY:
+        warn_counted(check, expr);
+        somewhere = false;
+        break;
+    case TN_EXPR_NOT:
+        somewhere = true; /* whatever it stands in, `not` denies that its part is somewhere in the stretch */
+        break;
+    case TN_EXPR_OR:
+        break;
+    default:
+        somewhere = false;
+        break;
+    }
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        warn(check, part, somewhere);
+}
+
+void tn_check_warnings(tn_check *check, const tn_ast_expr *expr)
+{
+    warn(check, expr, true);
+}

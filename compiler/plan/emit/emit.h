@@ -1,0 +1,59 @@
+/* Emitting: from the checked program to a module's bytes. Internal to emit_*.c and compile.c.
+ *
+ * Functions are emitted callees first. A rule has two: WHOLE (judgement M of docs/plan-language.md: the stretch taken
+ * whole) and HOLDS (judgement H: somewhere in the region).
+ */
+#ifndef TARTAN_COMPILER_PLAN_EMIT_EMIT_H
+#define TARTAN_COMPILER_PLAN_EMIT_EMIT_H
+
+#include "compiler/plan/check/check.h"
+#include "runtime/module/builder.h"
+
+typedef struct tn_emit {
+    tn_arena *arena;
+    tn_builder *builder;
+    const tn_checked *checked;
+    const tn_imports *imports;
+    uint32_t schema; /* of the function at hand */
+    uint32_t begin;  /* of its code */
+    uint32_t depth, stack_max;
+    size_t instructions; /* of the module so far */
+} tn_emit;
+
+/* The module's bytes, which the caller frees with free(). E0810 where it would be too large to load. */
+tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_imports *imports,
+                         tn_diagnostics *diagnostics, uint8_t **bytes, size_t *size, tn_error *error);
+
+/* ---- emit.c */
+void tn_emit_begin(tn_emit *emit, uint32_t schema); /* a function's code begins */
+void tn_emit_op(tn_emit *emit, tn_span span, tn_opcode opcode, int64_t first, int64_t second);
+uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind); /* its index */
+
+/* ---- schema.c */
+void tn_emit_schemas(tn_emit *emit);
+uint32_t tn_emit_spec(tn_emit *emit, tn_checked_spec *spec);
+
+/* ---- rule.c */
+void tn_emit_rules(tn_emit *emit);
+uint32_t tn_emit_condition(tn_emit *emit, tn_checked_condition *condition);
+/* The functions that an expression needs (conditions, what is mirrored). `name` is for people. */
+void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name);
+void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr);
+
+void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr);
+
+/* ---- sum.c */
+void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name); /* the functions that its terms name */
+/* The relation of the stretches on which the sum compares so with 0. */
+void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op);
+void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
+void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure);
+void tn_emit_measures(tn_emit *emit); /* their records */
+
+/* ---- library.c */
+void tn_emit_libraries(tn_emit *emit);
+
+/* ---- form.c */
+void tn_emit_forms(tn_emit *emit);
+
+#endif

@@ -1,0 +1,218 @@
+/* Emits forms: the code that decides on cells and sections, and the records. */
+#include "compiler/plan/check/form.h"
+#include "compiler/plan/emit/emit.h"
+
+/* Where the form's records begin. */
+typedef struct tn_form_base {
+    uint32_t storey, rule, shape;
+} tn_form_base;
+
+static tn_string text(tn_emit *emit, const tn_ast_word *word)
+{
+    return tn_builder_string(emit->builder, word ? word->text : NULL);
+}
+
+#define PLACE(SPAN) .file = (SPAN).file, .begin = (SPAN).begin, .end = (SPAN).end
+
+/* ---- code */
+
+static uint32_t emit_decision(tn_emit *emit, const tn_checked_form *form, tn_form_base base,
+                              const tn_decision *decision, const char *name, tn_function_kind kind)
+{
+    for (size_t i = 0; i < decision->count; i++)
+        if (decision->steps[i].spec)
+            tn_emit_spec(emit, decision->steps[i].spec);
+    tn_emit_begin(emit, form->schema->index);
+    for (size_t i = 0; i < decision->count; i++) {
+        const tn_decision_step *step = &decision->steps[i];
+        int64_t first = step->index;
+        if (step->opcode == TN_OP_IN_TRAY)
+            first = step->spec->index;
+        else if (step->opcode == TN_OP_IN_ZONE)
+            first += form->schema->field_first;
+        else if (step->opcode == TN_OP_IN_STOREY)
+            first += base.storey;
+        else if (step->opcode == TN_OP_IS_FOR)
+            first += base.rule;
+        else if (step->opcode == TN_OP_CHOSEN)
+            first += base.shape;
+        tn_emit_op(emit, step->span, step->opcode, first, step->area);
+    }
+    tn_emit_op(emit, decision->span, TN_OP_DECIDE, 0, 0);
+    return tn_emit_end(emit, name, kind);
+}
+
+/* ---- records */
+
+static void emit_storeys(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->storey_count; i++) {
+        const tn_checked_storey *storey = &form->storeys[i];
+        tn_builder_add_STOREY(emit->builder, &(tn_storey_record){.name = text(emit, storey->ast->name),
+                                                                 .doc = text(emit, storey->ast->doc),
+                                                                 .height = storey->height,
+                                                                 PLACE(storey->ast->node.span)});
+    }
+}
+
+static void emit_choices(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+{
+    for (uint32_t i = 0; i < form->choice_count; i++) {
+        const tn_checked_choice *choice = &form->choices[i];
+        for (uint32_t s = 0; s < choice->shape_count; s++) {
+            tn_shape_record record = choice->shapes[s].record;
+            tn_span span = choice->shapes[s].ast->node.span;
+            record.name = text(emit, choice->shapes[s].ast->word);
+            record.spelling = tn_builder_string(emit->builder, choice->shapes[s].spelling);
+            record.file = span.file;
+            record.begin = span.begin;
+            record.end = span.end;
+            tn_builder_add_SHAPE(emit->builder, &record);
+        }
+        tn_builder_add_CHOICE(emit->builder, &(tn_choice_record){.name = tn_builder_string(emit->builder, choice->name),
+                                                                 .kind = choice->kind,
+                                                                 .zone = choice->zone == TN_NONE
+                                                                             ? TN_NO_RECORD
+                                                                             : form->schema->field_first + choice->zone,
+                                                                 .shape_first = base.shape + choice->shape_first,
+                                                                 .shape_count = choice->shape_count,
+                                                                 PLACE(choice->ast->node.span)});
+    }
+}
+
+static void emit_rules(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+{
+    static const char *const words[] = {"function", "void", "no", "forbid"};
+    for (uint32_t i = 0; i < form->rule_count; i++) {
+        const tn_checked_cell_rule *rule = &form->rules[i];
+        const char *name = rule->ast->name ? rule->ast->name->text : words[rule->kind];
+        uint32_t decides = emit_decision(emit, form, base, &rule->decision, name,
+                                         rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
+        tn_builder_add_CELL_RULE(emit->builder, &(tn_cell_rule_record){.name = text(emit, rule->ast->name),
+                                                                       .doc = text(emit, rule->ast->doc),
+                                                                       .kind = rule->kind,
+                                                                       .decides = decides,
+                                                                       PLACE(rule->ast->node.span)});
+    }
+}
+
+static void emit_openings(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->opening_count; i++) {
+        const tn_checked_opening *opening = &form->openings[i];
+        tn_builder_add_OPENING(emit->builder, &(tn_opening_record){.name = text(emit, opening->ast->name),
+                                                                   .doc = text(emit, opening->ast->doc),
+                                                                   .wide = opening->wide,
+                                                                   .high = opening->high,
+                                                                   .sill = opening->sill,
+                                                                   .clear = opening->clear,
+                                                                   .flags = opening->passage ? TN_PASSAGE : 0,
+                                                                   PLACE(opening->ast->node.span)});
+    }
+}
+
+static uint32_t emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t count)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_ITEM);
+    for (uint32_t i = 0; i < count; i++)
+        tn_builder_add_HOUSE_ITEM(emit->builder, &(tn_house_item_record){numbers[i]});
+    return first;
+}
+
+static void emit_faces(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+{
+    for (uint32_t i = 0; i < form->face_count; i++) {
+        const tn_checked_face *face = &form->faces[i];
+        bool outside = face->ast->relation == TN_FACE_OUTSIDE;
+        uint32_t first = emit_decision(emit, form, base, &face->first, "face", TN_FUNCTION_CELL);
+        uint32_t second =
+            outside ? TN_NO_RECORD : emit_decision(emit, form, base, &face->second, "face", TN_FUNCTION_CELL);
+        tn_builder_add_FACE_LINE(
+            emit->builder,
+            &(tn_face_line_record){.relation = face->ast->relation,
+                                   .side = face->ast->detail ? (uint32_t)face->ast->detail->value : TN_HOUSE_ANY_SIDE,
+                                   .first = first,
+                                   .second = second,
+                                   .kind_first = emit_items(emit, face->kinds, face->kind_count),
+                                   .kind_count = face->kind_count,
+                                   PLACE(face->ast->node.span)});
+    }
+}
+
+static void emit_tiles(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->tile_count; i++) {
+        const tn_checked_tile *tile = &form->tiles[i];
+        uint32_t box_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE_BOX);
+        for (uint32_t b = 0; b < tile->box_count; b++) {
+            tn_tile_box_record box = tile->boxes[b];
+            tn_span span = tile->box_ast[b]->node.span;
+            box.name = text(emit, tile->box_ast[b]->name);
+            box.doc = text(emit, tile->box_ast[b]->doc);
+            box.file = span.file;
+            box.begin = span.begin;
+            box.end = span.end;
+            tn_builder_add_TILE_BOX(emit->builder, &box);
+        }
+        tn_builder_add_TILE(emit->builder,
+                            &(tn_tile_record){.name = text(emit, tile->ast->name),
+                                              .doc = text(emit, tile->ast->doc),
+                                              .purpose_first = emit_items(emit, tile->purposes, tile->purpose_count),
+                                              .purpose_count = tile->purpose_count,
+                                              .against_first = emit_items(emit, tile->against, tile->against_count),
+                                              .against_count = tile->against_count,
+                                              .wide_least = tile->wide[0],
+                                              .wide_most = tile->wide[1],
+                                              .deep_least = tile->deep[0],
+                                              .deep_most = tile->deep[1],
+                                              .box_first = box_first,
+                                              .box_count = tile->box_count,
+                                              PLACE(tile->ast->node.span)});
+    }
+}
+
+static void emit_form(tn_emit *emit, const tn_checked_form *form)
+{
+    uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CHOICE),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CELL_RULE),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_OPENING),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FACE_LINE),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE)};
+    tn_form_base base = {counts[0], counts[2], (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE)};
+    bool imported = form->unit + 1 != emit->imports->count;
+    emit_storeys(emit, form);
+    emit_choices(emit, form, base);
+    emit_rules(emit, form, base);
+    emit_openings(emit, form);
+    emit_faces(emit, form, base);
+    emit_tiles(emit, form);
+    tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
+                                                         .doc = text(emit, form->ast->doc),
+                                                         .schema = form->schema->index,
+                                                         .spine = form->schema->field_first + form->spine,
+                                                         .wall = form->thickness[0],
+                                                         .partition = form->thickness[1],
+                                                         .deck = form->thickness[2],
+                                                         .roof = form->thickness[3],
+                                                         .storey_first = counts[0],
+                                                         .storey_count = form->storey_count,
+                                                         .choice_first = counts[1],
+                                                         .choice_count = form->choice_count,
+                                                         .rule_first = counts[2],
+                                                         .rule_count = form->rule_count,
+                                                         .opening_first = counts[3],
+                                                         .opening_count = form->opening_count,
+                                                         .face_first = counts[4],
+                                                         .face_count = form->face_count,
+                                                         .tile_first = counts[5],
+                                                         .tile_count = form->tile_count,
+                                                         .flags = imported ? TN_IMPORTED : 0,
+                                                         PLACE(form->ast->top.node.span)});
+}
+
+void tn_emit_forms(tn_emit *emit)
+{
+    for (size_t i = 0; i < emit->checked->form_count; i++)
+        emit_form(emit, emit->checked->forms[i]);
+}

@@ -1,0 +1,93 @@
+/* Libraries and their clauses. */
+#include "compiler/plan/emit/emit.h"
+
+/* The total of a field over all trays of the plan. */
+static void emit_total(tn_emit *emit, const tn_checked_clause *clause)
+{
+    uint32_t field = emit->checked->schemas[emit->schema]->field_first + clause->field;
+    tn_emit_op(emit, clause->span, TN_OP_TRAY, tn_emit_spec(emit, clause->any), 0);
+    tn_emit_op(emit, clause->span, TN_OP_SUM, field, clause->condition->function - 1);
+}
+
+/* The clause's function of H; once, also where several libraries have the clause. */
+static uint32_t clause_function(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
+{
+    if (clause->rule)
+        return clause->rule->holds;
+    if (clause->function > 0)
+        return clause->function - 1;
+    emit->schema = schema;
+    if (clause->expr)
+        tn_emit_needs(emit, clause->expr, clause->name);
+    else
+        tn_emit_condition(emit, clause->condition);
+    tn_emit_begin(emit, schema);
+    if (clause->expr)
+        tn_emit_holds(emit, clause->expr);
+    else
+        emit_total(emit, clause);
+    tn_emit_op(emit, clause->expr ? clause->expr->node.span : clause->span, TN_OP_RETURN, 0, 0);
+    clause->function = tn_emit_end(emit, clause->name, TN_FUNCTION_HOLDS) + 1;
+    return clause->function - 1;
+}
+
+static void emit_library(tn_emit *emit, const tn_checked_library *library)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLAUSE);
+    for (size_t i = 0; i < library->clause_count; i++) {
+        tn_checked_clause *clause = library->clauses[i];
+        uint32_t holds = clause_function(emit, clause, library->schema->index);
+        tn_builder_add_CLAUSE(emit->builder, &(tn_clause_record){
+                                                 .name = tn_builder_string(emit->builder, clause->name),
+                                                 .doc = tn_builder_string(emit->builder, clause->doc),
+                                                 .kind = clause->kind,
+                                                 .holds = holds,
+                                                 .file = clause->span.file,
+                                                 .begin = clause->span.begin,
+                                                 .end = clause->span.end,
+                                             });
+    }
+    tn_span span = library->ast->top.node.span;
+    const tn_ast_word *doc = library->ast->doc;
+    tn_builder_add_LIBRARY(emit->builder, &(tn_library_record){
+                                              .name = tn_builder_string(emit->builder, library->name),
+                                              .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),
+                                              .schema = library->schema->index,
+                                              .trays_min = library->trays_min,
+                                              .trays_max = library->trays_max,
+                                              .clause_first = first,
+                                              .clause_count = (uint32_t)library->clause_count,
+                                              .flags = library->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
+                                              .file = span.file,
+                                              .begin = span.begin,
+                                              .end = span.end,
+                                          });
+}
+
+/* The trays of an open plan that the command line gives: a function each. */
+static void emit_pattern(tn_emit *emit)
+{
+    const tn_checked *checked = emit->checked;
+    tn_program *program = checked->program;
+    program->pattern = TN_NEW_ARRAY(emit->arena, uint32_t, checked->pattern_count);
+    for (size_t i = 0; program->pattern && i < checked->pattern_count; i++) {
+        tn_ast_expr *tray = checked->pattern[i];
+        uint32_t function = TN_NO_RECORD;
+        if (tray) {
+            emit->schema = checked->asked->schema->index;
+            tn_emit_needs(emit, tray, "open plan");
+            tn_emit_begin(emit, emit->schema);
+            tn_emit_whole(emit, tray);
+            tn_emit_op(emit, tray->node.span, TN_OP_RETURN, 0, 0);
+            function = tn_emit_end(emit, "open plan", TN_FUNCTION_WHOLE);
+        }
+        program->pattern[program->pattern_count++] = function;
+    }
+}
+
+void tn_emit_libraries(tn_emit *emit)
+{
+    emit_pattern(emit);
+    for (size_t i = 0; i < emit->checked->library_count; i++)
+        emit_library(emit, emit->checked->libraries[i]);
+}

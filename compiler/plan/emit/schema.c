@@ -1,0 +1,83 @@
+/* Schemas, fields, values, specifiers. */
+#include "compiler/plan/emit/emit.h"
+
+static tn_string text(tn_emit *emit, const char *string)
+{
+    return tn_builder_string(emit->builder, string);
+}
+
+static void emit_field(tn_emit *emit, const tn_checked_field *field)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_VALUE);
+    for (uint32_t v = 0; v < field->value_count; v++) {
+        const tn_checked_value *value = &field->values[v];
+        tn_builder_add_VALUE(emit->builder, &(tn_value_record){
+                                                .name = text(emit, value->name),
+                                                .spelling = text(emit, value->spelling),
+                                                .measure = text(emit, value->measure),
+                                                .doc = text(emit, value->doc),
+                                                .role = value->role,
+                                                .length = value->length,
+                                            });
+    }
+    tn_builder_add_FIELD(emit->builder, &(tn_field_record){
+                                            .name = text(emit, field->name),
+                                            .doc = text(emit, field->doc),
+                                            .kind = field->kind,
+                                            .role = field->role,
+                                            .value_first = first,
+                                            .value_count = field->value_count,
+                                        });
+}
+
+static uint32_t add_spec(tn_emit *emit, const tn_checked_spec *spec, tn_span span)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MASK);
+    for (uint32_t w = 0; w < spec->schema->words; w++)
+        tn_builder_add_MASK(emit->builder, &(tn_mask_record){(int64_t)spec->mask[w]});
+    return tn_builder_add_SPEC(emit->builder,
+                               &(tn_spec_record){spec->schema->index, first, span.file, span.begin, span.end});
+}
+
+uint32_t tn_emit_spec(tn_emit *emit, tn_checked_spec *spec)
+{
+    if (spec->index == TN_NONE)
+        spec->index = add_spec(emit, spec, spec->span);
+    return spec->index;
+}
+
+/* The forbidding specifiers are a run of records: equal ones are repeated. */
+static uint32_t emit_forbids(tn_emit *emit, tn_checked_schema *schema)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SPEC);
+    const tn_ast_node *forbid = schema->ast->body.forbids.first;
+    for (uint32_t i = 0; i < schema->forbid_count; i++, forbid = forbid->next) {
+        uint32_t index = add_spec(emit, schema->forbids[i], forbid->span);
+        if (schema->forbids[i]->index == TN_NONE)
+            schema->forbids[i]->index = index;
+    }
+    return first;
+}
+
+void tn_emit_schemas(tn_emit *emit)
+{
+    for (size_t i = 0; i < emit->checked->schema_count; i++) {
+        tn_checked_schema *schema = emit->checked->schemas[i];
+        tn_span span = schema->ast->top.node.span;
+        schema->field_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FIELD);
+        for (uint32_t f = 0; f < schema->field_count; f++)
+            emit_field(emit, &schema->fields[f]);
+        uint32_t forbid_first = emit_forbids(emit, schema);
+        tn_builder_add_SCHEMA(emit->builder, &(tn_schema_record){
+                                                 .name = text(emit, schema->name),
+                                                 .doc = text(emit, schema->doc),
+                                                 .field_first = schema->field_first,
+                                                 .field_count = schema->field_count,
+                                                 .forbid_first = forbid_first,
+                                                 .forbid_count = schema->forbid_count,
+                                                 .file = span.file,
+                                                 .begin = span.begin,
+                                                 .end = span.end,
+                                             });
+    }
+}

@@ -1,0 +1,194 @@
+/* Sums: their terms' functions, comparisons, measures. */
+#include <stdio.h>
+#include <string.h>
+
+#include "compiler/plan/check/amount.h"
+#include "compiler/plan/emit/emit.h"
+
+/* ---- what a tray counts */
+
+static void emit_figure(tn_emit *emit, const tn_ast_expr *figure)
+{
+    static const tn_opcode opcodes[] = {
+        [TN_EXPR_PLUS] = TN_OP_PLUS, [TN_EXPR_MINUS] = TN_OP_MINUS,  [TN_EXPR_TIMES] = TN_OP_TIMES,
+        [TN_EXPR_OVER] = TN_OP_OVER, [TN_EXPR_LEAST] = TN_OP_LESSER, [TN_EXPR_MOST] = TN_OP_LARGER};
+    tn_span span = figure->node.span;
+    if (figure->kind == TN_EXPR_NUMBER) {
+        tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, figure->constant), 0);
+    } else if (figure->kind == TN_EXPR_NEGATIVE) {
+        tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "0"), 0);
+        emit_figure(emit, (const tn_ast_expr *)figure->parts.first);
+        tn_emit_op(emit, span, TN_OP_MINUS, 0, 0);
+    } else if (figure->kind == TN_EXPR_FIGURE && !figure->number) {
+        tn_emit_op(emit, span, TN_OP_EXTENT, emit->checked->schemas[emit->schema]->field_first + figure->field, 0);
+    } else if (figure->kind == TN_EXPR_FIGURE) {
+        tn_emit_number(emit, figure->number, span);
+    } else {
+        emit_figure(emit, (const tn_ast_expr *)figure->parts.first);
+        emit_figure(emit, (const tn_ast_expr *)figure->parts.last);
+        tn_emit_op(emit, span, opcodes[figure->kind], 0, 0);
+    }
+}
+
+/* From the last case to the first, each picked over what is there so far. */
+void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span)
+{
+    const tn_ast_number_case *cases[TN_NUMBER_CASES_MAX];
+    size_t count = 0;
+    for (TN_EACH(const tn_ast_number_case, c, number->ast->cases))
+        cases[count++] = c;
+    tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "0"), 0);
+    for (size_t i = count; i-- > 0;) {
+        emit_figure(emit, cases[i]->sum);
+        tn_emit_op(emit, cases[i]->node.span, TN_OP_PICK, tn_emit_spec(emit, number->specs[i]), 0);
+    }
+}
+
+static uint32_t tally_of(tn_emit *emit, tn_ast_expr *figure, const char *name)
+{
+    if (!figure)
+        return TN_NO_RECORD;
+    if (figure->tally)
+        return figure->tally - 1;
+    tn_emit_begin(emit, emit->schema);
+    emit_figure(emit, figure);
+    tn_emit_op(emit, figure->node.span, TN_OP_TALLY, 0, 0);
+    figure->tally = tn_emit_end(emit, name, TN_FUNCTION_TALLY) + 1;
+    return figure->tally - 1;
+}
+
+/* ---- terms */
+
+static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *name)
+{
+    bool holds = term->kind == TN_TERM_MATCHES;
+    if (term->rule)
+        return holds ? term->rule->holds : term->rule->whole;
+    tn_ast_expr *part = term->part;
+    uint32_t *function = holds ? &part->part_holds : &part->part_whole;
+    if (*function)
+        return *function - 1;
+    uint32_t schema = emit->schema;
+    bool any = part->kind == TN_EXPR_TRAYS || part->kind == TN_EXPR_SUM;
+    if (!any)
+        tn_emit_needs(emit, part, name);
+    char label[TN_NAME_MAX + 1];
+    static const char suffix[] = " (part)";
+    snprintf(label, sizeof label, "%.*s%s", (int)(TN_NAME_MAX - sizeof suffix), name, suffix);
+    tn_emit_begin(emit, schema);
+    if (any)
+        tn_emit_op(emit, part->node.span, TN_OP_TRAY, tn_emit_spec(emit, part->spec), 0);
+    else if (holds)
+        tn_emit_holds(emit, part);
+    else
+        tn_emit_whole(emit, part);
+    tn_emit_op(emit, part->node.span, TN_OP_RETURN, 0, 0);
+    *function = tn_emit_end(emit, label, holds ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE) + 1;
+    return *function - 1;
+}
+
+void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name)
+{
+    for (size_t i = 0; sum && i < sum->count; i++) {
+        part_of(emit, &sum->terms[i], name);
+        tally_of(emit, sum->terms[i].figure, name);
+    }
+}
+
+/* matches: whether those terms are written out too. */
+static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *constant, bool matches)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TERM), count = 0;
+    for (size_t i = 0; i < sum->count; i++) {
+        const tn_checked_term *term = &sum->terms[i];
+        if (term->kind == TN_TERM_MATCHES && !matches)
+            continue;
+        count++;
+        tn_builder_add_TERM(emit->builder, &(tn_term_record){
+                                               .kind = (uint32_t)term->kind,
+                                               .factor = tn_builder_string(emit->builder, term->factor),
+                                               .part = part_of(emit, term, ""),
+                                               .tally = tally_of(emit, term->figure, ""),
+                                           });
+    }
+    return tn_builder_add_SUM(emit->builder, &(tn_sum_record){
+                                                 .schema = emit->schema,
+                                                 .power = matches ? (uint32_t)sum->power : 0,
+                                                 .constant = tn_builder_string(emit->builder, constant),
+                                                 .term_first = first,
+                                                 .term_count = count,
+                                             });
+}
+
+/* ---- comparisons */
+
+static void emit_plain(tn_emit *emit, tn_span span, const tn_checked_sum *sum, const char *constant, tn_operator op)
+{
+    static const tn_opcode opcodes[] = {
+        [TN_LESS] = TN_OP_BELOW,   [TN_AT_MOST] = TN_OP_ABOVE,  [TN_EQUAL] = TN_OP_ZERO,
+        [TN_UNEQUAL] = TN_OP_ZERO, [TN_AT_LEAST] = TN_OP_BELOW, [TN_GREATER] = TN_OP_ABOVE,
+    };
+    tn_emit_op(emit, span, opcodes[op], emit_sum(emit, sum, constant, false), 0);
+    if (op == TN_AT_MOST || op == TN_UNEQUAL || op == TN_AT_LEAST)
+        tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+}
+
+/* `matches` is 1 or 0: either of the two, each with what the rest of the sum then has to be. */
+static void emit_cases(tn_emit *emit, tn_span span, const tn_checked_sum *sum, size_t from, const char *constant,
+                       tn_operator op)
+{
+    while (from < sum->count && sum->terms[from].kind != TN_TERM_MATCHES)
+        from++;
+    if (from == sum->count) {
+        emit_plain(emit, span, sum, constant, op);
+        return;
+    }
+    const tn_checked_term *term = &sum->terms[from];
+    uint32_t function = part_of(emit, term, "");
+    tn_check check = {.arena = emit->arena};
+    const char *more = tn_amount_apply(&check, TN_EXPR_PLUS, constant, term->factor);
+    tn_emit_op(emit, span, TN_OP_CALL, function, 0);
+    emit_cases(emit, span, sum, from + 1, more ? more : constant, op);
+    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+    tn_emit_op(emit, span, TN_OP_CALL, function, 0);
+    tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+    emit_cases(emit, span, sum, from + 1, constant, op);
+    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+    tn_emit_op(emit, span, TN_OP_OR, 0, 0);
+}
+
+void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op)
+{
+    emit_cases(emit, span, sum, 0, sum->constant, op);
+}
+
+/* ---- measures */
+
+void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
+{
+    emit->schema = measure->schema->index;
+    tn_emit_sum_needs(emit, measure->sum, measure->name);
+    measure->sum->index = emit_sum(emit, measure->sum, measure->sum->constant, true);
+}
+
+void tn_emit_measures(tn_emit *emit)
+{
+    const tn_checked *checked = emit->checked;
+    for (size_t i = 0; i < checked->rule_count; i++) {
+        const tn_checked_rule *measure = checked->rules[i];
+        if (!measure->is_measure || measure->hidden)
+            continue;
+        tn_span span = measure->ast->top.node.span;
+        const tn_ast_word *doc = measure->ast->doc;
+        tn_builder_add_MEASURE(emit->builder, &(tn_measure_record){
+                                                  .name = tn_builder_string(emit->builder, measure->name),
+                                                  .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),
+                                                  .schema = measure->schema->index,
+                                                  .sum = measure->sum->index,
+                                                  .flags = measure->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
+                                                  .file = span.file,
+                                                  .begin = span.begin,
+                                                  .end = span.end,
+                                              });
+    }
+}

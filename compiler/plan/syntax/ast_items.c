@@ -1,0 +1,290 @@
+/* Constructors of a file's items: schemas, rules, libraries, tests. */
+#include "compiler/plan/syntax/ast.h"
+
+tn_ast_list tn_ast_lost(tn_ast_list items, tn_parse *parse)
+{
+    parse->result->broken = true;
+    return items;
+}
+
+tn_ast_list tn_ast_skipped(tn_ast_list clauses, tn_parse *parse)
+{
+    parse->result->skipped = true;
+    return clauses;
+}
+
+tn_ast_file *tn_ast_unread(tn_ast_file *file)
+{
+    file->broken = true;
+    return file;
+}
+
+void *tn_ast_use_new(tn_parse *parse, tn_span span, const tn_ast_word *path)
+{
+    tn_ast_use *use = TN_NEW(parse->arena, tn_ast_use);
+    if (!use || !path)
+        return NULL;
+    *use = (tn_ast_use){.top = {.node.span = span, .kind = TN_ITEM_USE}, .path = path};
+    return use;
+}
+
+/* ---- schemas */
+
+void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_list *depths,
+                       const tn_ast_word *doc, const tn_ast_word *role)
+{
+    tn_ast_value *value = TN_NEW(parse->arena, tn_ast_value);
+    if (!value || !word)
+        return NULL;
+    *value = (tn_ast_value){.node.span = span, .word = word, .doc = doc, .role = role};
+    value->has_depths = depths != NULL;
+    if (depths)
+        value->depths = *depths;
+    return value;
+}
+
+void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values)
+{
+    tn_ast_field *field = TN_NEW(parse->arena, tn_ast_field);
+    if (!field || !head.name)
+        return NULL;
+    *field = head;
+    field->node = (tn_ast_node){.span = span};
+    field->form = form;
+    field->values = values;
+    return field;
+}
+
+void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                        tn_ast_body body)
+{
+    tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
+    if (!schema || !name)
+        return NULL;
+    *schema =
+        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
+    return schema;
+}
+
+tn_ast_body tn_ast_body_field(tn_ast_body body, void *field)
+{
+    body.fields = tn_ast_append(body.fields, field);
+    return body;
+}
+
+void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items)
+{
+    tn_ast_forbid *forbid = TN_NEW(parse->arena, tn_ast_forbid);
+    if (!forbid)
+        return NULL;
+    *forbid = (tn_ast_forbid){.node.span = span, .tray = tn_ast_tray_new(parse, span, items)};
+    return forbid->tray ? forbid : NULL;
+}
+
+tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid)
+{
+    body.forbids = tn_ast_append(body.forbids, forbid);
+    return body;
+}
+
+void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases)
+{
+    tn_ast_number *number = TN_NEW(parse->arena, tn_ast_number);
+    if (!number || !head.name || !cases.first)
+        return NULL;
+    *number = (tn_ast_number){.node.span = span, .name = head.name, .doc = head.doc, .cases = cases};
+    return number;
+}
+
+void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray)
+{
+    tn_ast_number_case *made = TN_NEW(parse->arena, tn_ast_number_case);
+    if (!made || !sum)
+        return NULL;
+    *made = (tn_ast_number_case){.node.span = span, .sum = sum, .tray = tray};
+    return made;
+}
+
+tn_ast_body tn_ast_body_number(tn_ast_body body, void *number)
+{
+    body.numbers = tn_ast_append(body.numbers, number);
+    return body;
+}
+
+tn_ast_body tn_ast_body_broken(tn_ast_body body)
+{
+    body.broken = true;
+    return body;
+}
+
+/* ---- rules and libraries */
+
+void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *body)
+{
+    tn_ast_rule *rule = TN_NEW(parse->arena, tn_ast_rule);
+    if (!rule || !head.name)
+        return NULL;
+    *rule = head;
+    rule->top = (tn_ast_top){.node.span = span, .kind = TN_ITEM_RULE};
+    rule->body = body ? body : tn_ast_leaf(parse, TN_EXPR_BROKEN, span);
+    return rule->body ? rule : NULL;
+}
+
+void *tn_ast_measure_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                         const tn_ast_word *using, tn_ast_expr *body)
+{
+    tn_ast_rule *measure = tn_ast_rule_new(parse, span, (tn_ast_rule){.name = name, .doc = doc, .using = using}, body);
+    if (measure)
+        measure->top.kind = TN_ITEM_MEASURE;
+    return measure;
+}
+
+void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *body)
+{
+    tn_ast_rule *let = tn_ast_rule_new(parse, span, (tn_ast_rule){.name = name}, body);
+    if (let)
+        let->top.kind = TN_ITEM_LET;
+    return let;
+}
+
+void *tn_ast_library_new(tn_parse *parse, tn_span span, tn_ast_library head, tn_ast_list clauses)
+{
+    tn_ast_library *library = TN_NEW(parse->arena, tn_ast_library);
+    if (!library || !head.name)
+        return NULL;
+    *library = head;
+    library->top = (tn_ast_top){.node.span = span, .kind = TN_ITEM_LIBRARY};
+    library->clauses = clauses;
+    return library;
+}
+
+static tn_ast_clause *clause_new(tn_parse *parse, tn_clause_form form, tn_span span)
+{
+    tn_ast_clause *clause = TN_NEW(parse->arena, tn_ast_clause);
+    if (clause)
+        *clause = (tn_ast_clause){.node.span = span, .form = form};
+    return clause;
+}
+
+tn_ast_clause *tn_ast_trays(tn_parse *parse, tn_span span, tn_ast_range range)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_TRAYS, span);
+    if (!clause || !range.low || !range.high)
+        return NULL;
+    clause->range = range;
+    return clause;
+}
+
+/* FIELD, or FIELD depth; or nothing. */
+static void set_field(tn_ast_clause *clause, tn_ast_list field)
+{
+    clause->field = (const tn_ast_word *)field.first;
+    clause->detail = field.first ? (const tn_ast_word *)field.first->next : NULL;
+}
+
+tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, tn_ast_list field, tn_ast_range range,
+                                  const tn_ast_word *doc)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_TOTAL_RANGE, span);
+    if (!clause || !range.low || !range.high)
+        return NULL;
+    set_field(clause, field);
+    clause->range = range;
+    clause->doc = doc;
+    return clause;
+}
+
+tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list field, tn_operator op,
+                                    const tn_ast_word *word, const tn_ast_word *doc)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_TOTAL_COMPARE, span);
+    if (!clause || !word)
+        return NULL;
+    set_field(clause, field);
+    clause->op = op;
+    clause->word = word;
+    clause->doc = doc;
+    return clause;
+}
+
+tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *doc)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_REQUIRE, span);
+    if (!clause || !expr)
+        return NULL;
+    clause->expr = expr;
+    clause->doc = doc;
+    return clause;
+}
+
+tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
+                            const tn_ast_word *doc)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_PRUNE, span);
+    if (!clause || !expr)
+        return NULL;
+    clause->expr = expr;
+    clause->name = name;
+    clause->doc = doc;
+    return clause;
+}
+
+tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_ALLOW, span);
+    if (clause)
+        clause->allow = codes;
+    return clause;
+}
+
+/* ---- tests */
+
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases)
+{
+    tn_ast_test *test = TN_NEW(parse->arena, tn_ast_test);
+    if (!test || !subjects.count)
+        return NULL;
+    *test = (tn_ast_test){.top = {.node.span = span, .kind = TN_ITEM_TEST}, .subjects = subjects, .cases = cases};
+    return test;
+}
+
+tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation)
+{
+    return tn_ast_word_new(parse, TN_WORD_NAME, span, text, expectation);
+}
+
+void *tn_ast_case_todo(void *test_case)
+{
+    tn_ast_case *made = test_case;
+    if (made)
+        made->todo = true;
+    return made;
+}
+
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
+                      const tn_ast_word *doc, tn_ast_list by)
+{
+    tn_ast_case *made = TN_NEW(parse->arena, tn_ast_case);
+    if (!made)
+        return NULL;
+    *made = (tn_ast_case){.node.span = span, .expectations = expectations, .trays = trays, .doc = doc, .by = by};
+    return made;
+}
+
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc)
+{
+    tn_ast_word *word = tn_ast_expect(parse, span, "value", TN_EXPECT_VALUE);
+    tn_ast_case *made =
+        word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), trays, doc, tn_ast_empty()) : NULL;
+    if (made)
+        made->value = value;
+    return made;
+}
+
+void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words)
+{
+    tn_ast_tray *tray = TN_NEW(parse->arena, tn_ast_tray);
+    if (tray)
+        *tray = (tn_ast_tray){.node.span = span, .words = words};
+    return tray;
+}

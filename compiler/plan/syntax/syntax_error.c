@@ -1,0 +1,275 @@
+#include "compiler/plan/syntax/syntax_error.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "runtime/base/nearest.h"
+
+typedef struct tn_expected {
+    const char *const *tokens;
+    size_t count;
+    bool said[96]; /* covered by a phrase */
+} tn_expected;
+
+static bool expects(const tn_expected *e, const char *token)
+{
+    for (size_t i = 0; i < e->count; i++)
+        if (strcmp(e->tokens[i], token) == 0)
+            return true;
+    return false;
+}
+
+/* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers
+ * all of its tokens. */
+static const struct {
+    const char *phrase;
+    const char *tokens[28];
+} groups[] = {
+    {"a rule expression",
+     {"`tray`",  "`neighbour`",      "`any`",      "a name",     "`not`",       "`symmetric`", "`quantity`", "`sum`",
+      "`many`",  "`occurrences`",    "`optional`", "`distance`", "`beginning`", "`end`",       "`(`",        "`trays`",
+      "an area", "a decimal number", "`matches`",  "`some`",     "`every`",     "`plan`",      "a number",   "a length",
+      "`-`"}},
+    {"an operator such as `and`, `or` or `>`",
+     {"`and`", "`+`", "`or`", "`implies`", "`in`", "`*`", "`/`", "`-`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+    {"`+`, `-`, `*` or `/`", {"`+`", "`*`", "`/`", "`-`"}},
+    {"a condition such as `n > 1`",
+     {"`-`", "`(`", "`not`", "a number", "a name", "a length", "an area", "a decimal number"}},
+    {"a variable or a number", {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
+    {"a number", {"`-`", "a number", "a length", "an area", "a decimal number"}},
+    {"a value",
+     {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`not`", "`<`", "`<=`", "`=`",
+      "`!=`", "`>=`", "`>`"}},
+    {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+    {"the next `rule`, `schema`, `library`, `form`, `test` or `use`",
+     {"`rule`", "`schema`", "`library`", "`form`", "`test`", "`use`", "`measure`", "`let`", "an expression",
+      "an open plan", "the end of the file"}},
+    {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
+     {"`storey`", "`spine`", "`wall`", "`partition`", "`deck`", "`roof`", "`section`", "`forbid`", "`void`", "`no`",
+      "`function`", "`opening`", "`face`", "`tile`"}},
+    {"a length or 0", {"a length", "a number"}},
+    {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
+    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`", "`value`"}},
+    {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
+    {"a field (`name = values`)", {"a field", "`forbid`", "`zone`", "`number`"}},
+};
+
+static void add_phrase(char *text, size_t size, const char *phrase, size_t *said)
+{
+    size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s%s", *said ? "; " : "", phrase);
+    (*said)++;
+}
+
+static size_t say_groups(tn_expected *e, char *text, size_t size)
+{
+    size_t said = 0;
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
+        const char *const *tokens = groups[g].tokens;
+        bool open = false;
+        for (size_t i = 0; i < e->count; i++)
+            open |= !e->said[i] && strcmp(e->tokens[i], tokens[0]) == 0;
+        if (!open || !expects(e, tokens[1]))
+            continue;
+        for (size_t t = 0; t < 28 && tokens[t]; t++)
+            for (size_t i = 0; i < e->count; i++)
+                e->said[i] |= strcmp(e->tokens[i], tokens[t]) == 0;
+        add_phrase(text, size, groups[g].phrase, &said);
+    }
+    return said;
+}
+
+/* What could have stood here, in words; empty where that would be no help. Texts are optional nearly everywhere: they
+ * are named only where nothing else is. Single tokens come first. */
+static void say_expected(const char *const *tokens, size_t count, char *text, size_t size)
+{
+    enum { SINGLES_MAX = 7 };
+    tn_expected e = {.tokens = tokens, .count = count < 96 ? count : 96};
+    char groups_text[400] = "";
+    size_t group_count = say_groups(&e, groups_text, sizeof groups_text), said = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < e.count; i++)
+        if (!e.said[i] && (e.count == 1 || strcmp(tokens[i], "a text in quotes") != 0))
+            add_phrase(text, size, tokens[i], &said);
+    if (said > SINGLES_MAX) {
+        said = 0;
+        text[0] = '\0';
+    }
+    if (group_count > 0)
+        add_phrase(text, size, groups_text, &said);
+}
+
+/* "a; b; c" -> "a, b or c" */
+static void join(const char *list, char *text, size_t size)
+{
+    text[0] = '\0';
+    while (*list) {
+        size_t length = strcspn(list, ";");
+        const char *rest = list + length + (list[length] ? 2 : 0);
+        size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%.*s", used == 0 ? "" : *rest ? ", " : " or ", (int)length, list);
+        list = rest;
+    }
+}
+
+static bool is_word(const char *token)
+{
+    return token[0] == '`' && token[1] >= 'a' && token[1] <= 'z';
+}
+
+static bool starts_expression(const char *found)
+{
+    static const char *const words[] = {"`tray`",        "`neighbour`", "`any`",     "`not`",
+                                        "`symmetric`",   "`quantity`",  "`sum`",     "`many`",
+                                        "`occurrences`", "`optional`",  "`distance`"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(found, words[i]) == 0)
+            return true;
+    return false;
+}
+
+/* A likely fix, from what was found and what could have stood there; NULL where none is known. */
+static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (parse->schema_head && strcmp(found, "`from`") == 0)
+        return "a schema is not made from another one: write all its fields between `{` and `}`";
+    if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
+        return "inside tray(...) the items are separated by commas: all of them must be met";
+    if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
+        return "close tray(...) with `)` first";
+    if (parse->mode == TN_LEX_LITERAL && strcmp(found, "`,`") == 0)
+        return "inside a plan, values are separated by blanks and trays by `|`: [4' | 12' double]";
+    if (parse->mode == TN_LEX_LITERAL || expects(e, "`]`"))
+        return "a plan is written [4' | 12' double], and closed with `]`";
+    if (parse->mode == TN_LEX_SCHEMA && expects(e, "`|`"))
+        return "alternatives are separated by `|`, and a field starts with `NAME =`";
+    if (parse->mode == TN_LEX_SCHEMA && expects(e, "a field"))
+        return "a field is written `width = 4' | 8'`, `public = flag` or `zone machine = dense(4') | empty`, a "
+               "forbidden tray "
+               "`forbid tray(...)`";
+    if (expects(e, "`)`") && expects(e, "`,`") && starts_expression(found))
+        return "a `,` is missing before this, or `and` or `or`";
+    if (strcmp(found, "`)`") == 0 && expects(e, "`and`") && !expects(e, "`)`") && !expects(e, "`,`"))
+        return "no `(` is open that this could close: leave it out";
+    if (expects(e, "`)`") && (strcmp(found, "the end of the file") == 0 || (is_word(found) && !expects(e, "a name"))))
+        return "close the `(` before this";
+    if (expects(e, "`[`"))
+        return "a plan stands in brackets: [4' | 8' double]";
+    if (strcmp(found, "a text in quotes") == 0)
+        return "a text comes directly after the name that it describes";
+    if (is_word(found) && expects(e, "a name") && !expects(e, "`tray`"))
+        return "this is a word of the language; a name of yours has to be another word";
+    if (expects(e, "`from`") && expects(e, "`using`"))
+        return "a library is written `library NAME using SCHEMA { ... }`";
+    if (strcmp(found, "`{`") == 0 && expects(e, "`=`"))
+        return "a rule is written `rule NAME = ...`, without braces";
+    if (strcmp(found, "`=`") == 0 && expects(e, "`{`"))
+        return "write `{` instead of `=`, and `}` after the last line";
+    if (expects(e, "`=`") && expects(e, "`using`"))
+        return "a rule is written `rule NAME = ...`; a text that describes it comes after the name";
+    if (strcmp(found, "`)`") == 0 && expects(e, "`,`") && expects(e, "`and`"))
+        return "quantity, sum and occurrences also need a condition: quantity(tray(12'), n > 1)";
+    if (strcmp(found, "a number") == 0 && expects(e, "a text in quotes"))
+        return "a text stands in double quotes";
+    if (expects(e, "`from`"))
+        return "a distance is written `distance(from ..., to ..., by quantity(..., n >= 2))`";
+    if (expects(e, "`in`") && expects(e, "`mod`"))
+        return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
+    if (expects(e, "`match`") && expects(e, "`keep`"))
+        return "a case is written `match [4' | 8']`";
+    if (expects(e, "`rule`") && expects(e, "`and`"))
+        return "rule expressions are joined by `and` or `or`; the next rule starts with `rule`";
+    if (expects(e, "`rule`"))
+        return "a rule is written `rule NAME = ...`";
+    if (strcmp(found, "`)`") == 0 || strcmp(found, "the end of the file") == 0)
+        return "something is missing before this";
+    return NULL;
+}
+
+/* The word among these that what stands at `span` is nearest to, or NULL. */
+static const char *nearest(const tn_parse *parse, tn_span span, const char *const *words, size_t count)
+{
+    char word[40];
+    if (span.end <= span.begin || span.end - span.begin >= sizeof word)
+        return NULL;
+    snprintf(word, sizeof word, "%.*s", (int)(span.end - span.begin), parse->text + span.begin);
+    return tn_nearest(word, words, count);
+}
+
+/* The word of the language that a misspelled one is nearest to, among those that could stand here. */
+static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected *e, char *meant, size_t size)
+{
+    char texts[96][24];
+    const char *words[96];
+    size_t count = 0;
+    for (size_t i = 0; i < e->count; i++) {
+        if (!is_word(e->tokens[i]))
+            continue;
+        snprintf(texts[count], sizeof texts[count], "%.*s", (int)strcspn(e->tokens[i] + 1, "`"), e->tokens[i] + 1);
+        words[count] = texts[count];
+        count++;
+    }
+    const char *near = nearest(parse, span, words, count);
+    snprintf(meant, size, "%s", near ? near : "");
+    return near != NULL;
+}
+
+/* A misspelled word of the language is a name to the parser, which then stumbles over what follows: `trai(4')`. */
+static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
+{
+    static const char *const words[] = {"not",      "symmetric",   "tray",     "neighbour", "many", "optional",
+                                        "quantity", "occurrences", "distance", "sum",       "of"};
+    enum { WORDS = sizeof words / sizeof *words, PREFIXES = 2, CALLS = 10 };
+    bool expression = expects(e, "`and`"), call = expression && strcmp(found->name, "`(`") == 0;
+    const char *near = NULL;
+    if (found->after.end == found->after.begin || (parse->mode != TN_LEX_TOP && parse->mode != TN_LEX_TRAY_SUM))
+        return false;
+    if (call)
+        near = nearest(parse, found->after, words, CALLS);
+    else if (expects(e, "`of`"))
+        near = nearest(parse, found->after, words + CALLS, WORDS - CALLS);
+    else if (expression || expects(e, "`in`"))
+        near = nearest(parse, found->after, words, PREFIXES);
+    if (!near && !call)
+        return false;
+    int size = (int)(found->after.end - found->after.begin);
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_UNEXPECTED, found->after,
+                  call ? "`%.*s` is no word of the language that `(` follows" : "`%.*s` is no word of the language",
+                  size, parse->text + found->after.begin);
+    if (near)
+        tn_suggest(parse->diagnostics, d, "%s", near);
+    else
+        tn_help(parse->diagnostics, d,
+                "a rule is named without parentheses; `(` follows `tray`, `neighbour`, `many`, `optional`, `quantity`, "
+                "`occurrences`, `sum` and `distance`");
+    return true;
+}
+
+void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *const *expected, size_t count)
+{
+    tn_span span = found->span;
+    if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
+        return; /* what led to this was reported */
+    tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
+    if (report_misspelled(parse, found, &e))
+        return;
+    char list[800], words[800], here[120];
+    say_expected(expected, count, list, sizeof list);
+    join(list, words, sizeof words);
+    size_t size = span.end > span.begin ? span.end - span.begin : 0;
+    if (size == 0 || size > 40 || strcmp(found->name, "a text in quotes") == 0)
+        snprintf(here, sizeof here, "%s", found->name);
+    else
+        snprintf(here, sizeof here, "`%.*s`", (int)size, parse->text + span.begin);
+    tn_diagnostic *d = words[0]
+                           ? tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected %s, but found %s", words, here)
+                           : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
+    char meant[40];
+    const char *help = likely_fix(parse, found->name, &e);
+    bool misspelled = strcmp(found->name, "a name") == 0 || (is_word(found->name) && size > 3);
+    if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
+        tn_suggest(parse->diagnostics, d, "%s", meant);
+    else
+        tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
+}

@@ -1,0 +1,321 @@
+/* Checks what a .solid file means: names once, settings once, expressions over what is measured. */
+#include <string.h>
+#include <strings.h>
+
+#include "compiler/solid/solid.h"
+
+const tn_expression_scope tn_solid_scope = {
+    .names = tn_solid_measured_names,
+    .count = TN_SOLID_MEASURED_COUNT,
+    .words = TN_WORDS_PLAIN,
+    .what = "measure",
+    .examples = {"volume", "width, height", "width, height, depth"},
+    .split = "write several: they are joined by a comma",
+    .unknown = E_UNKNOWN_SOLID_MEASURE,
+    .wrong = E_SOLID_EXPRESSION,
+};
+
+static const char *const setting_names[TN_SOLID_SETTING_COUNT] = {"symmetry", "flat", "noclip",
+                                                                  "correct",  "unit", "model"};
+
+static void twice(tn_solid_check *check, tn_span span, tn_span first, const char *what, const char *name,
+                  const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_TWICE, span, "%s `%s` is there twice", what, name);
+    tn_note(check->diagnostics, d, &first, "the first is here");
+    tn_help(check->diagnostics, d, "%s", help);
+    check->solid->wrong = true;
+}
+
+/* ---- settings */
+
+static void take_symmetry(tn_solid_check *check, const tn_solid_item *item)
+{
+    uint32_t last = 0;
+    bool ordered = true;
+    for (const tn_solid_entry *entry = item->entries.first; entry; entry = entry->next) {
+        uint32_t flag = entry->axis < 3 ? 1u << entry->axis : 0;
+        if (check->solid->flags & flag) {
+            tn_diagnostic *d =
+                tn_report(check->diagnostics, E_SOLID_TWICE, entry->span, "this plane of symmetry is there twice");
+            tn_help(check->diagnostics, d, "leave one of them out");
+            check->solid->wrong = true;
+        }
+        ordered = ordered && flag >= last;
+        last = flag;
+        check->solid->flags |= flag;
+    }
+    if (ordered)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_SYMMETRY_ORDER, item->span,
+                                 "planes of symmetry are applied in the order x, y, z, whatever the order here");
+    tn_help(check->diagnostics, d, "write them in that order");
+}
+
+static void take_model(tn_solid_check *check, const tn_solid_item *item)
+{
+    static const char *const units[TN_SOLID_MODEL_COUNT] = {"", "mm", "cm", "m"};
+    for (uint32_t i = 1; i < TN_SOLID_MODEL_COUNT; i++)
+        if (item->name.text && strcmp(item->name.text, units[i]) == 0)
+            check->solid->model = i;
+    if (check->solid->model != TN_MODEL_NONE)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, item->name.span, "`%.40s` is no unit of a design",
+                                 item->name.text ? item->name.text : "");
+    tn_help(check->diagnostics, d, "write `model mm;`, `model cm;` or `model m;`");
+    check->solid->wrong = true;
+}
+
+static void take_unit(tn_solid_check *check, const tn_solid_item *item)
+{
+    double a = tn_solid_value(check, &item->number[0]), b = tn_solid_value(check, &item->number[1]);
+    if (check->solid->wrong || (a > 0 && b > 0))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_NUMBER, item->span, "a unit is above 0");
+    tn_help(check->diagnostics, d, "write `unit 1/1024;`");
+    check->solid->wrong = true;
+}
+
+static void take_flat(tn_solid_check *check, const tn_solid_item *item)
+{
+    check->solid->flags |= TN_SOLID_FLAT;
+    check->solid->depth = tn_solid_value(check, &item->number[0]);
+    if (check->solid->wrong || check->solid->depth > 0)
+        return;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_SOLID_SIZE, item->number[0].span, "the depth of a flat design is above 0");
+    tn_help(check->diagnostics, d, "write `flat 0.5;`");
+    check->solid->wrong = true;
+}
+
+static void apply_setting(tn_solid_check *check, const tn_solid_item *item)
+{
+    switch (item->kind) {
+    case TN_SOLID_SETS_SYMMETRY:
+        take_symmetry(check, item);
+        break;
+    case TN_SOLID_SETS_FLAT:
+        take_flat(check, item);
+        break;
+    case TN_SOLID_SETS_NOCLIP:
+        check->solid->flags |= TN_SOLID_NOCLIP;
+        break;
+    case TN_SOLID_SETS_PENETRATION:
+        check->solid->flags |= TN_SOLID_PENETRATION;
+        break;
+    case TN_SOLID_SETS_UNIT:
+        take_unit(check, item);
+        break;
+    case TN_SOLID_SETS_MODEL:
+        take_model(check, item);
+        break;
+    default:
+        break;
+    }
+}
+
+/* `model` says what numbers are, so that it is looked at before the others. */
+static void take_settings(tn_solid_check *check)
+{
+    const tn_solid_item **settings = check->solid->settings;
+    for (const tn_solid_item *item = check->solid->design->first; item; item = item->next) {
+        if (item->kind >= TN_SOLID_SETTING_COUNT)
+            continue;
+        if (settings[item->kind])
+            twice(check, item->span, settings[item->kind]->span, "the statement", setting_names[item->kind],
+                  check->solid->base ? "a design that is made `from` another takes its settings over"
+                                     : "leave one of them out");
+        settings[item->kind] = item;
+    }
+    const tn_checked_solid *base = check->solid->base;
+    if (!base || !base->settings[TN_SOLID_SETS_MODEL])
+        if (settings[TN_SOLID_SETS_MODEL])
+            apply_setting(check, settings[TN_SOLID_SETS_MODEL]);
+    for (int kind = 0; kind < TN_SOLID_SETTING_COUNT; kind++)
+        if (settings[kind] && kind != TN_SOLID_SETS_MODEL && !(base && base->settings[kind] == settings[kind]))
+            apply_setting(check, settings[kind]);
+    const tn_solid_item *symmetry = settings[TN_SOLID_SETS_SYMMETRY];
+    if ((check->solid->flags & TN_SOLID_FLAT) && (check->solid->flags & TN_SOLID_SYMMETRY_Z)) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_FLAT, symmetry->span,
+                                     "a flat design has no symmetry in z: each box would be halved and joined again");
+        tn_help(check->diagnostics, d, "leave z out");
+        check->solid->wrong = true;
+    }
+}
+
+/* ---- expressions */
+
+static bool constant(const tn_expression *expression, double *value)
+{
+    tn_formula formula = {0};
+    tn_error error;
+    bool known = tn_expression_code(expression, &formula, &error) == TN_OK && tn_formula_is_constant(&formula, value);
+    tn_formula_clear(&formula);
+    return known;
+}
+
+static void check_expressions(tn_solid_check *check, const tn_solid_item *item)
+{
+    for (const tn_solid_entry *entry = item->entries.first; entry; entry = entry->next) {
+        double value;
+        size_t errors = check->diagnostics->error_count;
+        tn_expression_check(check->diagnostics, &tn_solid_scope, entry->expression);
+        if (check->diagnostics->error_count > errors) {
+            check->solid->wrong = true;
+        } else if (item->kind == TN_SOLID_REQUIRES && constant(entry->expression, &value)) {
+            tn_diagnostic *d = tn_report(check->diagnostics, W_REQUIREMENT_CONSTANT, entry->span,
+                                         "this requirement %s holds", value != 0 ? "always" : "never");
+            tn_help(check->diagnostics, d, "it says nothing of the design: name what is measured, as in `parts = 1`");
+        }
+    }
+}
+
+/* Which goal of the design, or of what it is made from, has this name already? */
+static const tn_solid_item *goal_before(const tn_checked_solid *solid, const tn_solid_item *goal)
+{
+    for (; solid; solid = solid->base)
+        for (const tn_solid_item *item = solid->design->first; item && item != goal; item = item->next)
+            if (item->kind == TN_SOLID_AIMS && item->name.text && strcmp(item->name.text, goal->name.text) == 0)
+                return item;
+    return NULL;
+}
+
+static void check_goal(tn_solid_check *check, const tn_solid_item *item)
+{
+    const tn_solid_item *before = item->name.text ? goal_before(check->solid, item) : NULL;
+    check_expressions(check, item);
+    if (before)
+        twice(check, item->name.span, before->name.span, "the goal", item->name.text, "give one of them another name");
+    if (item->given[1].end > item->given[1].begin && tn_solid_value(check, &item->number[1]) < 0) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_SETTING_RANGE, item->given[1], "a weight is not below 0");
+        tn_help(check->diagnostics, d, "a larger weight makes a goal count for more");
+        check->solid->wrong = true;
+    }
+}
+
+/* ---- boxes */
+
+static const tn_checked_box *box_before(const tn_checked_solid *solid, const char *name)
+{
+    for (; solid; solid = solid->base)
+        for (const tn_checked_box *box = solid->first; box; box = box->next)
+            if (box->item->name.text && strcmp(box->item->name.text, name) == 0)
+                return box;
+    return NULL;
+}
+
+static void take_box(tn_solid_check *check, const tn_solid_item *item)
+{
+    const tn_checked_box *before = item->name.text ? box_before(check->solid, item->name.text) : NULL;
+    if (before)
+        twice(check, item->name.span, before->item->name.span, "the box", item->name.text,
+              "give one of them another name");
+    if (item->name.text && strlen(item->name.text) > TN_NAME_MAX) {
+        tn_report(check->diagnostics, E_SOLID_BOX, item->name.span, "a box's name has at most %u bytes", TN_NAME_MAX);
+        check->solid->wrong = true;
+    }
+    tn_check_box(check, item);
+}
+
+static void take_items(tn_solid_check *check)
+{
+    for (const tn_solid_item *item = check->solid->design->first; item; item = item->next) {
+        if (item->kind == TN_SOLID_BOX)
+            take_box(check, item);
+        else if (item->kind == TN_SOLID_GENES)
+            tn_check_genes(check, item);
+        else if (item->kind == TN_SOLID_AIMS)
+            check_goal(check, item);
+        else if (item->kind == TN_SOLID_ASKS || item->kind == TN_SOLID_REQUIRES)
+            check_expressions(check, item);
+    }
+}
+
+static void count_boxes(tn_solid_check *check)
+{
+    tn_checked_solid *solid = check->solid;
+    solid->box_count = solid->base ? solid->base->box_count : 0;
+    for (const tn_checked_box *box = solid->first; box; box = box->next)
+        solid->box_count++;
+    if (solid->wrong || check->damaged)
+        return;
+    if (solid->box_count == 0) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_EMPTY, solid->design->name.span,
+                                     "the design `%.100s` has no box", solid->design->name.text);
+        tn_help(check->diagnostics, d, "write one: `box slab from (0, 0, 0) to (4, 1, 2);`");
+    } else if (solid->box_count > TN_SOLID_BOXES_MAX) {
+        tn_report(check->diagnostics, E_SOLID_TOO_MANY, solid->design->name.span,
+                  "this design has %u boxes; a module holds %u", solid->box_count, TN_SOLID_BOXES_MAX);
+    }
+}
+
+/* ---- designs */
+
+static tn_checked_solid *find(const tn_checked_solids *solids, const char *name)
+{
+    for (tn_checked_solid *solid = solids->first; solid; solid = solid->next)
+        if (solid->design->name.text && strcmp(solid->design->name.text, name) == 0)
+            return solid;
+    return NULL;
+}
+
+static void take_base(tn_solid_check *check, const tn_checked_solids *solids)
+{
+    const tn_solid_text *base = &check->solid->design->base;
+    if (!base->text)
+        return;
+    tn_checked_solid *found = find(solids, base->text);
+    check->solid->base = found;
+    if (found) {
+        check->solid->flags = found->flags;
+        check->solid->model = found->model;
+        check->solid->depth = found->depth;
+        memcpy(check->solid->settings, found->settings, sizeof found->settings);
+        check->solid->wrong |= found->wrong;
+        return;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_SOLID, base->span,
+                                 "no design `%.100s` comes before this one", base->text);
+    tn_help(check->diagnostics, d, "a design that others are made from stands above them, or in a file that is used");
+    check->solid->wrong = true;
+}
+
+static void take_design(tn_solid_check *check, tn_checked_solids *solids, const tn_solid_design *design, bool imported)
+{
+    tn_checked_solid *solid = TN_NEW(check->arena, tn_checked_solid);
+    if (!solid || !design->name.text)
+        return;
+    const tn_checked_solid *before = find(solids, design->name.text);
+    solid->design = design;
+    solid->imported = imported;
+    check->solid = solid;
+    if (before)
+        twice(check, design->name.span, before->design->name.span, "the design", design->name.text,
+              "give one of them another name");
+    take_base(check, solids);
+    take_settings(check);
+    take_items(check);
+    count_boxes(check);
+    TN_CHAIN(solids, solid);
+}
+
+bool tn_check_solids(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_solids *solids)
+{
+    tn_solid_check check = {.arena = arena, .diagnostics = diagnostics};
+    size_t errors = diagnostics->error_count;
+    bool damaged = false;
+    *solids = (tn_checked_solids){0};
+    for (size_t u = 0; u < imports->count; u++) {
+        const tn_solid_file *file = imports->units[u]->tree;
+        damaged |= file->damaged;
+        check.damaged = damaged;
+        for (const tn_solid_design *design = file->first; design; design = design->next)
+            take_design(&check, solids, design, u + 1 < imports->count);
+    }
+    if (!solids->first && !damaged && diagnostics->error_count == errors) {
+        tn_span whole = {imports->units[imports->count - 1]->file, 0, 0};
+        tn_diagnostic *d = tn_report(diagnostics, E_SOLID_EMPTY, whole, "this file has no design");
+        tn_help(diagnostics, d, "write one: `solid slab { box all from (0, 0, 0) to (4, 1, 2); }`");
+    }
+    return !damaged && diagnostics->error_count == errors && !tn_arena_failed(arena);
+}

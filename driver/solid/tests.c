@@ -1,0 +1,137 @@
+/* Measures designs, and holds them to what they require. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/solid/solid.h"
+#include "runtime/number/run.h"
+
+typedef struct testing {
+    tn_opened *opened;
+    const tn_module *module;
+    uint32_t solid, most;
+    bool json;
+    FILE *out;
+    double values[TN_SOLID_MEASURED_COUNT];
+} testing;
+
+static double value_of(const testing *t, uint32_t function)
+{
+    return tn_number_run(t->module->code, t->module->FUNCTION_records[function].code_begin, t->values);
+}
+
+/* Everything that the design's measures and requirements speak of. */
+static uint64_t asked_of(const tn_module *module, const tn_solid_record *record)
+{
+    uint64_t asked = 0;
+    for (uint32_t i = 0; i < record->asked_count; i++)
+        asked |= tn_solid_asked(module, module->SOLID_MEASURE_records[record->asked_first + i].function);
+    for (uint32_t i = 0; i < record->requirement_count; i++)
+        asked |= tn_solid_asked(module, module->REQUIREMENT_records[record->requirement_first + i].holds);
+    return asked;
+}
+
+/* A text between quotes; names and expressions have no control characters. */
+static void write_quoted(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            fputc('\\', out);
+        fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
+    }
+    fputc('"', out);
+}
+
+static void write_measures(const testing *t)
+{
+    const tn_solid_record *record = &t->module->SOLID_records[t->solid];
+    const char *name = tn_text(t->module, record->name);
+    if (t->json) {
+        fputs("{\"name\":", t->out);
+        write_quoted(t->out, name);
+        fputs(",\"measures\":{", t->out);
+    } else if (record->asked_count) {
+        fprintf(t->out, "%s\n", name);
+    }
+    for (uint32_t i = 0; i < record->asked_count; i++) {
+        const tn_solid_measure_record *asked = &t->module->SOLID_MEASURE_records[record->asked_first + i];
+        double value = value_of(t, asked->function);
+        const char *words = tn_text(t->module, asked->name);
+        if (t->json) {
+            fputs(i ? "," : "", t->out);
+            write_quoted(t->out, words);
+            fprintf(t->out, value - value == 0 ? ":%.17g" : ":null", value);
+        } else {
+            fprintf(t->out, "  %-16s %.10g\n", words, value);
+        }
+    }
+    if (t->json)
+        fputs("}}", t->out);
+}
+
+/* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
+static void write_found(const testing *t, uint32_t function, char *text, size_t size)
+{
+    uint64_t asked = tn_solid_asked(t->module, function);
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < TN_SOLID_MEASURED_COUNT && used < size; i++)
+        if (asked >> i & 1)
+            used += (size_t)snprintf(text + used, size - used, "%s%s is %.10g", used ? ", " : "",
+                                     tn_solid_measured_names[i], t->values[i]);
+}
+
+static bool holds(const testing *t, uint32_t index)
+{
+    const tn_requirement_record *r = &t->module->REQUIREMENT_records[index];
+    double value = value_of(t, r->holds), lacks = value_of(t, r->violation);
+    char found[360];
+    if (value - value == 0 && value != 0)
+        return true;
+    write_found(t, r->holds, found, sizeof found);
+    tn_diagnostics *list = &t->opened->compilation.diagnostics;
+    tn_diagnostic *d =
+        tn_report(list, E_REQUIREMENT_FAILED, (tn_span){r->file, r->begin, r->end}, "`%.100s` does not meet this: %s",
+                  tn_text(t->module, t->module->SOLID_records[t->solid].name), found);
+    if (lacks - lacks == 0)
+        tn_note(list, d, NULL, "it is %.10g away from holding", lacks);
+    return false;
+}
+
+static tn_status test_design(testing *t, tn_solid_tally *tally)
+{
+    const tn_solid_record *record = &t->module->SOLID_records[t->solid];
+    tn_built built;
+    tn_error error;
+    tn_status status = tn_built_make(t->module, t->solid, t->most, &built, &error);
+    if (status == TN_OK)
+        status = tn_built_measure(&built, asked_of(t->module, record), t->values, &error);
+    tn_built_clear(&built);
+    if (status != TN_OK)
+        return tn_solid_fail(t->opened, t->solid, &error);
+    write_measures(t);
+    for (uint32_t i = 0; i < record->requirement_count; i++) {
+        bool held = holds(t, record->requirement_first + i);
+        tally->passed += held;
+        tally->failed += !held;
+        status = held ? status : TN_INVALID;
+    }
+    return status;
+}
+
+tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally)
+{
+    tn_status status = TN_OK;
+    bool first = true;
+    for (uint32_t i = 0; i < opened->module->SOLID_count; i++) {
+        if (opened->module->SOLID_records[i].flags & TN_SOLID_IMPORTED)
+            continue;
+        testing t = {.opened = opened, .module = opened->module, .solid = i, .most = most, .json = json, .out = out};
+        if (json && !first)
+            fputc(',', out);
+        first = false;
+        tn_status one = test_design(&t, tally);
+        status = status == TN_OK ? one : status;
+    }
+    return status;
+}

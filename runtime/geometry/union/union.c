@@ -1,0 +1,104 @@
+/* The boundary of a union of cells: chooses the step, and calls what finds planes, triangles and vertices. */
+#include "runtime/geometry/union/union.h"
+
+#include <stdlib.h>
+
+#include "runtime/geometry/union/union_parts.h"
+
+void tn_union_clear(tn_union *result)
+{
+    tn_mesh_clear(&result->mesh);
+    free(result->contacts);
+    *result = (tn_union){0};
+}
+
+/* A power of two, such that no coordinate has more than 2^52 steps. */
+static double step_of(const tn_cut_box *cells, size_t count)
+{
+    double most = 0;
+    int exponent;
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; cells[i].face_count && k < 3; k++)
+            most = fmax(most, fmax(fabs(cells[i].low[k]), fabs(cells[i].high[k])));
+    frexp(most, &exponent);
+    return ldexp(1, most > 0 ? exponent - 52 : 0);
+}
+
+static int by_cells(const void *a, const void *b)
+{
+    const tn_contact *x = a, *y = b;
+    if (x->a != y->a)
+        return x->a < y->a ? -1 : 1;
+    return x->b < y->b ? -1 : x->b > y->b;
+}
+
+/* Cells touch on one plane at most, since boxes are convex; so each pair is there once. */
+static void take_contacts(tn_grid *grid, tn_union *result)
+{
+    if (grid->contact_count)
+        qsort(grid->contacts, grid->contact_count, sizeof *grid->contacts, by_cells);
+    result->contacts = grid->contacts;
+    result->contact_count = grid->contact_count;
+    grid->contacts = NULL;
+}
+
+static tn_status make(const tn_cut_box *cells, size_t count, bool mesh, tn_union *result, tn_error *error)
+{
+    tn_grid grid = {.step = step_of(cells, count)};
+    *result = (tn_union){0};
+    tn_grid_planes(&grid, cells, count);
+    tn_status status = grid.failed ? tn_fail_memory(error) : TN_OK;
+    bool again = mesh;
+    while (status == TN_OK && again) { /* each time with shorter edges */
+        tn_mesh_clear(&result->mesh);
+        status = tn_grid_triangles(&grid, &result->mesh, error);
+        if (status == TN_OK)
+            status = tn_grid_separate(&grid, &result->mesh, &result->doubled, &again, error);
+    }
+    if (status == TN_OK)
+        take_contacts(&grid, result);
+    result->mesh.group_count = (uint32_t)count;
+    tn_grid_clear(&grid);
+    return status;
+}
+
+tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
+{
+    return make(cells, count, true, result, error);
+}
+
+tn_status tn_union_contacts(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
+{
+    return make(cells, count, false, result, error);
+}
+
+tn_status tn_union_cells(const tn_cut_box *cells, size_t count, tn_mesh *mesh, tn_error *error)
+{
+    size_t vertices = 0, faces = 0, corners = 0;
+    for (size_t i = 0; i < count; i++) {
+        vertices += cells[i].corner_count;
+        faces += cells[i].face_count;
+        for (uint32_t f = 0; f < cells[i].face_count; f++)
+            corners += cells[i].faces[f].count;
+    }
+    tn_status status = tn_mesh_new(vertices, faces, corners, mesh, error);
+    mesh->face_group = status == TN_OK ? malloc((faces + 1) * sizeof *mesh->face_group) : NULL;
+    if (status == TN_OK && !mesh->face_group)
+        status = tn_fail_memory(error);
+    vertices = faces = corners = 0;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        for (uint32_t f = 0; f < cells[i].face_count; f++) {
+            mesh->face_first[faces] = (uint32_t)corners;
+            mesh->face_group[faces++] = (uint32_t)i;
+            for (uint32_t k = 0; k < cells[i].faces[f].count; k++)
+                mesh->corners[corners++] = (uint32_t)vertices + cells[i].faces[f].corner[k];
+        }
+        for (uint32_t v = 0; v < cells[i].corner_count; v++, vertices++)
+            for (int k = 0; k < 3; k++)
+                mesh->positions[3 * vertices + (size_t)k] = cells[i].at[v][k];
+    }
+    if (status == TN_OK)
+        mesh->face_first[faces] = (uint32_t)corners;
+    mesh->group_count = (uint32_t)count;
+    return status;
+}

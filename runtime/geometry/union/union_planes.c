@@ -1,0 +1,391 @@
+/* Plane by plane: the faces that look to the high side less those that look to the low side against them, and the other
+ * way round. Faces of one kind do not overlap, since boxes do not; what two opposite ones share is their contact.
+ *
+ * Faces are convex. One is taken from another by cutting off, edge by edge, what lies outside the edge; so pieces stay
+ * convex, and each of their corners is a corner of a face or where two lines of faces cross. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/geometry/union/union_parts.h"
+
+enum { CUT_MAX = 4096 }; /* corners of a piece: each cut adds one, and a face has few edges */
+
+/* A face in a plane. */
+typedef struct flat {
+    int64_t w; /* of the plane */
+    uint32_t axis, cell;
+    bool high; /* its outside is the high side */
+    int64_t low_u, high_u, low_v, high_v;
+    uint32_t first, count; /* corners, counter-clockwise in the plane's u and v */
+} flat;
+
+typedef struct piece {
+    uint32_t first, count;
+} piece;
+
+typedef struct planes {
+    tn_grid *grid;
+    flat *flats;
+    size_t flat_count, flat_capacity;
+    tn_ring_corner *corners; /* of flats */
+    size_t corner_count, corner_capacity;
+    /* pieces of the face at hand */
+    tn_ring_corner *cut;
+    size_t cut_count, cut_capacity;
+    piece *pieces, *left;
+    size_t piece_count, piece_capacity, left_count, left_capacity;
+} planes;
+
+static bool room(planes *p, void *items, size_t size, size_t count, size_t *capacity)
+{
+    return tn_grid_room(p->grid, items, size, count, capacity);
+}
+
+/* ---- faces of cells */
+
+static int64_t steps(const tn_grid *grid, double x)
+{
+    return (int64_t)rint(x / grid->step);
+}
+
+/* Is the ring of vertices in a plane of the cell's box? A cap may have been rounded into one. */
+static bool level_at(const tn_grid *grid, const uint32_t *ring, uint32_t count, int axis, int64_t w)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (grid->vertices[ring[i]].at[axis] != w)
+            return false;
+    return true;
+}
+
+/* Which face the ring is in fact: that of the box whose plane all of it lies in, or the cap. */
+static uint32_t face_of(const tn_grid *grid, const tn_cut_box *cell, const tn_cut_box_face *face, const uint32_t *ring,
+                        uint32_t count)
+{
+    for (uint32_t side = 0; side < 6 && face->side == TN_CUT_BOX_CAP; side++) {
+        double w = side & 1 ? cell->high[side / 2] : cell->low[side / 2];
+        if (level_at(grid, ring, count, (int)(side / 2), steps(grid, w)))
+            return side;
+    }
+    return face->side;
+}
+
+/* The ring without corners where it goes straight on, as corners of the plane. */
+static uint32_t straighten(tn_grid *grid, const uint32_t *ring, uint32_t count, tn_ring_corner *out)
+{
+    uint32_t lines[8], kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        lines[i] = tn_grid_line_through(grid, ring[i], ring[(i + 1) % count]);
+        tn_grid_stop_at(grid, lines[i], ring[i]);
+        tn_grid_stop_at(grid, lines[i], ring[(i + 1) % count]);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (lines[i] != lines[(i + count - 1) % count])
+            out[kept++] = (tn_ring_corner){.point = {ring[i], TN_NOTHING, TN_NOTHING}, .line = lines[i]};
+    return kept >= 3 ? kept : 0;
+}
+
+/* Turned so that it is counter-clockwise in u and v, whichever side it looks to; with its bounds. */
+static void add_flat(planes *p, flat one, const tn_ring_corner *ring, uint32_t count)
+{
+    tn_grid *grid = p->grid;
+    int u = ((int)one.axis + 1) % 3, v = ((int)one.axis + 2) % 3;
+    one.first = (uint32_t)p->corner_count;
+    one.count = count;
+    one.low_u = one.low_v = INT64_MAX;
+    one.high_u = one.high_v = INT64_MIN;
+    for (uint32_t k = 0; k < count; k++) {
+        tn_ring_corner corner = ring[one.high ? k : count - 1 - k];
+        if (!one.high)
+            corner.line = ring[(2 * count - 2 - k) % count].line;
+        const int64_t *at = grid->vertices[corner.point.vertex].at;
+        uint32_t next = ring[one.high ? (k + 1) % count : (2 * count - 2 - k) % count].point.vertex;
+        corner.side = tn_grid_inside(grid, (int)one.axis, corner.line, corner.point.vertex, next);
+        one.low_u = at[u] < one.low_u ? at[u] : one.low_u;
+        one.high_u = at[u] > one.high_u ? at[u] : one.high_u;
+        one.low_v = at[v] < one.low_v ? at[v] : one.low_v;
+        one.high_v = at[v] > one.high_v ? at[v] : one.high_v;
+        if (!room(p, &p->corners, sizeof corner, p->corner_count, &p->corner_capacity))
+            return;
+        p->corners[p->corner_count++] = corner;
+    }
+    if (room(p, &p->flats, sizeof one, p->flat_count, &p->flat_capacity))
+        p->flats[p->flat_count++] = one;
+}
+
+static void add_face(planes *p, const tn_cut_box *cell, uint32_t index, const tn_cut_box_face *face,
+                     const uint32_t *vertices)
+{
+    uint32_t ring[8], count = 0;
+    tn_ring_corner corners[8];
+    for (uint32_t k = 0; k < face->count; k++) {
+        uint32_t vertex = vertices[face->corner[k]];
+        if (count == 0 || ring[count - 1] != vertex)
+            ring[count++] = vertex;
+    }
+    while (count > 1 && ring[count - 1] == ring[0])
+        count--;
+    if (count < 3 || p->grid->failed)
+        return;
+    uint32_t kept = straighten(p->grid, ring, count, corners);
+    uint32_t side = face_of(p->grid, cell, face, ring, count);
+    if (kept == 0 || p->grid->failed)
+        return;
+    if (side == TN_CUT_BOX_CAP) {
+        tn_grid_add_ring(p->grid, corners, kept, index, TN_CUT_BOX_CAP);
+        return;
+    }
+    /* A cap in the plane of a low face looks to the high side: its orientation says so. */
+    bool high = face->side == TN_CUT_BOX_CAP ? false : side & 1;
+    flat one = {.w = p->grid->vertices[ring[0]].at[side / 2], .axis = side / 2, .cell = index, .high = high};
+    if (face->side == TN_CUT_BOX_CAP) {
+        int u = ((int)one.axis + 1) % 3, v = ((int)one.axis + 2) % 3;
+        const int64_t *a = p->grid->vertices[corners[0].point.vertex].at,
+                      *b = p->grid->vertices[corners[1].point.vertex].at,
+                      *c = p->grid->vertices[corners[2].point.vertex].at;
+        one.high = (tn_int128)(b[u] - a[u]) * (c[v] - a[v]) > (tn_int128)(b[v] - a[v]) * (c[u] - a[u]);
+    }
+    add_flat(p, one, corners, kept);
+}
+
+static void add_cell(planes *p, const tn_cut_box *cell, uint32_t index)
+{
+    uint32_t vertices[TN_CUT_BOX_CORNERS];
+    for (int k = 0; k < 3; k++)
+        if (steps(p->grid, cell->low[k]) >= steps(p->grid, cell->high[k]))
+            return; /* thinner than a step */
+    for (uint32_t i = 0; i < cell->corner_count; i++) {
+        int64_t at[3];
+        for (int k = 0; k < 3; k++)
+            at[k] = steps(p->grid, cell->at[i][k]);
+        vertices[i] = tn_grid_vertex_of(p->grid, at);
+    }
+    for (uint32_t f = 0; f < cell->face_count; f++)
+        add_face(p, cell, index, &cell->faces[f], vertices);
+}
+
+/* ---- cutting */
+
+static void put(planes *p, tn_grid_point point, uint32_t line, int side)
+{
+    if (room(p, &p->cut, sizeof *p->cut, p->cut_count, &p->cut_capacity))
+        p->cut[p->cut_count++] = (tn_ring_corner){point, line, side};
+}
+
+/* What of a piece is on one side of a line: the corners whose signs times `turn` are not below 0. */
+static piece part_of(planes *p, piece of, const int *signs, int turn, uint32_t line, int side,
+                     const tn_grid_point *crossings)
+{
+    piece part = {(uint32_t)p->cut_count, 0};
+    for (uint32_t k = 0; k < of.count && !p->grid->failed; k++) {
+        tn_ring_corner corner = p->cut[of.first + k];
+        int here = turn * signs[k], next = turn * signs[(k + 1) % of.count];
+        if (here > 0 || (here == 0 && next > 0))
+            put(p, corner.point, corner.line, corner.side);
+        else if (here == 0)
+            put(p, corner.point, line, turn * side);
+        if (here > 0 && next < 0)
+            put(p, crossings[k], line, turn * side);
+        else if (here < 0 && next > 0)
+            put(p, crossings[k], corner.line, corner.side);
+    }
+    part.count = (uint32_t)p->cut_count - part.first;
+    return part;
+}
+
+typedef enum cut_result { CUT_OUTSIDE, CUT_INSIDE, CUT_BOTH } cut_result;
+
+/* Cuts a piece along a line; where it lies on both sides, what is inside and what is outside. */
+static cut_result cut(planes *p, int axis, int64_t w, piece of, const tn_ring_corner *edge, piece *inside,
+                      piece *outside)
+{
+    int signs[CUT_MAX];
+    tn_grid_point crossings[CUT_MAX];
+    bool in = false, out = false;
+    if (of.count > CUT_MAX)
+        p->grid->failed = true;
+    for (uint32_t k = 0; k < of.count && !p->grid->failed; k++) {
+        const tn_grid_point *point = &p->cut[of.first + k].point;
+        signs[k] = edge->side * tn_grid_side(p->grid, axis, edge->line, point);
+        in |= signs[k] > 0;
+        out |= signs[k] < 0;
+        if (signs[k] == 0)
+            tn_grid_stop_at(p->grid, edge->line, point->vertex);
+    }
+    if (!in || p->grid->failed)
+        return CUT_OUTSIDE;
+    if (!out)
+        return CUT_INSIDE;
+    for (uint32_t k = 0; k < of.count; k++)
+        if (signs[k] * signs[(k + 1) % of.count] < 0)
+            crossings[k] = tn_grid_crossing(p->grid, axis, w, p->cut[of.first + k].line, edge->line);
+    *inside = part_of(p, of, signs, 1, edge->line, edge->side, crossings);
+    *outside = part_of(p, of, signs, -1, edge->line, edge->side, crossings);
+    return CUT_BOTH;
+}
+
+static void keep(planes *p, piece one)
+{
+    if (room(p, &p->left, sizeof one, p->left_count, &p->left_capacity))
+        p->left[p->left_count++] = one;
+}
+
+static double area_of(const planes *p, int axis, piece one)
+{
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    double sum = 0;
+    const int64_t *o = p->grid->vertices[p->cut[one.first].point.vertex].at;
+    for (uint32_t k = 1; k + 1 < one.count; k++) {
+        const int64_t *a = p->grid->vertices[p->cut[one.first + k].point.vertex].at,
+                      *b = p->grid->vertices[p->cut[one.first + k + 1].point.vertex].at;
+        sum += (double)(a[u] - o[u]) * (double)(b[v] - o[v]) - (double)(a[v] - o[v]) * (double)(b[u] - o[u]);
+    }
+    return sum / 2;
+}
+
+/* Leaves of a piece what is outside a face; returns the area that they share. */
+static double take_away(planes *p, const flat *face, piece one)
+{
+    size_t before = p->left_count;
+    piece rest = one, outside;
+    for (uint32_t k = 0; k < face->count && !p->grid->failed; k++) {
+        const tn_ring_corner edge = p->corners[face->first + k];
+        cut_result result = cut(p, (int)face->axis, face->w, rest, &edge, &rest, &outside);
+        if (result == CUT_OUTSIDE) { /* they only touch, if that: it stays as it was */
+            p->left_count = before;
+            keep(p, one);
+            return 0;
+        }
+        if (result == CUT_BOTH)
+            keep(p, outside);
+    }
+    return p->grid->failed ? 0 : area_of(p, (int)face->axis, rest);
+}
+
+static void add_contact(planes *p, uint32_t a, uint32_t b, double area)
+{
+    tn_grid *grid = p->grid;
+    tn_contact contact = {a < b ? a : b, a < b ? b : a, area * grid->step * grid->step};
+    if (room(p, &grid->contacts, sizeof contact, grid->contact_count, &grid->contact_capacity))
+        grid->contacts[grid->contact_count++] = contact;
+}
+
+/* Bounds of a piece, as far as they are known: rounded. */
+static bool apart(const planes *p, piece one, const flat *face)
+{
+    int u = ((int)face->axis + 1) % 3, v = ((int)face->axis + 2) % 3;
+    bool left = true, right = true, below = true, above = true;
+    for (uint32_t k = 0; k < one.count; k++) {
+        const int64_t *at = p->grid->vertices[p->cut[one.first + k].point.vertex].at;
+        left &= at[u] < face->low_u;
+        right &= at[u] > face->high_u;
+        below &= at[v] < face->low_v;
+        above &= at[v] > face->high_v;
+    }
+    return left || right || below || above;
+}
+
+static void subtract(planes *p, const flat *from, const flat *face)
+{
+    double area = 0;
+    p->left_count = 0;
+    for (size_t i = 0; i < p->piece_count && !p->grid->failed; i++) {
+        if (apart(p, p->pieces[i], face))
+            keep(p, p->pieces[i]);
+        else
+            area += take_away(p, face, p->pieces[i]);
+    }
+    piece *pieces = p->pieces;
+    size_t capacity = p->piece_capacity;
+    p->pieces = p->left;
+    p->piece_count = p->left_count;
+    p->piece_capacity = p->left_capacity;
+    p->left = pieces;
+    p->left_capacity = capacity;
+    if (area > 0 && from->high)
+        add_contact(p, from->cell, face->cell, area);
+}
+
+static void start_pieces(planes *p, const flat *of)
+{
+    p->cut_count = p->piece_count = 0;
+    for (uint32_t k = 0; k < of->count; k++) {
+        tn_ring_corner corner = p->corners[of->first + k];
+        put(p, corner.point, corner.line, corner.side);
+    }
+    if (room(p, &p->pieces, sizeof *p->pieces, p->piece_count, &p->piece_capacity))
+        p->pieces[p->piece_count++] = (piece){0, of->count};
+}
+
+static void end_pieces(planes *p, const flat *of)
+{
+    for (size_t i = 0; i < p->piece_count; i++)
+        tn_grid_add_ring(p->grid, p->cut + p->pieces[i].first, p->pieces[i].count, of->cell, 2 * of->axis + of->high);
+}
+
+/* ---- planes */
+
+static int compare(int64_t a, int64_t b)
+{
+    return (a > b) - (a < b);
+}
+
+/* By plane, side, bounds, cell. */
+static int in_order(const void *a, const void *b)
+{
+    const flat *x = a, *y = b;
+    if (x->axis != y->axis)
+        return x->axis < y->axis ? -1 : 1;
+    if (x->w != y->w)
+        return compare(x->w, y->w);
+    if (x->high != y->high)
+        return x->high ? 1 : -1;
+    if (x->low_u != y->low_u)
+        return compare(x->low_u, y->low_u);
+    return x->cell < y->cell ? -1 : x->cell > y->cell;
+}
+
+/* Takes the faces of the other side from each of one side; both are sorted by their low bounds. */
+static void cover(planes *p, const flat *faces, size_t count, const flat *others, size_t other_count)
+{
+    int64_t widest = 0;
+    for (size_t k = 0; k < other_count; k++)
+        widest = others[k].high_u - others[k].low_u > widest ? others[k].high_u - others[k].low_u : widest;
+    for (size_t i = 0, first = 0; i < count && !p->grid->failed; i++) {
+        const flat *face = &faces[i];
+        start_pieces(p, face);
+        while (first < other_count && others[first].low_u < face->low_u - widest)
+            first++;
+        for (size_t k = first; k < other_count && others[k].low_u <= face->high_u; k++)
+            if (others[k].high_u >= face->low_u && others[k].low_v <= face->high_v && others[k].high_v >= face->low_v)
+                subtract(p, face, &others[k]);
+        end_pieces(p, face);
+    }
+}
+
+static void cover_planes(planes *p)
+{
+    qsort(p->flats, p->flat_count, sizeof *p->flats, in_order);
+    for (size_t first = 0, high, last; first < p->flat_count; first = last) {
+        const flat *f = &p->flats[first];
+        for (last = first; last < p->flat_count && p->flats[last].axis == f->axis && p->flats[last].w == f->w;)
+            last++;
+        for (high = first; high < last && !p->flats[high].high;)
+            high++;
+        cover(p, p->flats + first, high - first, p->flats + high, last - high);
+        cover(p, p->flats + high, last - high, p->flats + first, high - first);
+    }
+}
+
+void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count)
+{
+    planes p = {.grid = grid};
+    for (size_t i = 0; i < count && !grid->failed; i++)
+        add_cell(&p, &cells[i], (uint32_t)i);
+    if (!grid->failed && p.flat_count)
+        cover_planes(&p);
+    free(p.flats);
+    free(p.corners);
+    free(p.cut);
+    free(p.pieces);
+    free(p.left);
+}

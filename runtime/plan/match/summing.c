@@ -1,0 +1,359 @@
+/* Sums of several terms, read from left to right. */
+#include "runtime/plan/match/summing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/code.h"
+#include "runtime/plan/match/vm.h"
+
+/* A key is {phase, thread and running set of each term, then term, set and steps (two words) of each kind of place}. */
+enum { PHASE, TERMS };
+enum { THREAD, RUNNING, TERM_WORDS };
+enum { PLACE_TERM, PLACE_SET, PLACE_LOW, PLACE_HIGH, PLACE_WORDS };
+
+enum { UNKNOWN, LOCAL, NOT_LOCAL };
+
+static bool looks_around(const tn_module *module, const tn_instruction *code, uint8_t *known)
+{
+    switch (code->opcode) {
+    case TN_OP_BEGINNING:
+    case TN_OP_END:
+    case TN_OP_DISTANCE:
+        return true;
+    case TN_OP_CALL:
+    case TN_OP_MIRROR:
+        return !tn_summing_is_local(module, (uint32_t)code->first, known);
+    case TN_OP_BELOW:
+    case TN_OP_ZERO:
+    case TN_OP_ABOVE: {
+        const tn_sum_record *sum = &module->SUM_records[code->first];
+        for (uint32_t i = 0; i < sum->term_count; i++)
+            if (!tn_summing_is_local(module, module->TERM_records[sum->term_first + i].part, known))
+                return true;
+        return false;
+    }
+    default:
+        return false;
+    }
+}
+
+/* Functions call lower ones only; a chain of calls is as deep as rules name each other. */
+bool tn_summing_is_local(const tn_module *module, uint32_t function, uint8_t *known)
+{
+    if (known[function] != UNKNOWN)
+        return known[function] == LOCAL;
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    bool local = true;
+    for (uint32_t offset = record->code_begin; local && offset < record->code_end;) {
+        tn_instruction code = tn_code_read(module->code, offset);
+        local = !looks_around(module, &code, known);
+        offset += code.length;
+    }
+    known[function] = local ? LOCAL : NOT_LOCAL;
+    return local;
+}
+
+/* ---- making */
+
+static int64_t weight_of(const tn_sum_term *term, tn_tray tray)
+{
+    return term->weight ? term->weight[tray] : term->each;
+}
+
+/* What each class's tray adds by the terms that it decides alone. */
+static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, int64_t *local,
+                            tn_error *error)
+{
+    tn_plan_vm *vm = NULL;
+    tn_status status = tn_plan_vm_new(sum->schema, 1, &vm, error);
+    for (uint32_t c = 0; status == TN_OK && c < classes->count; c++) {
+        tn_tray tray = classes->representative[c];
+        status = tn_plan_vm_plan(vm, &tray, 1, error);
+        for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
+            bool in = false;
+            if (parts[i] || sum->terms[i].kind == TN_SUM_MATCHES)
+                continue;
+            status = tn_plan_vm_relation(vm, sum->terms[i].part, 0, 1, &in, error);
+            local[c] += in ? weight_of(&sum->terms[i], tray) : 0;
+        }
+    }
+    tn_plan_vm_free(vm);
+    return status;
+}
+
+/* Numbers what tells the classes apart: *extra[class]. */
+static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, const int64_t *local,
+                           uint32_t *extra)
+{
+    tn_numbering values = {0}, pairs = {0};
+    bool ok = true;
+    for (uint32_t c = 0; ok && c < classes->count; c++) {
+        uint32_t id = tn_number(&values, (uint64_t)local[c]);
+        for (uint32_t i = 0; i < sum->count && id != UINT32_MAX; i++) {
+            if (!parts[i])
+                continue;
+            uint32_t weight = tn_number(&values, (uint64_t)weight_of(&sum->terms[i], classes->representative[c]));
+            id = weight == UINT32_MAX ? weight : tn_number(&pairs, (uint64_t)id << 32 | weight);
+        }
+        extra[c] = id;
+        ok = id != UINT32_MAX;
+    }
+    tn_numbering_clear(&values);
+    tn_numbering_clear(&pairs);
+    return ok;
+}
+
+static void note_range(int64_t weight, int64_t *up, int64_t *down)
+{
+    if (weight > *up)
+        *up = weight;
+    if (-weight > *down)
+        *down = -weight;
+}
+
+static void find_range(tn_summing *summing)
+{
+    int64_t up = 0, down = 0;
+    for (uint32_t c = 0; c < summing->join.columns; c++)
+        if (c != summing->marker)
+            note_range(summing->local[c], &up, &down);
+    summing->most_up = up;
+    summing->most_down = down;
+    for (uint32_t t = 0; t < summing->count; t++) {
+        up = down = 0;
+        for (uint32_t c = 0; c < summing->join.columns; c++)
+            if (c != summing->marker)
+                note_range(summing->terms[t].weight[c], &up, &down);
+        summing->most_up += up;
+        summing->most_down += down;
+    }
+}
+
+static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts,
+                           bool reversed, tn_error *error)
+{
+    for (uint32_t i = 0; i < sum->count; i++) {
+        if (!parts[i])
+            continue;
+        tn_summing_term *term = &summing->terms[summing->count];
+        tn_tally tally = sum->terms[i].kind == TN_SUM_SINGLES ? TN_TALLY_SINGLES
+                         : reversed                           ? TN_TALLY_ENDS
+                                                              : TN_TALLY_STARTS;
+        tn_status status = tn_guesses_make(&term->guesses, parts[i], tally, &summing->join, summing->count++, error);
+        term->weight = calloc((size_t)summing->join.columns + 1, sizeof *term->weight);
+        if (status == TN_OK && !term->weight)
+            status = tn_fail_memory(error);
+        if (status != TN_OK)
+            return status;
+        for (uint32_t c = 0; c < summing->join.columns; c++)
+            if (c != summing->marker)
+                term->weight[c] = weight_of(&sum->terms[i], classes->representative[summing->join.letter[c]]);
+    }
+    return TN_OK;
+}
+
+static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
+                      tn_dfa *const *parts, const int64_t *local, tn_error *error)
+{
+    uint32_t count = 0;
+    uint32_t *extra = calloc(marked->letters, sizeof *extra);
+    const tn_dfa **dfas = calloc((size_t)sum->count + 1, sizeof *dfas);
+    bool ok = extra && dfas && number_weights(sum, classes, parts, local, extra);
+    for (uint32_t i = 0; ok && i < sum->count; i++)
+        if (parts[i])
+            dfas[count++] = parts[i];
+    tn_status status =
+        ok ? tn_join_make(&summing->join, dfas, count, marked->letters, extra, true, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        summing->marker = summing->join.column[marked->letters - 1];
+        summing->local = calloc((size_t)summing->join.columns + 1, sizeof *summing->local);
+        summing->terms = calloc((size_t)count + 1, sizeof *summing->terms);
+        status = summing->local && summing->terms ? TN_OK : tn_fail_memory(error);
+    }
+    for (uint32_t c = 0; status == TN_OK && c < summing->join.columns; c++)
+        if (c != summing->marker)
+            summing->local[c] = local[summing->join.letter[c]];
+    free(extra);
+    free(dfas);
+    return status;
+}
+
+tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
+                          tn_dfa *const *parts, bool reversed, tn_error *error)
+{
+    *summing = (tn_summing){0};
+    int64_t *local = calloc((size_t)classes->count + 1, sizeof *local);
+    tn_status status = local ? find_local(sum, classes, parts, local, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = join(summing, sum, marked, classes, parts, local, error);
+    if (status == TN_OK)
+        status = add_terms(summing, sum, classes, parts, reversed, error);
+    if (status == TN_OK)
+        find_range(summing);
+    free(local);
+    return status;
+}
+
+void tn_summing_clear(tn_summing *summing)
+{
+    for (uint32_t t = 0; t < summing->count; t++) {
+        tn_guesses_clear(&summing->terms[t].guesses);
+        free(summing->terms[t].weight);
+    }
+    tn_join_clear(&summing->join);
+    free(summing->terms);
+    free(summing->local);
+    free(summing->pending);
+    *summing = (tn_summing){0};
+}
+
+/* ---- places that wait */
+
+static void add_pending(tn_summing *summing, uint32_t term, uint32_t set, int64_t steps, int64_t *gain)
+{
+    if (set == TN_NO_GUESSES || steps == 0)
+        return;
+    if (tn_guesses_certain(&summing->terms[term].guesses, set)) {
+        *gain += steps;
+        return;
+    }
+    if (summing->pending_size == summing->pending_capacity) {
+        size_t capacity = summing->pending_capacity ? summing->pending_capacity * 2 : 32;
+        tn_summing_pending *pending = realloc(summing->pending, capacity * sizeof *pending);
+        if (!pending) {
+            summing->failed = true;
+            return;
+        }
+        summing->pending = pending;
+        summing->pending_capacity = capacity;
+    }
+    summing->pending[summing->pending_size++] = (tn_summing_pending){term, set, steps};
+}
+
+static int compare_pending(const void *left, const void *right)
+{
+    const tn_summing_pending *a = left, *b = right;
+    if (a->term != b->term)
+        return a->term < b->term ? -1 : 1;
+    return (a->set > b->set) - (a->set < b->set);
+}
+
+static bool write_pending(tn_summing *summing, tn_key *next)
+{
+    tn_summing_pending *pending = summing->pending;
+    if (summing->pending_size > 1)
+        qsort(pending, summing->pending_size, sizeof *pending, compare_pending);
+    for (size_t i = 0, j; i < summing->pending_size; i = j) {
+        int64_t steps = 0;
+        for (j = i; j < summing->pending_size && compare_pending(&pending[i], &pending[j]) == 0; j++)
+            steps += pending[j].steps;
+        if (steps == 0)
+            continue;
+        if (!tn_key_push(next, pending[i].term) || !tn_key_push(next, pending[i].set) ||
+            !tn_key_push(next, (uint32_t)(uint64_t)steps) || !tn_key_push(next, (uint32_t)((uint64_t)steps >> 32)))
+            return false;
+    }
+    return true;
+}
+
+static int64_t steps_of(const uint32_t *place)
+{
+    return (int64_t)((uint64_t)place[PLACE_HIGH] << 32 | place[PLACE_LOW]);
+}
+
+/* ---- steps */
+
+bool tn_summing_start(const tn_summing *summing, tn_key *key)
+{
+    bool ok = tn_key_push(key, 0);
+    for (uint32_t t = 0; t < summing->count; t++) {
+        uint32_t thread = summing->terms[t].guesses.a.dead == 0 ? TN_NO_STATE : 0;
+        ok = ok && tn_key_push(key, thread) && tn_key_push(key, TN_NO_GUESSES);
+    }
+    return ok;
+}
+
+static size_t places_at(const tn_summing *summing)
+{
+    return TERMS + TERM_WORDS * (size_t)summing->count;
+}
+
+bool tn_summing_waits(const tn_summing *summing, size_t size)
+{
+    return size > places_at(summing);
+}
+
+static bool step_marker(tn_summing *summing, const uint32_t *key, size_t size, tn_key *next, int64_t *gain)
+{
+    bool ok = tn_key_push(next, key[PHASE] + 1);
+    for (uint32_t t = 0; t < summing->count; t++) {
+        uint32_t thread = key[PHASE] == 0 ? key[TERMS + TERM_WORDS * (size_t)t + THREAD] : TN_NO_STATE;
+        ok = ok && tn_key_push(next, thread) && tn_key_push(next, TN_NO_GUESSES);
+    }
+    for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
+        uint32_t term = key[i + PLACE_TERM];
+        add_pending(summing, term, tn_guesses_ended(&summing->terms[term].guesses, key[i + PLACE_SET]),
+                    steps_of(key + i), gain);
+    }
+    return ok;
+}
+
+/* One term after a tray of the given column: its thread, and the place that the tray makes. */
+static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uint32_t *words, uint32_t column,
+                      tn_key *next, int64_t *gain)
+{
+    tn_guesses *guesses = &summing->terms[t].guesses;
+    uint32_t thread = words[THREAD], running = words[RUNNING];
+    int64_t weight = summing->terms[t].weight[column];
+    if (phase == 1 && guesses->tally == TN_TALLY_ENDS) {
+        running = tn_guesses_running(guesses, running, thread, column);
+        add_pending(summing, t, tn_guesses_end_running(guesses, running), weight, gain);
+    } else if (phase == 1) {
+        add_pending(summing, t, tn_guesses_new(guesses, thread, column), weight, gain);
+    }
+    if (thread != TN_NO_STATE)
+        thread = tn_guesses_state(guesses, thread, column);
+    if (thread == guesses->a.dead)
+        thread = TN_NO_STATE;
+    return tn_key_push(next, thread) && tn_key_push(next, running);
+}
+
+bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint32_t column, tn_key *next,
+                     int64_t *gain)
+{
+    uint32_t phase = key[PHASE];
+    summing->pending_size = 0;
+    *gain = 0;
+    bool ok;
+    if (column == summing->marker) {
+        ok = step_marker(summing, key, size, next, gain);
+    } else {
+        *gain = phase == 1 ? summing->local[column] : 0;
+        ok = tn_key_push(next, phase);
+        for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
+            uint32_t term = key[i + PLACE_TERM];
+            add_pending(summing, term,
+                        tn_guesses_read(&summing->terms[term].guesses, key[i + PLACE_SET], phase, column),
+                        steps_of(key + i), gain);
+        }
+        for (uint32_t t = 0; ok && t < summing->count; t++)
+            ok = step_term(summing, t, phase, key + TERMS + TERM_WORDS * (size_t)t, column, next, gain);
+    }
+    uint64_t effort = 0;
+    for (uint32_t t = 0; t < summing->count; t++) {
+        summing->failed |= summing->terms[t].guesses.failed;
+        effort += summing->terms[t].guesses.effort;
+    }
+    summing->effort = effort;
+    return ok && write_pending(summing, next) && !summing->failed;
+}
+
+int64_t tn_summing_rest(const tn_summing *summing, const uint32_t *key, size_t size)
+{
+    int64_t rest = 0;
+    for (size_t i = places_at(summing); i < size; i += PLACE_WORDS)
+        if (tn_guesses_accept(&summing->terms[key[i + PLACE_TERM]].guesses, key[i + PLACE_SET]))
+            rest += steps_of(key + i);
+    return rest;
+}

@@ -1,0 +1,19 @@
+/* The relations that look at trays, as automata of marked words (marked.h) over tray classes. */
+#ifndef TARTAN_PLAN_MATCH_TRAY_RELATIONS_H
+#define TARTAN_PLAN_MATCH_TRAY_RELATIONS_H
+
+#include "runtime/plan/automata/marked.h"
+#include "runtime/plan/schema/classes.h"
+
+#define TN_NO_FIELD UINT32_MAX
+
+/* TRAY: stretches of one tray that meets the specifier. */
+tn_status tn_relate_tray(const tn_marked *marked, const tn_classes *classes, uint32_t spec, tn_dfa **out,
+                         tn_error *error);
+
+/* QUANTITY, SUM and OCCURRENCES: stretches whose tally meets a condition function. A field (index within the schema)
+ * other than TN_NO_FIELD: each tray counts as much as its length in that field. */
+tn_status tn_relate_count(const tn_marked *marked, const tn_classes *classes, const tn_dfa *a, tn_tally tally,
+                          uint32_t condition, uint32_t field, tn_dfa **out, tn_error *error);
+
+#endif

@@ -1,0 +1,361 @@
+/* The best plans of a library: recursive enumeration over its automaton. */
+#include "runtime/plan/measure/best.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/library/library_data.h"
+
+#define NONE UINT32_MAX
+
+/* Completions of a state: its tray, then the child's completion of that rank. At the root the tray is a length. */
+typedef struct path {
+    int64_t value[TN_WEIGHED_MAX]; /* with the sign that makes less better */
+    tn_tray tray;
+    uint32_t rank;
+} path;
+
+/* A state with so many trays to come. */
+typedef struct place {
+    path *found; /* in order */
+    size_t found_count, found_room;
+    path *heap; /* candidates, the best first */
+    size_t heap_count, heap_room;
+    bool opened, pending; /* pending: the last found still has a successor to be looked for */
+    bool measured, possible;
+    int64_t least[TN_WEIGHED_MAX]; /* of its completions */
+} place;
+
+struct tn_best {
+    tn_weighed *weighed;
+    const tn_library *library;
+    int64_t sign[TN_WEIGHED_MAX];
+    tn_numbering numbers; /* left << 32 | state -> place */
+    place *places;
+    size_t place_room;
+    size_t *given; /* [max - min + 1]: plans of each length given so far */
+};
+
+tn_status tn_best_new(tn_weighed *weighed, const bool *most, tn_best **out, tn_error *error)
+{
+    tn_best *best = calloc(1, sizeof *best);
+    if (!best)
+        return tn_fail_memory(error);
+    best->weighed = weighed;
+    best->library = tn_weighed_library(weighed);
+    for (uint32_t k = 0; k < tn_weighed_count(weighed); k++)
+        best->sign[k] = most[k] ? -1 : 1;
+    *out = best;
+    return TN_OK;
+}
+
+void tn_best_free(tn_best *best)
+{
+    if (!best)
+        return;
+    for (uint32_t i = 0; i < best->numbers.count; i++) {
+        free(best->places[i].found);
+        free(best->places[i].heap);
+    }
+    free(best->places);
+    free(best->given);
+    tn_numbering_clear(&best->numbers);
+    free(best);
+}
+
+/* ---- order */
+
+static int compare_values(const int64_t *a, const int64_t *b)
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        if (a[k] != b[k])
+            return a[k] < b[k] ? -1 : 1;
+    return 0;
+}
+
+/* By value, then tray, then the child's order: that is the order of ranks. */
+static bool before(const path *a, const path *b)
+{
+    int values = compare_values(a->value, b->value);
+    if (values != 0)
+        return values < 0;
+    return a->tray != b->tray ? a->tray < b->tray : a->rank < b->rank;
+}
+
+static bool reserve(path **items, size_t *room, size_t count)
+{
+    if (count < *room)
+        return true;
+    size_t more = *room * 2 + 8;
+    path *grown = realloc(*items, more * sizeof *grown);
+    if (!grown)
+        return false;
+    *items = grown;
+    *room = more;
+    return true;
+}
+
+static bool push(place *p, path added)
+{
+    if (!reserve(&p->heap, &p->heap_room, p->heap_count))
+        return false;
+    size_t i = p->heap_count++;
+    for (; i > 0 && before(&added, &p->heap[(i - 1) / 2]); i = (i - 1) / 2)
+        p->heap[i] = p->heap[(i - 1) / 2];
+    p->heap[i] = added;
+    return true;
+}
+
+static path pop(place *p)
+{
+    path top = p->heap[0], last = p->heap[--p->heap_count];
+    size_t i = 0;
+    for (size_t child; (child = 2 * i + 1) < p->heap_count; i = child) {
+        if (child + 1 < p->heap_count && before(&p->heap[child + 1], &p->heap[child]))
+            child++;
+        if (!before(&p->heap[child], &last))
+            break;
+        p->heap[i] = p->heap[child];
+    }
+    if (p->heap_count > 0)
+        p->heap[i] = last;
+    return top;
+}
+
+/* ---- places */
+
+static tn_status place_of(tn_best *best, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+{
+    uint32_t before_count = best->numbers.count;
+    *index = tn_number(&best->numbers, (uint64_t)left << 32 | state);
+    if (*index == NONE)
+        return tn_fail_memory(error);
+    if (*index < before_count)
+        return TN_OK;
+    if (*index >= best->place_room) {
+        size_t room = best->place_room * 2 + 256;
+        place *places = realloc(best->places, room * sizeof *places);
+        if (!places)
+            return tn_fail_memory(error);
+        best->places = places;
+        best->place_room = room;
+    }
+    best->places[*index] = (place){0};
+    return TN_OK;
+}
+
+static void add_gain(const tn_best *best, int64_t *value, const int64_t *gain)
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        value[k] += best->sign[k] * gain[k];
+}
+
+static void set_rest(const tn_best *best, uint32_t state, int64_t *value)
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        value[k] = k < tn_weighed_count(best->weighed) ? best->sign[k] * tn_weighed_rest(best->weighed, state, k) : 0;
+}
+
+/* The least of all completions of a state. Recursion is as deep as plans are long. */
+static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+{
+    tn_status status = place_of(best, left, state, index, error);
+    if (status != TN_OK || best->places[*index].measured)
+        return status;
+    place found = {.measured = true};
+    if (left == 0) {
+        found.possible = tn_weighed_alive(best->weighed, 0, state);
+        set_rest(best, state, found.least);
+        best->places[*index] = found;
+        return TN_OK;
+    }
+    const tn_weighed_edge *edges;
+    size_t count;
+    status = tn_weighed_edges(best->weighed, state, &edges, &count, error);
+    for (size_t e = 0; status == TN_OK && e < count; e++) {
+        uint32_t child;
+        tn_weighed_edge edge = edges[e];
+        if (!tn_weighed_alive(best->weighed, left - 1, edge.target))
+            continue;
+        status = measure(best, left - 1, edge.target, &child, error);
+        if (status != TN_OK || !best->places[child].possible)
+            continue;
+        int64_t value[TN_WEIGHED_MAX];
+        memcpy(value, best->places[child].least, sizeof value);
+        add_gain(best, value, edge.gain);
+        if (!found.possible || compare_values(value, found.least) < 0)
+            memcpy(found.least, value, sizeof value);
+        found.possible = true;
+    }
+    best->places[*index] = found;
+    return status;
+}
+
+static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
+                        tn_error *error);
+
+/* All trays of a state as candidates, each with its best completion. */
+static tn_status open_place(tn_best *best, uint32_t left, uint32_t state, uint32_t index, tn_error *error)
+{
+    uint32_t letters = tn_weighed_letters(best->weighed), trays = best->library->schema->tray_count;
+    path *by_letter = calloc((size_t)letters + 1, sizeof *by_letter);
+    bool *possible = calloc((size_t)letters + 1, sizeof *possible);
+    tn_status status = by_letter && possible ? TN_OK : tn_fail_memory(error);
+    for (uint32_t l = 0; status == TN_OK && l < letters; l++) {
+        uint32_t target, child;
+        int64_t gain[TN_WEIGHED_MAX];
+        status = tn_weighed_step(best->weighed, state, l, &target, gain, error);
+        if (status != TN_OK || target == NONE || !tn_weighed_alive(best->weighed, left - 1, target))
+            continue;
+        status = measure(best, left - 1, target, &child, error);
+        possible[l] = status == TN_OK && best->places[child].possible;
+        memcpy(by_letter[l].value, best->places[child].least, sizeof by_letter[l].value);
+        add_gain(best, by_letter[l].value, gain);
+    }
+    best->places[index].opened = true;
+    for (tn_tray t = 0; status == TN_OK && t < trays; t++) {
+        uint32_t l = tn_weighed_letter(best->weighed, t);
+        path added = by_letter[l];
+        added.tray = t;
+        if (possible[l] && !push(&best->places[index], added))
+            status = tn_fail_memory(error);
+    }
+    free(by_letter);
+    free(possible);
+    return status;
+}
+
+/* Puts the successor of the last path found among the candidates: the same tray, the child's next completion. */
+static tn_status succeed(tn_best *best, uint32_t left, uint32_t state, uint32_t index, tn_error *error)
+{
+    place *p = &best->places[index];
+    path last = p->found[p->found_count - 1];
+    uint32_t target, child;
+    int64_t gain[TN_WEIGHED_MAX];
+    bool there;
+    p->pending = false;
+    tn_status status =
+        tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, last.tray), &target, gain, error);
+    if (status == TN_OK)
+        status = place_of(best, left - 1, target, &child, error);
+    if (status == TN_OK)
+        status = ensure(best, left - 1, target, child, (size_t)last.rank + 1, &there, error);
+    if (status != TN_OK || !there)
+        return status;
+    path added = best->places[child].found[last.rank + 1];
+    add_gain(best, added.value, gain);
+    added.tray = last.tray;
+    added.rank = last.rank + 1;
+    return push(&best->places[index], added) ? TN_OK : tn_fail_memory(error);
+}
+
+/* Finds the completions of a state up to the given rank; *there: is there one? */
+static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
+                        tn_error *error)
+{
+    tn_status status = TN_OK;
+    if (left == 0 && best->places[index].found_count == 0) {
+        path end = {0};
+        set_rest(best, state, end.value);
+        place *p = &best->places[index];
+        if (!reserve(&p->found, &p->found_room, 0))
+            return tn_fail_memory(error);
+        p->found[p->found_count++] = end;
+        p->opened = true;
+    }
+    while (status == TN_OK && best->places[index].found_count <= rank) {
+        if (!best->places[index].opened)
+            status = open_place(best, left, state, index, error);
+        if (status == TN_OK && best->places[index].pending)
+            status = succeed(best, left, state, index, error);
+        place *p = &best->places[index];
+        if (status != TN_OK || p->heap_count == 0)
+            break;
+        if (!reserve(&p->found, &p->found_room, p->found_count))
+            return tn_fail_memory(error);
+        p->found[p->found_count] = pop(p);
+        p->found_count++;
+        p->pending = true;
+    }
+    *there = best->places[index].found_count > rank;
+    return status;
+}
+
+/* ---- the root: every length's first state */
+
+typedef struct cursor {
+    uint32_t left;
+    size_t rank;
+} cursor;
+
+/* The best not given yet over all lengths: each length's list is walked on its own. */
+static tn_status next_length(tn_best *best, const size_t *given, cursor *next, bool *found, tn_error *error)
+{
+    path least = {0};
+    *found = false;
+    for (uint32_t n = best->library->min; n <= best->library->max; n++) {
+        uint32_t index;
+        bool there = false;
+        if (!tn_weighed_alive(best->weighed, n, 0))
+            continue;
+        tn_status status = measure(best, n, 0, &index, error);
+        if (status == TN_OK && best->places[index].possible)
+            status = ensure(best, n, 0, index, given[n - best->library->min], &there, error);
+        if (status != TN_OK)
+            return status;
+        if (!there)
+            continue;
+        const path *p = &best->places[index].found[given[n - best->library->min]];
+        if (*found && compare_values(p->value, least.value) >= 0)
+            continue;
+        least = *p;
+        *found = true;
+        *next = (cursor){n, given[n - best->library->min]};
+    }
+    return TN_OK;
+}
+
+static tn_status follow(tn_best *best, cursor at, tn_tray *trays, tn_error *error)
+{
+    uint32_t state = 0, length = at.left;
+    for (uint32_t i = 0; i < length; i++) {
+        uint32_t index, target;
+        int64_t gain[TN_WEIGHED_MAX];
+        tn_status status = place_of(best, length - i, state, &index, error);
+        bool there;
+        if (status == TN_OK)
+            status = ensure(best, length - i, state, index, at.rank, &there, error);
+        if (status != TN_OK)
+            return status;
+        path p = best->places[index].found[at.rank];
+        trays[i] = p.tray;
+        at.rank = p.rank;
+        status = tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, p.tray), &target, gain, error);
+        if (status != TN_OK)
+            return status;
+        state = target;
+    }
+    return TN_OK;
+}
+
+tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t *values, bool *found, tn_error *error)
+{
+    *found = false;
+    if (best->library->min > best->library->max)
+        return TN_OK;
+    if (!best->given &&
+        !(best->given = calloc((size_t)best->library->max - best->library->min + 1, sizeof *best->given)))
+        return tn_fail_memory(error);
+    cursor next = {0};
+    tn_status status = next_length(best, best->given, &next, found, error);
+    if (status != TN_OK || !*found)
+        return status;
+    best->given[next.left - best->library->min]++;
+    uint32_t index;
+    status = place_of(best, next.left, 0, &index, error);
+    for (uint32_t k = 0; status == TN_OK && k < tn_weighed_count(best->weighed); k++)
+        values[k] = best->sign[k] * best->places[index].found[next.rank].value[k] + tn_weighed_start(best->weighed, k);
+    *length = next.left;
+    return status == TN_OK ? follow(best, next, trays, error) : status;
+}

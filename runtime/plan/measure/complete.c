@@ -1,0 +1,395 @@
+/* Open plans: forward and backward counts over the library's automaton joined with a machine that places the written
+ * trays.
+ *
+ * The machine guesses where a run of written trays after a gap starts, and remembers the runs that started earlier:
+ * none of them may come to its end, so that the guess is the leftmost. Each plan is then read in one way only.
+ */
+#include "runtime/plan/measure/complete.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/library/library_data.h"
+#include "runtime/plan/match/vm.h"
+
+/* A run of written trays without a gap between them. */
+typedef struct segment {
+    uint32_t first, count;
+    bool floats; /* after a gap, and not bound to the plan's end */
+} segment;
+
+/* Where the machine is: so many trays placed; in the gap before the next run; runs that started earlier, bit k: k + 1
+ * of their trays have been met. */
+typedef struct machine {
+    uint32_t placed;
+    bool gap;
+    uint64_t earlier;
+} machine;
+
+/* One way on: the machine after it, and whether the tray read is a written one. */
+typedef struct way {
+    machine to;
+    bool places;
+} way;
+
+typedef struct completer {
+    const tn_library *library;
+    uint32_t items;
+    segment segments[TN_PATTERN_MAX + 1];
+    uint32_t segment_of[TN_PATTERN_MAX + 1];
+    uint32_t segment_count;
+    bool gap_first, gap_last;
+    uint64_t *fits;      /* [trays]: bit i: the tray fits written tray i */
+    uint32_t *letter_of; /* [trays] */
+    uint32_t letters;
+    tn_tray *first;     /* [letters] */
+    uint64_t *size;     /* [letters] */
+    tn_interner states; /* {library's state, placed, gap, earlier in two words} */
+    uint32_t **level;   /* [max + 1]: the states at each place, ascending */
+    uint32_t *level_size;
+    mpz_t **forward, **backward; /* [max + 1][level_size] */
+    mpz_t *placed;               /* [items][letters] */
+} completer;
+
+/* ---- the pattern */
+
+static tn_status read_pattern(completer *c, const uint32_t *functions, size_t count, tn_error *error)
+{
+    bool gap = false;
+    for (size_t i = 0; i < count; i++) {
+        if (functions[i] == TN_NO_RECORD) {
+            gap = true;
+            c->gap_first |= c->items == 0;
+            continue;
+        }
+        if (c->items == TN_PATTERN_MAX) {
+            tn_fail(error, TN_LIMIT, E_TOO_MANY, "an open plan has more than %u written trays", TN_PATTERN_MAX);
+            tn_error_help(error, "write `...` for some of them");
+            return TN_LIMIT;
+        }
+        if (c->items == 0 || gap)
+            c->segments[c->segment_count++] = (segment){.first = c->items, .floats = gap};
+        c->segments[c->segment_count - 1].count++;
+        c->segment_of[c->items++] = c->segment_count - 1;
+        gap = false;
+    }
+    c->gap_last = gap;
+    if (!gap && c->segment_count > 0) /* bound to the end: there is one place for it */
+        c->segments[c->segment_count - 1].floats = false;
+    return TN_OK;
+}
+
+static bool gap_before(const completer *c, uint32_t item)
+{
+    uint32_t s = c->segment_of[item];
+    return c->segments[s].first == item && (s > 0 || c->gap_first);
+}
+
+static tn_status find_fits(completer *c, const uint32_t *functions, size_t count, tn_error *error)
+{
+    const tn_schema *schema = c->library->schema;
+    tn_plan_vm *vm = NULL;
+    c->fits = calloc((size_t)schema->tray_count + 1, sizeof *c->fits);
+    tn_status status = c->fits ? tn_plan_vm_new(schema, 1, &vm, error) : tn_fail_memory(error);
+    for (tn_tray t = 0; status == TN_OK && t < schema->tray_count; t++) {
+        uint32_t item = 0;
+        status = tn_plan_vm_plan(vm, &t, 1, error);
+        for (size_t i = 0; status == TN_OK && i < count; i++) {
+            bool in;
+            if (functions[i] == TN_NO_RECORD)
+                continue;
+            status = tn_plan_vm_relation(vm, functions[i], 0, 1, &in, error);
+            c->fits[t] |= status == TN_OK && in ? UINT64_C(1) << item : 0;
+            item++;
+        }
+    }
+    tn_plan_vm_free(vm);
+    return status;
+}
+
+static tn_status make_letters(completer *c, tn_error *error)
+{
+    uint32_t trays = c->library->schema->tray_count;
+    tn_numbering fits = {0}, pairs = {0};
+    c->letter_of = calloc((size_t)trays + 1, sizeof *c->letter_of);
+    bool ok = c->letter_of != NULL;
+    for (tn_tray t = 0; ok && t < trays; t++) {
+        uint32_t fit = tn_number(&fits, c->fits[t]);
+        c->letter_of[t] = fit == UINT32_MAX ? fit : tn_number(&pairs, (uint64_t)c->library->tray_column[t] << 32 | fit);
+        ok = c->letter_of[t] != UINT32_MAX;
+    }
+    c->letters = pairs.count;
+    tn_numbering_clear(&fits);
+    tn_numbering_clear(&pairs);
+    c->first = ok ? calloc((size_t)c->letters + 1, sizeof *c->first) : NULL;
+    c->size = ok ? calloc((size_t)c->letters + 1, sizeof *c->size) : NULL;
+    if (!c->first || !c->size)
+        return tn_fail_memory(error);
+    for (tn_tray t = trays; t-- > 0;) {
+        c->first[c->letter_of[t]] = t;
+        c->size[c->letter_of[t]]++;
+    }
+    return TN_OK;
+}
+
+/* ---- the machine */
+
+/* The runs that started earlier, after a tray; false where one comes to its end. */
+static bool advance(const segment *s, uint64_t fits, uint64_t earlier, uint64_t *after)
+{
+    *after = 0;
+    for (uint32_t k = 0; k < s->count; k++) {
+        if (!(earlier >> k & 1) || !(fits >> (s->first + k + 1) & 1))
+            continue;
+        if (k + 2 == s->count)
+            return false;
+        *after |= UINT64_C(1) << (k + 1);
+    }
+    return true;
+}
+
+static machine next_item(const completer *c, uint32_t placed, uint64_t earlier)
+{
+    bool last = placed == c->items, ends = last || c->segment_of[placed] != c->segment_of[placed - 1];
+    return (machine){placed, last ? c->gap_last : gap_before(c, placed), ends ? 0 : earlier};
+}
+
+/* The ways on with a tray that fits so: at most two. */
+static size_t ways_on(const completer *c, machine m, uint64_t fits, way ways[2])
+{
+    size_t count = 0;
+    if (m.placed == c->items) {
+        ways[0] = (way){m, false};
+        return m.gap;
+    }
+    const segment *s = &c->segments[c->segment_of[m.placed]];
+    bool meets = fits >> m.placed & 1, starts = s->first == m.placed;
+    uint64_t after = 0;
+    if (s->floats && !advance(s, fits, m.earlier, &after))
+        return 0;
+    if (meets)
+        ways[count++] = (way){next_item(c, m.placed + 1, after), true};
+    if (!m.gap || !starts || (s->floats && meets && s->count == 1))
+        return count;
+    if (s->floats && meets)
+        after |= 1;
+    ways[count++] = (way){{m.placed, true, after}, false};
+    return count;
+}
+
+/* ---- levels */
+
+static uint32_t intern(completer *c, uint32_t state, machine m)
+{
+    uint32_t key[] = {state, m.placed, m.gap, (uint32_t)m.earlier, (uint32_t)(m.earlier >> 32)};
+    return tn_intern(&c->states, key, sizeof key / sizeof *key);
+}
+
+static machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
+{
+    size_t size;
+    const uint32_t *key = tn_interned(&c->states, joint, &size);
+    *state = key[0];
+    return (machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
+}
+
+static bool leads_on(const tn_library *library, uint32_t n, uint32_t state)
+{
+    uint32_t low = n < library->min ? library->min - n : 0;
+    for (uint32_t left = low; left <= library->max - n; left++)
+        if (tn_library_alive(library, left, state))
+            return true;
+    return false;
+}
+
+static bool accepts(const completer *c, uint32_t n, uint32_t joint)
+{
+    uint32_t state;
+    machine m = machine_of(c, joint, &state);
+    return n >= c->library->min && m.placed == c->items && tn_library_alive(c->library, 0, state);
+}
+
+static int compare_numbers(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+/* Calls `take` for every step from level n; false where that fails. */
+typedef bool take_step(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                       void *context);
+
+static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
+{
+    for (uint32_t i = 0; i < c->level_size[n]; i++) {
+        uint32_t state;
+        machine m = machine_of(c, c->level[n][i], &state);
+        for (uint32_t l = 0; l < c->letters; l++) {
+            way ways[2];
+            uint32_t to = tn_library_step(c->library, state, c->first[l]);
+            size_t count = leads_on(c->library, n + 1, to) ? ways_on(c, m, c->fits[c->first[l]], ways) : 0;
+            for (size_t w = 0; w < count; w++) {
+                uint32_t joint = intern(c, to, ways[w].to);
+                if (joint == UINT32_MAX || !take(c, n, i, joint, l, m, ways[w].places, context))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool collect(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                    void *context)
+{
+    (void)c, (void)n, (void)from, (void)letter, (void)m, (void)places;
+    return tn_number(context, to) != UINT32_MAX;
+}
+
+static bool make_level(completer *c, uint32_t n, const uint64_t *states, uint32_t count)
+{
+    c->level[n] = malloc(((size_t)count + 1) * sizeof **c->level);
+    c->forward[n] = tn_integers_new(count);
+    c->backward[n] = tn_integers_new(count);
+    if (!c->level[n] || !c->forward[n] || !c->backward[n])
+        return false;
+    c->level_size[n] = count;
+    for (uint32_t i = 0; i < count; i++)
+        c->level[n][i] = (uint32_t)states[i];
+    qsort(c->level[n], count, sizeof **c->level, compare_numbers);
+    return true;
+}
+
+static size_t index_of(const completer *c, uint32_t n, uint32_t joint)
+{
+    const uint32_t *found = bsearch(&joint, c->level[n], c->level_size[n], sizeof joint, compare_numbers);
+    return (size_t)(found - c->level[n]);
+}
+
+static bool add_forward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                        void *context)
+{
+    (void)m, (void)places, (void)context;
+    mpz_addmul_ui(c->forward[n + 1][index_of(c, n + 1, to)], c->forward[n][from], c->size[letter]);
+    return true;
+}
+
+static bool add_backward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                         void *context)
+{
+    (void)m, (void)places, (void)context;
+    mpz_addmul_ui(c->backward[n][from], c->backward[n + 1][index_of(c, n + 1, to)], c->size[letter]);
+    return true;
+}
+
+/* Each tray of the letter, as the written tray that is placed: the plans before times those after. */
+static bool add_placed(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
+                       void *context)
+{
+    (void)context;
+    if (places)
+        mpz_addmul(c->placed[(size_t)m.placed * c->letters + letter], c->forward[n][from],
+                   c->backward[n + 1][index_of(c, n + 1, to)]);
+    return true;
+}
+
+static tn_status walk(completer *c, tn_error *error)
+{
+    uint32_t max = c->library->max;
+    machine start = {0, c->items == 0 ? c->gap_last : c->gap_first, 0};
+    uint64_t first = intern(c, 0, start);
+    bool ok = first != UINT32_MAX && make_level(c, 0, &first, 1);
+    if (ok)
+        mpz_set_ui(c->forward[0][0], 1);
+    for (uint32_t n = 0; ok && n < max; n++) {
+        tn_numbering next = {0};
+        ok = each_step(c, n, collect, &next) && make_level(c, n + 1, next.keys, next.count) &&
+             each_step(c, n, add_forward, NULL);
+        tn_numbering_clear(&next);
+    }
+    for (uint32_t n = max + 1; ok && n-- > 0;) {
+        for (uint32_t i = 0; i < c->level_size[n]; i++)
+            mpz_set_ui(c->backward[n][i], accepts(c, n, c->level[n][i]));
+        ok = n == max || (each_step(c, n, add_backward, NULL) && each_step(c, n, add_placed, NULL));
+    }
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- the answer */
+
+static void add_values(const completer *c, tn_completions *out)
+{
+    const tn_schema *schema = c->library->schema;
+    for (tn_tray t = 0; t < schema->tray_count; t++)
+        for (uint32_t i = 0; i < c->items; i++)
+            for (uint32_t f = 0; f < schema->field_count; f++) {
+                mpz_t *count =
+                    &out->counts[(size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f)];
+                mpz_add(*count, *count, c->placed[(size_t)i * c->letters + c->letter_of[t]]);
+            }
+}
+
+static void clear(completer *c)
+{
+    for (uint32_t n = 0; c->level && n <= c->library->max; n++) {
+        free(c->level[n]);
+        tn_integers_free(c->forward[n], c->level_size[n]);
+        tn_integers_free(c->backward[n], c->level_size[n]);
+    }
+    free(c->level);
+    free(c->level_size);
+    free(c->forward);
+    free(c->backward);
+    tn_integers_free(c->placed, (size_t)c->items * c->letters);
+    tn_interner_clear(&c->states);
+    free(c->fits);
+    free(c->letter_of);
+    free(c->first);
+    free(c->size);
+}
+
+static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
+{
+    size_t levels = (size_t)c->library->max + 1;
+    c->level_size = calloc(levels, sizeof *c->level_size);
+    c->forward = calloc(levels, sizeof *c->forward);
+    c->backward = calloc(levels, sizeof *c->backward);
+    c->placed = tn_integers_new((size_t)c->items * c->letters);
+    c->level = c->level_size && c->forward && c->backward && c->placed ? calloc(levels, sizeof *c->level) : NULL;
+    out->counts = tn_integers_new((size_t)c->items * c->library->schema->value_count);
+    if (!c->level || !out->counts)
+        return tn_fail_memory(error);
+    out->trays = c->items;
+    out->values = c->library->schema->value_count;
+    return TN_OK;
+}
+
+tn_status tn_complete(tn_completions *out, const tn_library *library, const uint32_t *functions, size_t count,
+                      tn_error *error)
+{
+    completer c = {.library = library};
+    *out = (tn_completions){0};
+    mpz_init(out->plans);
+    tn_status status = read_pattern(&c, functions, count, error);
+    if (status == TN_OK)
+        status = find_fits(&c, functions, count, error);
+    if (status == TN_OK)
+        status = make_letters(&c, error);
+    if (status == TN_OK)
+        status = make_room(&c, out, error);
+    if (status == TN_OK && library->min <= library->max)
+        status = walk(&c, error);
+    if (status == TN_OK && library->min <= library->max) {
+        mpz_set(out->plans, c.backward[0][0]);
+        add_values(&c, out);
+    }
+    clear(&c);
+    return status;
+}
+
+void tn_completions_clear(tn_completions *completions)
+{
+    tn_integers_free(completions->counts, (size_t)completions->trays * completions->values);
+    mpz_clear(completions->plans);
+    *completions = (tn_completions){0};
+}

@@ -1,0 +1,415 @@
+/* Distributions: level by level, for each state how many plans lead there with which value. */
+#include "runtime/plan/measure/distribution.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/library/library_data.h"
+
+#define DENSE_MAX (INT64_C(1) << 22) /* values side by side: beyond, they are sorted */
+
+/* The values with which plans reach a state, ascending, each with the number of those plans. */
+typedef struct spread {
+    uint32_t state;
+    size_t count;
+    int64_t *value;
+    mp_limb_t *plans; /* [count][limbs] */
+} spread;
+
+typedef struct level {
+    spread *items;
+    size_t count;
+} level;
+
+/* So many trays from a state of one level to a state of the next. */
+typedef struct arc {
+    uint32_t target, source;
+    uint64_t trays;
+    int64_t gain;
+} arc;
+
+typedef struct pair {
+    int64_t value;
+    size_t index; /* of its number in `numbers` */
+} pair;
+
+typedef struct spreader {
+    tn_weighed *weighed;
+    const tn_library *library;
+    size_t limbs; /* of a number of plans */
+    arc *arcs;
+    size_t arc_count, arc_capacity;
+    mp_limb_t *dense; /* [DENSE_MAX][limbs], grows */
+    size_t dense_room;
+    pair *pairs;
+    mp_limb_t *numbers;
+    size_t pair_room;
+    uint64_t cells;
+} spreader;
+
+static void level_clear(level *l)
+{
+    for (size_t i = 0; i < l->count; i++) {
+        free(l->items[i].value);
+        free(l->items[i].plans);
+    }
+    free(l->items);
+    *l = (level){0};
+}
+
+static tn_status too_many(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES,
+            "the measure has too many different values: more than %llu pairs of state and value",
+            (unsigned long long)TN_DISTRIBUTION_CELLS);
+    tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units; or give "
+                         "fewer trays with --trays");
+    return TN_LIMIT;
+}
+
+/* ---- one level */
+
+static bool add_arc(spreader *s, arc a)
+{
+    if (s->arc_count == s->arc_capacity) {
+        size_t capacity = s->arc_capacity * 2 + 1024;
+        arc *arcs = realloc(s->arcs, capacity * sizeof *arcs);
+        if (!arcs)
+            return false;
+        s->arcs = arcs;
+        s->arc_capacity = capacity;
+    }
+    s->arcs[s->arc_count++] = a;
+    return true;
+}
+
+static int compare_arcs(const void *left, const void *right)
+{
+    const arc *a = left, *b = right;
+    if (a->target != b->target)
+        return a->target < b->target ? -1 : 1;
+    return a->source != b->source ? (a->source < b->source ? -1 : 1) : (a->gain > b->gain) - (a->gain < b->gain);
+}
+
+/* Does a kept plan of the library's lengths follow, after n trays? */
+static bool leads_on(const spreader *s, uint32_t n, uint32_t state)
+{
+    uint32_t low = n < s->library->min ? s->library->min - n : 0;
+    for (uint32_t left = low; left <= s->library->max - n; left++)
+        if (tn_weighed_alive(s->weighed, left, state))
+            return true;
+    return false;
+}
+
+static tn_status find_arcs(spreader *s, const level *from, uint32_t n, tn_error *error)
+{
+    s->arc_count = 0;
+    for (size_t i = 0; i < from->count; i++) {
+        const tn_weighed_edge *edges;
+        size_t count;
+        tn_status status = tn_weighed_edges(s->weighed, from->items[i].state, &edges, &count, error);
+        if (status != TN_OK)
+            return status;
+        for (size_t e = 0; e < count; e++)
+            if (leads_on(s, n + 1, edges[e].target) &&
+                !add_arc(s, (arc){edges[e].target, (uint32_t)i, edges[e].trays, edges[e].gain[0]}))
+                return tn_fail_memory(error);
+    }
+    qsort(s->arcs, s->arc_count, sizeof *s->arcs, compare_arcs);
+    return TN_OK;
+}
+
+static void add_plans(mp_limb_t *to, const mp_limb_t *plans, uint64_t times, size_t limbs)
+{
+    mpn_addmul_1(to, plans, (mp_size_t)limbs,
+                 times); /* what a prefix leads to is at most the library: no carry is lost */
+}
+
+static bool spread_new(spread *made, uint32_t state, size_t count, size_t limbs)
+{
+    *made = (spread){.state = state,
+                     .value = malloc((count + 1) * sizeof *made->value),
+                     .plans = malloc((count * limbs + 1) * sizeof *made->plans)};
+    return made->value && made->plans;
+}
+
+static void spread_add(spread *made, int64_t value, const mp_limb_t *plans, size_t limbs)
+{
+    made->value[made->count] = value;
+    memcpy(made->plans + made->count++ * limbs, plans, limbs * sizeof *plans);
+}
+
+static bool gather_dense(spreader *s, const level *from, size_t first, size_t last, int64_t low, size_t range,
+                         spread *made)
+{
+    size_t limbs = s->limbs;
+    if (s->dense_room < range) {
+        free(s->dense);
+        s->dense_room = range * 2;
+        s->dense = calloc(s->dense_room * limbs, sizeof *s->dense);
+        if (!s->dense) {
+            s->dense_room = 0;
+            return false;
+        }
+    }
+    for (size_t a = first; a < last; a++) {
+        const spread *source = &from->items[s->arcs[a].source];
+        for (size_t i = 0; i < source->count; i++)
+            add_plans(s->dense + (size_t)(source->value[i] + s->arcs[a].gain - low) * limbs, source->plans + i * limbs,
+                      s->arcs[a].trays, limbs);
+    }
+    size_t count = 0;
+    for (size_t v = 0; v < range; v++)
+        count += !mpn_zero_p(s->dense + v * limbs, (mp_size_t)limbs);
+    bool ok = spread_new(made, s->arcs[first].target, count, limbs);
+    for (size_t v = 0; ok && v < range; v++)
+        if (!mpn_zero_p(s->dense + v * limbs, (mp_size_t)limbs))
+            spread_add(made, low + (int64_t)v, s->dense + v * limbs, limbs);
+    memset(s->dense, 0, range * limbs * sizeof *s->dense);
+    return ok;
+}
+
+static int compare_pairs(const void *left, const void *right)
+{
+    const pair *a = left, *b = right;
+    return (a->value > b->value) - (a->value < b->value);
+}
+
+static bool gather_sorted(spreader *s, const level *from, size_t first, size_t last, size_t cells, spread *made)
+{
+    size_t limbs = s->limbs, count = 0;
+    if (s->pair_room < cells) {
+        free(s->pairs);
+        free(s->numbers);
+        s->pair_room = cells;
+        s->pairs = malloc(cells * sizeof *s->pairs);
+        s->numbers = malloc(cells * limbs * sizeof *s->numbers);
+        if (!s->pairs || !s->numbers) {
+            s->pair_room = 0;
+            return false;
+        }
+    }
+    for (size_t a = first; a < last; a++) {
+        const spread *source = &from->items[s->arcs[a].source];
+        for (size_t i = 0; i < source->count; i++) {
+            mpn_mul_1(s->numbers + count * limbs, source->plans + i * limbs, (mp_size_t)limbs, s->arcs[a].trays);
+            s->pairs[count] = (pair){source->value[i] + s->arcs[a].gain, count};
+            count++;
+        }
+    }
+    qsort(s->pairs, count, sizeof *s->pairs, compare_pairs);
+    bool ok = spread_new(made, s->arcs[first].target, count, limbs);
+    for (size_t i = 0; ok && i < count; i++) {
+        const mp_limb_t *plans = s->numbers + s->pairs[i].index * limbs;
+        if (made->count > 0 && made->value[made->count - 1] == s->pairs[i].value)
+            mpn_add_n(made->plans + (made->count - 1) * limbs, made->plans + (made->count - 1) * limbs, plans,
+                      (mp_size_t)limbs);
+        else
+            spread_add(made, s->pairs[i].value, plans, limbs);
+    }
+    return ok;
+}
+
+/* The state that the arcs from `first` on lead to: its spread; *next: the arc after them. */
+static tn_status gather(spreader *s, const level *from, size_t first, size_t *next, spread *made, tn_error *error)
+{
+    int64_t low = INT64_MAX, high = INT64_MIN;
+    uint64_t cells = 0;
+    size_t last = first;
+    for (; last < s->arc_count && s->arcs[last].target == s->arcs[first].target; last++) {
+        const spread *source = &from->items[s->arcs[last].source];
+        int64_t a = source->value[0] + s->arcs[last].gain, b = source->value[source->count - 1] + s->arcs[last].gain;
+        low = a < low ? a : low;
+        high = b > high ? b : high;
+        cells += source->count;
+    }
+    *next = last;
+    if (cells > TN_DISTRIBUTION_CELLS)
+        return too_many(error);
+    bool dense = high - low < DENSE_MAX && (uint64_t)(high - low) / 64 <= cells;
+    bool ok = dense ? gather_dense(s, from, first, last, low, (size_t)(high - low) + 1, made)
+                    : gather_sorted(s, from, first, last, (size_t)cells, made);
+    s->cells += made->count;
+    if (!ok)
+        return tn_fail_memory(error);
+    return s->cells <= TN_DISTRIBUTION_CELLS ? TN_OK : too_many(error);
+}
+
+static tn_status next_level(spreader *s, const level *from, uint32_t n, level *to, tn_error *error)
+{
+    *to = (level){0};
+    tn_status status = find_arcs(s, from, n, error);
+    size_t targets = 0;
+    for (size_t a = 0; a < s->arc_count; a++)
+        targets += a == 0 || s->arcs[a].target != s->arcs[a - 1].target;
+    if (status == TN_OK && !(to->items = calloc(targets + 1, sizeof *to->items)))
+        status = tn_fail_memory(error);
+    s->cells = 0;
+    for (size_t a = 0; status == TN_OK && a < s->arc_count;) {
+        status = gather(s, from, a, &a, &to->items[to->count], error);
+        to->count++;
+    }
+    return status;
+}
+
+/* ---- all of them */
+
+/* The plans that end at a level: spreads of an imagined last state. */
+static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended, tn_error *error)
+{
+    if (n < s->library->min)
+        return TN_OK;
+    for (size_t i = 0; i < l->count; i++) {
+        const spread *from = &l->items[i];
+        if (!tn_weighed_alive(s->weighed, 0, from->state))
+            continue;
+        spread *items = realloc(ended->items, (ended->count + 1) * sizeof *items);
+        if (!items)
+            return tn_fail_memory(error);
+        ended->items = items;
+        spread *made = &items[ended->count++];
+        if (!spread_new(made, 0, from->count, s->limbs))
+            return tn_fail_memory(error);
+        int64_t rest = tn_weighed_rest(s->weighed, from->state, 0);
+        for (size_t v = 0; v < from->count; v++)
+            spread_add(made, from->value[v] + rest, from->plans + v * s->limbs, s->limbs);
+    }
+    return TN_OK;
+}
+
+static tn_status finish(spreader *s, const level *ended, tn_distribution *d, tn_error *error)
+{
+    s->arc_count = 0;
+    for (size_t i = 0; i < ended->count; i++)
+        if (!add_arc(s, (arc){0, (uint32_t)i, 1, 0}))
+            return tn_fail_memory(error);
+    if (ended->count == 0)
+        return TN_OK;
+    spread all = {0};
+    size_t next;
+    tn_status status = gather(s, ended, 0, &next, &all, error);
+    if (status == TN_OK) {
+        d->value = all.value;
+        all.value = NULL;
+        d->plans = tn_integers_new(all.count);
+        d->count = d->plans ? all.count : 0;
+        status = d->plans ? TN_OK : tn_fail_memory(error);
+    }
+    for (size_t i = 0; i < d->count; i++) {
+        mpz_import(d->plans[i], s->limbs, -1, sizeof(mp_limb_t), 0, 0, all.plans + i * s->limbs);
+        mpz_add(d->all, d->all, d->plans[i]);
+    }
+    free(all.value);
+    free(all.plans);
+    return status;
+}
+
+static tn_status walk(spreader *s, level *ended, tn_error *error)
+{
+    level here = {.items = calloc(1, sizeof *here.items), .count = 1};
+    mp_limb_t *one = calloc(s->limbs + 1, sizeof *one);
+    tn_status status = here.items && one && spread_new(here.items, 0, 1, s->limbs) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK) {
+        one[0] = 1;
+        spread_add(here.items, tn_weighed_start(s->weighed, 0), one, s->limbs);
+    } else {
+        here.count = 0;
+    }
+    for (uint32_t n = 0; status == TN_OK && n <= s->library->max; n++) {
+        status = add_ended(s, &here, n, ended, error);
+        level there = {0};
+        if (status == TN_OK && n < s->library->max)
+            status = next_level(s, &here, n, &there, error);
+        level_clear(&here);
+        here = there;
+    }
+    level_clear(&here);
+    free(one);
+    return status;
+}
+
+void tn_distribution_init(tn_distribution *d)
+{
+    *d = (tn_distribution){0};
+    mpz_init(d->all);
+    mpq_init(d->unit);
+}
+
+tn_status tn_distribution_make(tn_distribution *d, tn_weighed *weighed, tn_error *error)
+{
+    mpq_set(d->unit, tn_weighed_unit(weighed, 0));
+    const tn_library *library = tn_weighed_library(weighed);
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, TN_ALL_LENGTHS, kept);
+    spreader s = {.weighed = weighed, .library = library, .limbs = mpz_size(kept) ? mpz_size(kept) : 1};
+    level ended = {0};
+    tn_status status = mpz_sgn(kept) ? walk(&s, &ended, error) : TN_OK;
+    if (status == TN_OK)
+        status = finish(&s, &ended, d, error);
+    level_clear(&ended);
+    mpz_clear(kept);
+    free(s.arcs);
+    free(s.dense);
+    free(s.pairs);
+    free(s.numbers);
+    return status;
+}
+
+void tn_distribution_clear(tn_distribution *d)
+{
+    tn_integers_free(d->plans, d->count);
+    free(d->value);
+    mpz_clear(d->all);
+    mpq_clear(d->unit);
+    *d = (tn_distribution){0};
+}
+
+void tn_distribution_value(const tn_distribution *d, size_t i, mpq_t value)
+{
+    mpz_set_si(mpq_numref(value), d->value[i]);
+    mpz_set_ui(mpq_denref(value), 1);
+    mpq_mul(value, value, d->unit);
+}
+
+void tn_distribution_moments(const tn_distribution *d, mpq_t mean, mpq_t variance)
+{
+    mpz_t first, second, term;
+    mpz_inits(first, second, term, NULL);
+    for (size_t i = 0; i < d->count; i++) {
+        mpz_mul_si(term, d->plans[i], d->value[i]);
+        mpz_add(first, first, term);
+        mpz_mul_si(term, term, d->value[i]);
+        mpz_add(second, second, term);
+    }
+    mpq_set_num(mean, first);
+    mpq_set_den(mean, d->all);
+    mpq_canonicalize(mean);
+    mpq_set_num(variance, second);
+    mpq_set_den(variance, d->all);
+    mpq_canonicalize(variance);
+    mpq_t square;
+    mpq_init(square);
+    mpq_mul(square, mean, mean);
+    mpq_sub(variance, variance, square);
+    mpq_mul(mean, mean, d->unit);
+    mpq_mul(variance, variance, d->unit);
+    mpq_mul(variance, variance, d->unit);
+    mpq_clear(square);
+    mpz_clears(first, second, term, NULL);
+}
+
+size_t tn_distribution_quartile(const tn_distribution *d, unsigned quarter)
+{
+    mpz_t below, wanted;
+    mpz_inits(below, wanted, NULL);
+    mpz_mul_ui(wanted, d->all, quarter);
+    size_t i = 0;
+    for (; i < d->count; i++) {
+        mpz_addmul_ui(below, d->plans[i], 4);
+        if (mpz_cmp(below, wanted) >= 0)
+            break;
+    }
+    mpz_clears(below, wanted, NULL);
+    return i;
+}

@@ -1,0 +1,259 @@
+/* Fronts: for each state the completions that no other completion betters, from the end of the plan backwards. */
+#include "runtime/plan/measure/pareto.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/library/library_data.h"
+
+/* A completion of a state that no other betters: the first tray, and which of the child's points it goes on with. */
+typedef struct point {
+    int64_t value[TN_WEIGHED_MAX]; /* with the sign that makes less better */
+    mpz_t plans;
+    tn_tray tray;
+    uint32_t child, child_point;
+} point;
+
+typedef struct front {
+    point *points;
+    size_t count, room;
+    bool made;
+} front;
+
+typedef struct fronts {
+    tn_weighed *weighed;
+    const tn_library *library;
+    int64_t sign[TN_WEIGHED_MAX];
+    tn_numbering numbers; /* left << 32 | state -> front */
+    front *items;
+    size_t room;
+} fronts;
+
+static void front_clear(front *f)
+{
+    for (size_t i = 0; i < f->count; i++)
+        mpz_clear(f->points[i].plans);
+    free(f->points);
+    *f = (front){0};
+}
+
+static bool add_point(front *f, const int64_t *value, const mpz_t plans, uint64_t times, tn_tray tray, uint32_t child,
+                      uint32_t child_point)
+{
+    if (f->count == f->room) {
+        size_t room = f->room * 2 + 16;
+        point *points = realloc(f->points, room * sizeof *points);
+        if (!points)
+            return false;
+        f->points = points;
+        f->room = room;
+    }
+    point *p = &f->points[f->count++];
+    *p = (point){.tray = tray, .child = child, .child_point = child_point};
+    memcpy(p->value, value, sizeof p->value);
+    mpz_init(p->plans);
+    mpz_mul_ui(p->plans, plans, times);
+    return true;
+}
+
+static int compare_points(const void *left, const void *right)
+{
+    const point *a = left, *b = right;
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        if (a->value[k] != b->value[k])
+            return a->value[k] < b->value[k] ? -1 : 1;
+    return (a->tray > b->tray) - (a->tray < b->tray);
+}
+
+static bool covers(const point *a, const point *b)
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        if (a->value[k] > b->value[k])
+            return false;
+    return true;
+}
+
+static bool same_values(const point *a, const point *b)
+{
+    return memcmp(a->value, b->value, sizeof a->value) == 0;
+}
+
+/* Sorts, joins equal values (the first keeps its place: the lowest tray) and drops what another point betters. Whoever
+ * betters a point comes before it; by two measures that is the last point kept. */
+static void reduce(front *f, uint32_t measures)
+{
+    size_t kept = 0;
+    if (f->count > 1)
+        qsort(f->points, f->count, sizeof *f->points, compare_points);
+    for (size_t i = 0; i < f->count; i++) {
+        point *p = &f->points[i];
+        bool equal = kept > 0 && same_values(&f->points[kept - 1], p), worse = false;
+        if (equal)
+            mpz_add(f->points[kept - 1].plans, f->points[kept - 1].plans, p->plans);
+        size_t from = measures <= 2 && kept > 0 ? kept - 1 : 0;
+        for (size_t j = from; j < kept && !equal && !worse; j++)
+            worse = covers(&f->points[j], p);
+        if (equal || worse) {
+            mpz_clear(p->plans);
+            continue;
+        }
+        if (kept < i) {
+            f->points[kept] = *p;
+        }
+        kept++;
+    }
+    f->count = kept;
+}
+
+static tn_status too_many(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES, "the front has more than %u points in a state", TN_FRONT_MAX);
+    tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units");
+    return TN_LIMIT;
+}
+
+static tn_status number_of(fronts *all, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+{
+    uint32_t before = all->numbers.count;
+    *index = tn_number(&all->numbers, (uint64_t)left << 32 | state);
+    if (*index == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*index < before)
+        return TN_OK;
+    if (*index >= all->room) {
+        size_t room = all->room * 2 + 256;
+        front *items = realloc(all->items, room * sizeof *items);
+        if (!items)
+            return tn_fail_memory(error);
+        all->items = items;
+        all->room = room;
+    }
+    all->items[*index] = (front){0};
+    return TN_OK;
+}
+
+static tn_status make_end(fronts *all, uint32_t state, front *made, tn_error *error)
+{
+    int64_t value[TN_WEIGHED_MAX] = {0};
+    if (!tn_weighed_alive(all->weighed, 0, state))
+        return TN_OK;
+    for (uint32_t k = 0; k < tn_weighed_count(all->weighed); k++)
+        value[k] = all->sign[k] * tn_weighed_rest(all->weighed, state, k);
+    mpz_t one;
+    mpz_init_set_ui(one, 1);
+    bool ok = add_point(made, value, one, 1, 0, 0, 0);
+    mpz_clear(one);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* Recursion is as deep as plans are long. */
+static tn_status make(fronts *all, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+{
+    tn_status status = number_of(all, left, state, index, error);
+    if (status != TN_OK || all->items[*index].made)
+        return status;
+    front made = {.made = true};
+    const tn_weighed_edge *edges = NULL;
+    size_t count = 0;
+    if (left == 0)
+        status = make_end(all, state, &made, error);
+    else
+        status = tn_weighed_edges(all->weighed, state, &edges, &count, error);
+    for (size_t e = 0; status == TN_OK && e < count; e++) {
+        tn_weighed_edge edge = edges[e];
+        uint32_t child;
+        if (!tn_weighed_alive(all->weighed, left - 1, edge.target))
+            continue;
+        status = make(all, left - 1, edge.target, &child, error);
+        for (size_t i = 0; status == TN_OK && i < all->items[child].count; i++) {
+            const point *p = &all->items[child].points[i];
+            int64_t value[TN_WEIGHED_MAX];
+            for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+                value[k] = p->value[k] + all->sign[k] * edge.gain[k];
+            if (!add_point(&made, value, p->plans, edge.trays, edge.first, child, (uint32_t)i))
+                status = tn_fail_memory(error);
+        }
+        if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)
+            reduce(&made, tn_weighed_count(all->weighed));
+        if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)
+            status = too_many(error);
+    }
+    reduce(&made, tn_weighed_count(all->weighed));
+    if (status == TN_OK && made.count > TN_FRONT_MAX)
+        status = too_many(error);
+    all->items[*index] = made;
+    return status;
+}
+
+/* ---- the library's front */
+
+static tn_status fill_point(fronts *all, const point *p, uint32_t length, tn_pareto_point *out, tn_error *error)
+{
+    out->length = length;
+    out->trays = malloc(((size_t)length + 1) * sizeof *out->trays);
+    if (!out->trays)
+        return tn_fail_memory(error);
+    for (uint32_t k = 0; k < tn_weighed_count(all->weighed); k++)
+        out->values[k] = all->sign[k] * p->value[k] + tn_weighed_start(all->weighed, k);
+    mpz_set(out->plans, p->plans);
+    const point *at = &all->items[p->child].points[p->child_point];
+    for (uint32_t i = 0; i < length; i++) {
+        out->trays[i] = at->tray;
+        at = &all->items[at->child].points[at->child_point];
+    }
+    return TN_OK;
+}
+
+/* The fronts of all lengths as one: here a point's tray is its length. */
+static tn_status join_lengths(fronts *all, front *whole, tn_error *error)
+{
+    const tn_library *library = all->library;
+    tn_status status = TN_OK;
+    for (uint32_t n = library->min; status == TN_OK && n <= library->max; n++) {
+        uint32_t index;
+        if (!tn_weighed_alive(all->weighed, n, 0))
+            continue;
+        status = make(all, n, 0, &index, error);
+        for (size_t i = 0; status == TN_OK && i < all->items[index].count; i++) {
+            const point *p = &all->items[index].points[i];
+            if (!add_point(whole, p->value, p->plans, 1, n, index, (uint32_t)i))
+                status = tn_fail_memory(error);
+        }
+    }
+    reduce(whole, tn_weighed_count(all->weighed));
+    return status;
+}
+
+tn_status tn_pareto_make(tn_pareto_front *out, tn_weighed *weighed, const bool *most, tn_error *error)
+{
+    fronts all = {.weighed = weighed, .library = tn_weighed_library(weighed)};
+    front whole = {0};
+    *out = (tn_pareto_front){0};
+    for (uint32_t k = 0; k < tn_weighed_count(weighed); k++)
+        all.sign[k] = most[k] ? -1 : 1;
+    tn_status status = join_lengths(&all, &whole, error);
+    if (status == TN_OK && !(out->points = calloc(whole.count + 1, sizeof *out->points)))
+        status = tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < whole.count; i++) {
+        mpz_init(out->points[out->count].plans);
+        status = fill_point(&all, &whole.points[i], whole.points[i].tray, &out->points[out->count], error);
+        out->count++;
+    }
+    front_clear(&whole);
+    for (uint32_t i = 0; i < all.numbers.count; i++)
+        front_clear(&all.items[i]);
+    free(all.items);
+    tn_numbering_clear(&all.numbers);
+    return status;
+}
+
+void tn_pareto_clear(tn_pareto_front *f)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        mpz_clear(f->points[i].plans);
+        free(f->points[i].trays);
+    }
+    free(f->points);
+    *f = (tn_pareto_front){0};
+}

@@ -1,0 +1,414 @@
+/* A library's automaton joined with what measures remember. */
+#include "runtime/plan/measure/weighed.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/plan/library/library_data.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/match/summing.h"
+
+enum { STATES_MAX = 4000000 };
+
+/* A measure: its sum's machine, and the automata of what `matches` counts. */
+typedef struct weight {
+    const tn_measure_record *record;
+    tn_sum *sum;
+    tn_dfa **parts; /* [sum->count]: of places that single trays do not decide, and of `matches` */
+    tn_summing summing;
+} weight;
+
+/* What is known of a state. Its key: the library's state; then of each measure the states of its `matches` and, after
+ * their number, the words of its machine. */
+typedef struct node {
+    tn_weighed_edge *edges; /* NULL: not found yet */
+    size_t count;
+    int64_t rest[TN_WEIGHED_MAX];
+} node;
+
+struct tn_weighed {
+    const tn_library *library;
+    uint32_t count;
+    weight weights[TN_WEIGHED_MAX];
+    tn_classes *classes; /* of what the measures tell apart */
+    tn_lowering *lowering;
+    uint32_t *letter_of; /* [trays] */
+    uint32_t letters;
+    tn_tray *first; /* [letters] */
+    uint64_t *size; /* [letters]: trays */
+    tn_interner states;
+    node *nodes;
+    size_t node_capacity;
+    tn_key key, next, part;
+};
+
+/* ---- making */
+
+static tn_status lower_parts(tn_weighed *w, weight *m, uint8_t *local, tn_error *error)
+{
+    const tn_module *module = w->library->schema->module;
+    m->parts = calloc((size_t)m->sum->count + 1, sizeof(tn_dfa *));
+    if (!m->parts)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < m->sum->count; i++) {
+        const tn_sum_term *term = &m->sum->terms[i];
+        if (term->kind == TN_SUM_MATCHES)
+            status = tn_lower(w->lowering, term->part, &m->parts[i], error);
+        else if (term->kind == TN_SUM_STARTS || !tn_summing_is_local(module, term->part, local))
+            status = tn_lower_marked(w->lowering, term->part, &m->parts[i], error);
+    }
+    return status;
+}
+
+static tn_status make_summing(tn_weighed *w, weight *m, tn_error *error)
+{
+    tn_dfa **parts = calloc((size_t)m->sum->count + 1, sizeof(tn_dfa *));
+    if (!parts)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < m->sum->count; i++)
+        parts[i] = m->sum->terms[i].kind == TN_SUM_MATCHES ? NULL : m->parts[i];
+    tn_status status =
+        tn_summing_make(&m->summing, m->sum, tn_lowering_marked(w->lowering), w->classes, parts, false, error);
+    free(parts);
+    return status;
+}
+
+static tn_status make_weights(tn_weighed *w, const uint32_t *measures, tn_error *error)
+{
+    const tn_schema *schema = w->library->schema;
+    uint32_t sums[TN_WEIGHED_MAX];
+    for (uint32_t k = 0; k < w->count; k++) {
+        w->weights[k].record = &schema->module->MEASURE_records[measures[k]];
+        sums[k] = w->weights[k].record->sum;
+    }
+    tn_status status = tn_classes_with_sums(schema, NULL, 0, sums, w->count, &w->classes, error);
+    if (status == TN_OK)
+        status = tn_lowering_new(w->classes, w->library->max_states, &w->lowering, error);
+    if (status == TN_OK)
+        tn_lowering_within(w->lowering, w->library->max);
+    uint8_t *local = calloc(schema->module->FUNCTION_count + 1, 1);
+    if (!local)
+        status = status == TN_OK ? tn_fail_memory(error) : status;
+    for (uint32_t k = 0; status == TN_OK && k < w->count; k++) {
+        status = tn_sum_new(schema, sums[k], &w->weights[k].sum, error);
+        if (status == TN_OK)
+            status = lower_parts(w, &w->weights[k], local, error);
+        if (status == TN_OK)
+            status = make_summing(w, &w->weights[k], error);
+    }
+    free(local);
+    return status;
+}
+
+/* Letters: distinct pairs of the library's column and the measures' class. */
+static tn_status make_letters(tn_weighed *w, tn_error *error)
+{
+    uint32_t trays = w->library->schema->tray_count;
+    tn_numbering pairs = {0};
+    w->letter_of = calloc((size_t)trays + 1, sizeof *w->letter_of);
+    bool ok = w->letter_of != NULL;
+    for (tn_tray t = 0; ok && t < trays; t++) {
+        w->letter_of[t] = tn_number(&pairs, (uint64_t)w->library->tray_column[t] << 32 | w->classes->of_tray[t]);
+        ok = w->letter_of[t] != UINT32_MAX;
+    }
+    w->letters = pairs.count;
+    tn_numbering_clear(&pairs);
+    w->first = ok ? calloc((size_t)w->letters + 1, sizeof *w->first) : NULL;
+    w->size = ok ? calloc((size_t)w->letters + 1, sizeof *w->size) : NULL;
+    if (!w->first || !w->size)
+        return tn_fail_memory(error);
+    for (tn_tray t = trays; t-- > 0;) {
+        w->first[w->letter_of[t]] = t;
+        w->size[w->letter_of[t]]++;
+    }
+    return TN_OK;
+}
+
+/* ---- states */
+
+static tn_status too_many(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "the library with its measures passes the limit of %d states",
+            STATES_MAX);
+    tn_error_help(error, "give fewer trays with --trays, or measure fewer `matches` and `occurrences`");
+    return TN_LIMIT;
+}
+
+/* The number of the state with the key in w->next; what it adds at the end is `rest`. */
+static tn_status intern(tn_weighed *w, const int64_t *rest, uint32_t *state, tn_error *error)
+{
+    uint32_t before = w->states.count;
+    *state = tn_intern(&w->states, w->next.data, w->next.size);
+    if (*state == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*state < before)
+        return TN_OK;
+    if (*state >= STATES_MAX)
+        return too_many(error);
+    if (*state >= w->node_capacity) {
+        size_t capacity = w->node_capacity * 2 + 64;
+        node *nodes = realloc(w->nodes, capacity * sizeof *nodes);
+        if (!nodes)
+            return tn_fail_memory(error);
+        w->nodes = nodes;
+        w->node_capacity = capacity;
+    }
+    w->nodes[*state] = (node){0};
+    memcpy(w->nodes[*state].rest, rest, sizeof w->nodes[*state].rest);
+    return TN_OK;
+}
+
+/* Appends what measure k remembers at the beginning: its marker read. */
+static bool start_measure(weight *m, tn_key *next, tn_key *room, int64_t *gain)
+{
+    for (uint32_t i = 0; i < m->sum->count; i++)
+        if (m->sum->terms[i].kind == TN_SUM_MATCHES && !tn_key_push(next, 0))
+            return false;
+    size_t at = next->size;
+    room->size = 0;
+    if (!tn_key_push(next, 0) || !tn_summing_start(&m->summing, room) ||
+        !tn_summing_step(&m->summing, room->data, room->size, m->summing.marker, next, gain))
+        return false;
+    next->data[at] = (uint32_t)(next->size - at - 1);
+    return true;
+}
+
+/* Appends what measure k remembers after a tray of the class; *words: its part of the key before, moved past. */
+static bool step_measure(weight *m, uint32_t class, const uint32_t **words, tn_key *next, int64_t *gain)
+{
+    for (uint32_t i = 0; i < m->sum->count; i++)
+        if (m->sum->terms[i].kind == TN_SUM_MATCHES && !tn_key_push(next, tn_dfa_read(m->parts[i], *(*words)++, class)))
+            return false;
+    size_t size = *(*words)++;
+    tn_key tail = {0};
+    bool ok = tn_summing_step(&m->summing, *words, size, m->summing.join.column[class], &tail, gain) &&
+              tn_key_push(next, (uint32_t)tail.size);
+    for (size_t i = 0; ok && i < tail.size; i++)
+        ok = tn_key_push(next, tail.data[i]);
+    free(tail.data);
+    *words += size;
+    return ok;
+}
+
+/* What measure k adds where the plan ends: *words as above. */
+static bool rest_of(weight *m, const uint32_t **words, tn_key *room, int64_t *rest)
+{
+    *rest = 0;
+    for (uint32_t i = 0; i < m->sum->count; i++)
+        if (m->sum->terms[i].kind == TN_SUM_MATCHES)
+            *rest += m->parts[i]->accept[*(*words)++] ? m->sum->terms[i].each : 0;
+    size_t size = *(*words)++;
+    int64_t gain;
+    room->size = 0;
+    if (!tn_summing_step(&m->summing, *words, size, m->summing.marker, room, &gain))
+        return false;
+    *rest += gain + tn_summing_rest(&m->summing, room->data, room->size);
+    *words += size;
+    return true;
+}
+
+static tn_status finish_state(tn_weighed *w, uint32_t *state, tn_error *error)
+{
+    int64_t rest[TN_WEIGHED_MAX] = {0};
+    const uint32_t *words = w->next.data + 1;
+    for (uint32_t k = 0; k < w->count; k++)
+        if (!rest_of(&w->weights[k], &words, &w->part, &rest[k]))
+            return tn_fail_memory(error);
+    return intern(w, rest, state, error);
+}
+
+static tn_status make_start(tn_weighed *w, tn_error *error)
+{
+    uint32_t state;
+    int64_t gain;
+    w->next.size = 0;
+    bool ok = tn_key_push(&w->next, 0);
+    for (uint32_t k = 0; ok && k < w->count; k++)
+        ok = start_measure(&w->weights[k], &w->next, &w->part, &gain);
+    return ok ? finish_state(w, &state, error) : tn_fail_memory(error);
+}
+
+tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out,
+                         tn_error *error)
+{
+    tn_weighed *w = calloc(1, sizeof *w);
+    if (!w)
+        return tn_fail_memory(error);
+    w->library = library;
+    w->count = count;
+    tn_status status = make_weights(w, measures, error);
+    if (status == TN_OK)
+        status = make_letters(w, error);
+    if (status == TN_OK)
+        status = make_start(w, error);
+    if (status != TN_OK) {
+        tn_weighed_free(w);
+        return status;
+    }
+    *out = w;
+    return TN_OK;
+}
+
+void tn_weighed_free(tn_weighed *w)
+{
+    if (!w)
+        return;
+    for (uint32_t k = 0; k < w->count; k++) {
+        weight *m = &w->weights[k];
+        for (uint32_t i = 0; m->parts && i < m->sum->count; i++)
+            tn_dfa_free(m->parts[i]);
+        free(m->parts);
+        tn_summing_clear(&m->summing);
+        tn_sum_free(m->sum);
+    }
+    for (uint32_t s = 0; s < w->states.count; s++)
+        free(w->nodes[s].edges);
+    free(w->nodes);
+    tn_interner_clear(&w->states);
+    tn_lowering_free(w->lowering);
+    tn_classes_free(w->classes);
+    free(w->letter_of);
+    free(w->first);
+    free(w->size);
+    free(w->key.data);
+    free(w->next.data);
+    free(w->part.data);
+    free(w);
+}
+
+/* ---- asking */
+
+const tn_library *tn_weighed_library(const tn_weighed *w)
+{
+    return w->library;
+}
+
+uint32_t tn_weighed_count(const tn_weighed *w)
+{
+    return w->count;
+}
+
+mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)
+{
+    return w->weights[measure].sum->unit;
+}
+
+uint32_t tn_weighed_power(const tn_weighed *w, uint32_t measure)
+{
+    return w->weights[measure].sum->record->power;
+}
+
+int64_t tn_weighed_start(const tn_weighed *w, uint32_t measure)
+{
+    return w->weights[measure].sum->constant;
+}
+
+int64_t tn_weighed_rest(const tn_weighed *w, uint32_t state, uint32_t measure)
+{
+    return w->nodes[state].rest[measure];
+}
+
+uint32_t tn_weighed_letter(const tn_weighed *w, tn_tray tray)
+{
+    return w->letter_of[tray];
+}
+
+uint32_t tn_weighed_letters(const tn_weighed *w)
+{
+    return w->letters;
+}
+
+uint32_t tn_weighed_states(const tn_weighed *w)
+{
+    return w->states.count;
+}
+
+static uint32_t library_state(const tn_weighed *w, uint32_t state)
+{
+    size_t size;
+    return tn_interned(&w->states, state, &size)[0];
+}
+
+bool tn_weighed_alive(const tn_weighed *w, uint32_t left, uint32_t state)
+{
+    return tn_library_alive(w->library, left, library_state(w, state));
+}
+
+/* Does any kept plan follow the library's state? */
+static bool is_live(const tn_library *library, uint32_t state)
+{
+    for (uint32_t left = 0; left <= library->max; left++)
+        if (tn_library_alive(library, left, state))
+            return true;
+    return false;
+}
+
+tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
+                          tn_error *error)
+{
+    size_t size;
+    tn_tray tray = w->first[letter];
+    const uint32_t *key = tn_interned(&w->states, state, &size);
+    uint32_t to = tn_library_step(w->library, key[0], tray);
+    *target = UINT32_MAX;
+    memset(gain, 0, TN_WEIGHED_MAX * sizeof *gain);
+    if (!is_live(w->library, to))
+        return TN_OK;
+    if (!tn_key_copy(&w->key, key, size))
+        return tn_fail_memory(error);
+    const uint32_t *words = w->key.data + 1;
+    w->next.size = 0;
+    bool ok = tn_key_push(&w->next, to);
+    for (uint32_t k = 0; ok && k < w->count; k++)
+        ok = step_measure(&w->weights[k], w->classes->of_tray[tray], &words, &w->next, &gain[k]);
+    return ok ? finish_state(w, target, error) : tn_fail_memory(error);
+}
+
+static int compare_edges(const void *left, const void *right)
+{
+    const tn_weighed_edge *a = left, *b = right;
+    if (a->target != b->target)
+        return a->target < b->target ? -1 : 1;
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        if (a->gain[k] != b->gain[k])
+            return a->gain[k] < b->gain[k] ? -1 : 1;
+    return (a->first > b->first) - (a->first < b->first);
+}
+
+static bool alike(const tn_weighed_edge *a, const tn_weighed_edge *b)
+{
+    return a->target == b->target && memcmp(a->gain, b->gain, sizeof a->gain) == 0;
+}
+
+tn_status tn_weighed_edges(tn_weighed *w, uint32_t state, const tn_weighed_edge **edges, size_t *count, tn_error *error)
+{
+    if (!w->nodes[state].edges) {
+        tn_weighed_edge *found = calloc((size_t)w->letters + 1, sizeof *found);
+        if (!found)
+            return tn_fail_memory(error);
+        size_t size = 0, kept = 0;
+        for (uint32_t l = 0; l < w->letters; l++) {
+            tn_weighed_edge edge = {.first = w->first[l], .letter = l, .trays = w->size[l]};
+            tn_status status = tn_weighed_step(w, state, l, &edge.target, edge.gain, error);
+            if (status != TN_OK) {
+                free(found);
+                return status;
+            }
+            if (edge.target != UINT32_MAX)
+                found[size++] = edge;
+        }
+        qsort(found, size, sizeof *found, compare_edges);
+        for (size_t i = 0; i < size; i++) {
+            if (kept > 0 && alike(&found[kept - 1], &found[i]))
+                found[kept - 1].trays += found[i].trays;
+            else
+                found[kept++] = found[i];
+        }
+        w->nodes[state].edges = found;
+        w->nodes[state].count = kept;
+    }
+    *edges = w->nodes[state].edges;
+    *count = w->nodes[state].count;
+    return TN_OK;
+}

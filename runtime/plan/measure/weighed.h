@@ -1,0 +1,57 @@
+/* A library with measures: its automaton joined with what the measures have to remember, each step with what it adds.
+ *
+ * A state is met when it is first asked for; its edges are found once. Values are whole steps of each measure's unit;
+ * the constant of a measure is a start value. A tn_weighed borrows the library; it belongs to one thread.
+ */
+#ifndef TARTAN_PLAN_MEASURE_WEIGHED_H
+#define TARTAN_PLAN_MEASURE_WEIGHED_H
+
+#include "runtime/plan/library/library.h"
+
+#define TN_WEIGHED_MAX 3 /* measures at a time */
+
+/* Trays alike: from a state they lead to one state and add the same. */
+typedef struct tn_weighed_edge {
+    uint32_t target;
+    tn_tray first;   /* the first of them */
+    uint32_t letter; /* of the first */
+    uint64_t trays;
+    int64_t gain[TN_WEIGHED_MAX];
+} tn_weighed_edge;
+
+typedef struct tn_weighed tn_weighed;
+
+/* measures: indices of MEASURE records, of the library's schema. E0802 where they remember too much, E0424 where their
+ * numbers are too fine. */
+tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **weighed,
+                         tn_error *error);
+void tn_weighed_free(tn_weighed *weighed);
+
+const tn_library *tn_weighed_library(const tn_weighed *weighed);
+uint32_t tn_weighed_count(const tn_weighed *weighed);
+mpq_srcptr tn_weighed_unit(const tn_weighed *weighed, uint32_t measure); /* a step, in nanometres to its power */
+uint32_t tn_weighed_power(const tn_weighed *weighed, uint32_t measure);
+int64_t tn_weighed_start(const tn_weighed *weighed, uint32_t measure); /* steps before the first tray */
+
+/* The start state is 0. The edges of a state; valid until the next call for another state. */
+tn_status tn_weighed_edges(tn_weighed *weighed, uint32_t state, const tn_weighed_edge **edges, size_t *count,
+                           tn_error *error);
+
+/* Does a kept plan follow with so many trays to come? */
+bool tn_weighed_alive(const tn_weighed *weighed, uint32_t left, uint32_t state);
+
+/* What is added where the plan ends in the state. */
+int64_t tn_weighed_rest(const tn_weighed *weighed, uint32_t state, uint32_t measure);
+
+/* The trays of the schema by letters: trays of one letter are alike in every state. */
+uint32_t tn_weighed_letter(const tn_weighed *weighed, tn_tray tray);
+uint32_t tn_weighed_letters(const tn_weighed *weighed);
+
+/* Where a state leads by a letter: the target (UINT32_MAX: no kept plan follows) and what is added. */
+tn_status tn_weighed_step(tn_weighed *weighed, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
+                          tn_error *error);
+
+/* How many states have been met. */
+uint32_t tn_weighed_states(const tn_weighed *weighed);
+
+#endif

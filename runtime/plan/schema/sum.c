@@ -1,0 +1,235 @@
+/* Sums over plans: what their trays count, exactly, and then in whole steps. */
+#include "runtime/plan/schema/sum.h"
+
+#include <stdlib.h>
+
+#include "runtime/module/code.h"
+#include "runtime/number/rational.h"
+
+/* ---- what a tray counts */
+
+static void operate(tn_opcode opcode, mpq_t lower, const mpq_t upper)
+{
+    switch (opcode) {
+    case TN_OP_PLUS:
+        mpq_add(lower, lower, upper);
+        break;
+    case TN_OP_MINUS:
+        mpq_sub(lower, lower, upper);
+        break;
+    case TN_OP_TIMES:
+        mpq_mul(lower, lower, upper);
+        break;
+    case TN_OP_OVER:
+        if (mpq_sgn(upper) == 0)
+            mpq_set_si(lower, 0, 1);
+        else
+            mpq_div(lower, lower, upper);
+        break;
+    default: /* LESSER, LARGER */
+        if ((mpq_cmp(upper, lower) < 0) == (opcode == TN_OP_LESSER))
+            mpq_set(lower, upper);
+        break;
+    }
+}
+
+/* Runs one instruction; what has grown past all measure becomes 0, which tn_sum_new then refuses to have a step for. */
+static void run(const tn_schema *schema, const tn_instruction *op, tn_tray tray, mpq_t *stack, size_t *top)
+{
+    switch (op->opcode) {
+    case TN_OP_FIGURE:
+        mpq_set_str(stack[(*top)++], tn_text(schema->module, (tn_string)op->first), 10);
+        return;
+    case TN_OP_EXTENT: {
+        uint32_t field = (uint32_t)op->first - schema->record->field_first;
+        mpq_set_si(stack[(*top)++], tn_tray_value_record(schema, tray, field)->length, 1);
+        return;
+    }
+    case TN_OP_PICK:
+        --*top;
+        if (tn_spec_meets(schema, (uint32_t)op->first, tray))
+            mpq_swap(stack[*top - 1], stack[*top]);
+        return;
+    default:
+        --*top;
+        operate(op->opcode, stack[*top - 1], stack[*top]);
+        if (!tn_rational_fits(stack[*top - 1]))
+            mpq_set_si(stack[*top - 1], 0, 1);
+        return;
+    }
+}
+
+void tn_tally_value(const tn_schema *schema, uint32_t function, tn_tray tray, mpq_t value)
+{
+    mpq_t stack[TN_TALLY_STACK_MAX];
+    const tn_function_record *record = &schema->module->FUNCTION_records[function];
+    size_t top = 0;
+    for (uint32_t i = 0; i < record->stack_max; i++)
+        mpq_init(stack[i]);
+    for (uint32_t offset = record->code_begin; offset < record->code_end;) {
+        tn_instruction op = tn_code_read(schema->module->code, offset);
+        if (op.opcode == TN_OP_TALLY)
+            break;
+        run(schema, &op, tray, stack, &top);
+        offset += op.length;
+    }
+    mpq_set(value, stack[0]);
+    for (uint32_t i = 0; i < record->stack_max; i++)
+        mpq_clear(stack[i]);
+}
+
+/* ---- steps */
+
+/* The numbers of a sum one after another: its constant, and what each term counts for each tray. */
+typedef struct walk {
+    mpz_t common, divisor; /* of denominators; of what is then whole */
+    mpq_t value, factor;
+} walk;
+
+static const tn_term_record *term_of(const tn_sum *sum, uint32_t i)
+{
+    return &sum->schema->module->TERM_records[sum->record->term_first + i];
+}
+
+/* value := the number of tray t in term i. */
+static void number(const tn_sum *sum, walk *w, uint32_t i, tn_tray t)
+{
+    const tn_term_record *term = term_of(sum, i);
+    if (term->tally == TN_NO_RECORD) {
+        mpq_set(w->value, w->factor);
+        return;
+    }
+    tn_tally_value(sum->schema, term->tally, t, w->value);
+    mpq_mul(w->value, w->value, w->factor);
+}
+
+static tn_tray numbers(const tn_sum *sum, uint32_t i)
+{
+    return term_of(sum, i)->tally == TN_NO_RECORD ? 1 : sum->schema->tray_count;
+}
+
+static void constant(const tn_sum *sum, walk *w)
+{
+    mpq_set_str(w->value, tn_text(sum->schema->module, sum->record->constant), 10);
+}
+
+static tn_status too_fine(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_FINE, "the numbers of a sum have no step in common that they are few times of");
+    tn_error_help(error, "use rounder numbers: prices in steps of 10 or 50, lengths in whole units");
+    return TN_LIMIT;
+}
+
+static tn_status find_unit(tn_sum *sum, walk *w, tn_error *error)
+{
+    constant(sum, w);
+    mpz_set(w->common, mpq_denref(w->value));
+    for (uint32_t i = 0; i < sum->count; i++) {
+        mpq_set_str(w->factor, tn_text(sum->schema->module, term_of(sum, i)->factor), 10);
+        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+            number(sum, w, i, t);
+            mpz_lcm(w->common, w->common, mpq_denref(w->value));
+            if (mpz_sizeinbase(w->common, 2) > TN_RATIONAL_BITS)
+                return too_fine(error);
+        }
+    }
+    return TN_OK;
+}
+
+/* divisor := gcd(divisor, value * common); value then has no denominator. */
+static void divide(walk *w)
+{
+    mpz_t whole;
+    mpz_init(whole);
+    mpz_divexact(whole, w->common, mpq_denref(w->value));
+    mpz_mul(whole, whole, mpq_numref(w->value));
+    mpz_gcd(w->divisor, w->divisor, whole);
+    mpz_clear(whole);
+}
+
+static void find_divisor(tn_sum *sum, walk *w)
+{
+    constant(sum, w);
+    divide(w);
+    for (uint32_t i = 0; i < sum->count; i++) {
+        mpq_set_str(w->factor, tn_text(sum->schema->module, term_of(sum, i)->factor), 10);
+        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+            number(sum, w, i, t);
+            divide(w);
+        }
+    }
+    if (mpz_sgn(w->divisor) == 0)
+        mpz_set_ui(w->divisor, 1);
+    mpz_set(mpq_numref(sum->unit), w->divisor);
+    mpz_set(mpq_denref(sum->unit), w->common);
+    mpq_canonicalize(sum->unit);
+}
+
+static bool to_steps(const tn_sum *sum, walk *w, int64_t *steps)
+{
+    mpq_div(w->value, w->value, sum->unit);
+    bool fits = mpz_sizeinbase(mpq_numref(w->value), 2) < 45; /* TN_SUM_STEPS_MAX */
+    *steps = fits ? mpz_get_si(mpq_numref(w->value)) : 0;
+    return fits;
+}
+
+static tn_status fill(tn_sum *sum, walk *w, tn_error *error)
+{
+    constant(sum, w);
+    if (!to_steps(sum, w, &sum->constant))
+        return too_fine(error);
+    for (uint32_t i = 0; i < sum->count; i++) {
+        const tn_term_record *record = term_of(sum, i);
+        tn_sum_term *term = &sum->terms[i];
+        *term = (tn_sum_term){.kind = (tn_sum_kind)record->kind, .part = record->part};
+        mpq_set_str(w->factor, tn_text(sum->schema->module, record->factor), 10);
+        if (record->tally != TN_NO_RECORD &&
+            !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))
+            return tn_fail_memory(error);
+        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+            number(sum, w, i, t);
+            if (!to_steps(sum, w, term->weight ? &term->weight[t] : &term->each))
+                return too_fine(error);
+        }
+    }
+    return TN_OK;
+}
+
+tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **out, tn_error *error)
+{
+    tn_sum *sum = calloc(1, sizeof *sum);
+    if (!sum)
+        return tn_fail_memory(error);
+    sum->schema = schema;
+    sum->record = &schema->module->SUM_records[index];
+    sum->count = sum->record->term_count;
+    mpq_init(sum->unit);
+    sum->terms = calloc((size_t)sum->count + 1, sizeof *sum->terms);
+    walk w;
+    mpz_inits(w.common, w.divisor, NULL);
+    mpq_inits(w.value, w.factor, NULL);
+    tn_status status = sum->terms ? find_unit(sum, &w, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        find_divisor(sum, &w);
+        status = fill(sum, &w, error);
+    }
+    mpz_clears(w.common, w.divisor, NULL);
+    mpq_clears(w.value, w.factor, NULL);
+    if (status != TN_OK) {
+        tn_sum_free(sum);
+        return status;
+    }
+    *out = sum;
+    return TN_OK;
+}
+
+void tn_sum_free(tn_sum *sum)
+{
+    if (!sum)
+        return;
+    for (uint32_t i = 0; sum->terms && i < sum->count; i++)
+        free(sum->terms[i].weight);
+    free(sum->terms);
+    mpq_clear(sum->unit);
+    free(sum);
+}

@@ -1,0 +1,37 @@
+/* Sums over plans made ready to run: a SUM record's terms in whole steps of one unit, what each tray counts worked out.
+ *
+ * A tn_sum is immutable and may be shared between threads. It borrows the schema.
+ */
+#ifndef TARTAN_PLAN_SCHEMA_SUM_H
+#define TARTAN_PLAN_SCHEMA_SUM_H
+
+#include <gmp.h>
+
+#include "runtime/plan/schema/schema.h"
+
+#define TN_SUM_STEPS_MAX (INT64_C(1) << 45) /* of one tray or place, so that sums of all places stay in 64 bits */
+
+typedef struct tn_sum_term {
+    tn_sum_kind kind;
+    uint32_t part;   /* a rule function */
+    int64_t each;    /* steps of each place; singles: where `weight` is NULL */
+    int64_t *weight; /* [trays]: steps of each tray, or NULL */
+} tn_sum_term;
+
+typedef struct tn_sum {
+    const tn_schema *schema;
+    const tn_sum_record *record;
+    uint32_t count;
+    tn_sum_term *terms;
+    int64_t constant; /* steps */
+    mpq_t unit;       /* a step, in nanometres to the sum's power; above 0 */
+} tn_sum;
+
+/* Makes the SUM record ready. E0424 (TN_LIMIT) where its numbers have no common step that is coarse enough. */
+tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **sum, tn_error *error);
+void tn_sum_free(tn_sum *sum);
+
+/* The exact value of a tally function for a tray: in nanometres to its power. `value` is initialised. */
+void tn_tally_value(const tn_schema *schema, uint32_t function, tn_tray tray, mpq_t value);
+
+#endif

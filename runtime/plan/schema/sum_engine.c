@@ -1,0 +1,187 @@
+/* Verifies and lists sums, their terms and measures, and the code that says what a tray counts. */
+#include <string.h>
+
+#include "runtime/module/engine.h"
+#include "runtime/number/rational.h"
+
+static bool is_rational(const tn_module *module, tn_string text)
+{
+    mpq_t number;
+    mpq_init(number);
+    bool good = tn_rational_read(tn_text(module, text), number);
+    mpq_clear(number);
+    return good;
+}
+
+static bool is_of(const tn_module *module, uint32_t function, tn_function_kind kind, uint32_t schema)
+{
+    return module->FUNCTION_records[function].kind == kind && module->FUNCTION_records[function].schema == schema;
+}
+
+static tn_status check_term(const tn_checker *checker, uint32_t schema, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    const tn_term_record *term = &module->TERM_records[index];
+    if (!is_rational(module, term->factor) || strcmp(tn_text(module, term->factor), "0") == 0)
+        return tn_refuse(checker, "term %u has no factor, or 0", index);
+    tn_function_kind wanted = term->kind == TN_SUM_MATCHES ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE;
+    if (!is_of(module, term->part, wanted, schema))
+        return tn_refuse(checker, "term %u names a function of another kind or schema", index);
+    if (term->tally != TN_NO_RECORD &&
+        (term->kind != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
+        return tn_refuse(checker, "term %u has a tally of another kind or schema", index);
+    return TN_OK;
+}
+
+static tn_status check_sums(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (size_t i = 0; i < module->SUM_count; i++) {
+        const tn_sum_record *sum = &module->SUM_records[i];
+        if (!is_rational(module, sum->constant))
+            return tn_refuse(checker, "sum %zu has no constant", i);
+        for (uint32_t t = 0; t < sum->term_count; t++) {
+            tn_status status = check_term(checker, sum->schema, sum->term_first + t);
+            if (status != TN_OK)
+                return status;
+        }
+    }
+    return TN_OK;
+}
+
+static tn_status verify(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    tn_status status = check_sums(checker);
+    for (size_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
+        if (module->SUM_records[module->MEASURE_records[i].sum].schema != module->MEASURE_records[i].schema)
+            status = tn_refuse(checker, "measure %zu names a sum of another schema", i);
+    if (status != TN_OK)
+        return status;
+    return tn_check_different(checker, &module->MEASURE_records->name, sizeof *module->MEASURE_records,
+                              module->MEASURE_count, "two measures have the same name");
+}
+
+static const tn_function_record *function_of(const tn_checker *checker)
+{
+    return &checker->module->FUNCTION_records[checker->record];
+}
+
+static tn_status verify_function(const tn_checker *checker, uint32_t index)
+{
+    const tn_function_record *function = &checker->module->FUNCTION_records[index];
+    if (function->schema >= checker->module->SCHEMA_count)
+        return tn_refuse(checker, "there is no schema %u", function->schema);
+    if (function->stack_max > TN_TALLY_STACK_MAX)
+        return tn_refuse(checker, "a tally's stack passes %u", TN_TALLY_STACK_MAX);
+    return TN_OK;
+}
+
+/* What is compared speaks of a stretch, and of functions that are checked already. */
+static tn_status check_summed(const tn_checker *checker, const tn_instruction *instruction)
+{
+    const tn_module *module = checker->module;
+    const tn_sum_record *sum = &module->SUM_records[instruction->first];
+    if (sum->schema != function_of(checker)->schema)
+        return tn_refuse(checker, "sum %u is of another schema", (unsigned)instruction->first);
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_term_record *term = &module->TERM_records[sum->term_first + i];
+        if (term->kind == TN_SUM_MATCHES)
+            return tn_refuse(checker, "sum %u is compared, and speaks of the whole plan", (unsigned)instruction->first);
+        if (term->part >= checker->record)
+            return tn_refuse(checker, "sum %u has function %u, which is not a lower one", (unsigned)instruction->first,
+                             term->part);
+    }
+    return TN_OK;
+}
+
+static tn_status check_rational(const tn_checker *checker, const tn_instruction *instruction)
+{
+    return is_rational(checker->module, (tn_string)instruction->first) ? TN_OK
+                                                                       : tn_refuse(checker, "a number that is none");
+}
+
+static tn_status check_extent(const tn_checker *checker, const tn_instruction *instruction)
+{
+    uint32_t field = (uint32_t)instruction->first;
+    const tn_schema_record *schema = &checker->module->SCHEMA_records[function_of(checker)->schema];
+    if (field < schema->field_first || field - schema->field_first >= schema->field_count)
+        return tn_refuse(checker, "field %u is not of the function's schema", field);
+    uint32_t kind = checker->module->FIELD_records[field].kind;
+    if (kind != TN_FIELD_LENGTH && kind != TN_FIELD_ZONE)
+        return tn_refuse(checker, "field %u has no lengths", field);
+    return TN_OK;
+}
+
+/* ---- listing */
+
+static void list_sum(tn_lister *lister, uint32_t index)
+{
+    static const char *const kinds[] = {"singles", "starts", "matches"};
+    const tn_module *module = lister->module;
+    const tn_sum_record *sum = &module->SUM_records[index];
+    fprintf(lister->out, "sum %u: %s", index, tn_text(module, sum->constant));
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_term_record *term = &module->TERM_records[sum->term_first + i];
+        fprintf(lister->out, " + %s %s of function %u", tn_text(module, term->factor), kinds[term->kind], term->part);
+        if (term->tally != TN_NO_RECORD)
+            fprintf(lister->out, " by function %u", term->tally);
+    }
+}
+
+static void list_summed(tn_lister *lister, const tn_instruction *instruction)
+{
+    list_sum(lister, (uint32_t)instruction->first);
+}
+
+static void list_rational(tn_lister *lister, const tn_instruction *instruction)
+{
+    fputs(tn_text(lister->module, (tn_string)instruction->first), lister->out);
+}
+
+static void list_extent(tn_lister *lister, const tn_instruction *instruction)
+{
+    fprintf(lister->out, "field %u  ", (unsigned)instruction->first);
+    tn_list_name(lister, lister->module->FIELD_records[instruction->first].name);
+}
+
+static void list(tn_lister *lister)
+{
+    const tn_module *module = lister->module;
+    if (module->MEASURE_count > 0)
+        fputs("\nmeasures\n", lister->out);
+    for (size_t i = 0; i < module->MEASURE_count; i++) {
+        const tn_measure_record *measure = &module->MEASURE_records[i];
+        fprintf(lister->out, "  %zu  ", i);
+        tn_list_name(lister, measure->name);
+        tn_list_doc(lister, measure->doc);
+        fputs(": ", lister->out);
+        list_sum(lister, measure->sum);
+        tn_list_place(lister, measure->file, measure->begin);
+    }
+}
+
+static void list_heading(tn_lister *lister, uint32_t function)
+{
+    fputs(" of ", lister->out);
+    tn_list_name(lister, lister->module->SCHEMA_records[lister->module->FUNCTION_records[function].schema].name);
+}
+
+static const tn_section sections[] = {TN_SECTION_SUM, TN_SECTION_TERM, TN_SECTION_MEASURE, TN_SECTION_STRINGS};
+
+static const tn_operand_rules operands[] = {
+    {TN_OPERANDS_SUMMED, check_summed, list_summed},
+    {TN_OPERANDS_RATIONAL, check_rational, list_rational},
+    {TN_OPERANDS_EXTENT, check_extent, list_extent},
+};
+
+extern const tn_engine tn_engine_sum;
+const tn_engine tn_engine_sum = {.name = "sum",
+                                 .sections = sections,
+                                 .codes = 1u << TN_CODE_TALLY,
+                                 .operands = operands,
+                                 .operand_count = sizeof operands / sizeof *operands,
+                                 .verify = verify,
+                                 .verify_function = verify_function,
+                                 .list = list,
+                                 .list_heading = list_heading};
