@@ -308,7 +308,8 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
     return status;
 }
 
-tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_error *error)
+tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_watch *watch,
+                           tn_error *error)
 {
     uint64_t *weights = NULL;
     tn_status status = tn_column_weights(sizes, sparse->letters, sparse->column, sparse->columns, &weights, error);
@@ -316,13 +317,13 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint3
     if (status == TN_OK && sparse->folded && limbs <= TN_FORWARD_LIMBS_MAX)
         status = count_forward(sparse, weights, limbs, max, counts, error);
     else if (status == TN_OK)
-        status = count_backward(sparse, weights, max, counts, classes->schema->module->watch, error);
+        status = count_backward(sparse, weights, max, counts, watch, error);
     free(weights);
     return status;
 }
 
 tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, mpz_t count,
-                         tn_error *error)
+                         tn_watch *watch, tn_error *error)
 {
     mpz_set_ui(count, 0);
     if (min > max)
@@ -332,7 +333,7 @@ tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_
         return tn_fail_memory(error);
     for (uint32_t length = 0; length <= max; length++)
         mpz_init(counts[length]);
-    tn_status status = tn_count_lengths(sparse, sizes, max, counts, error);
+    tn_status status = tn_count_lengths(sparse, sizes, max, counts, watch, error);
     for (uint32_t length = min; status == TN_OK && length <= max; length++)
         mpz_add(count, count, counts[length]);
     for (uint32_t length = 0; length <= max; length++)
