@@ -57,7 +57,7 @@ tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status st
     }
     tn_error found;
     if (status == TN_STOPPED) {
-        tn_fail_stopped(&found);
+        tn_fail_stopped(NULL, &found);
         return tn_api_fail(&found, error);
     }
     return status == TN_MEMORY ? tn_api_memory(error)

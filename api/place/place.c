@@ -12,13 +12,6 @@ struct tartan_placement {
     tn_watch watch;
 };
 
-static bool stop(void *context)
-{
-    tartan_placement *p = context;
-    tn_watch_tell(&p->watch, (double)p->model.count, 0);
-    return tn_watch_stopped(&p->watch);
-}
-
 /* The parts as the interface has them. */
 static tartan_status list(tartan_placement *p, tartan_error *error)
 {
@@ -43,9 +36,9 @@ static tartan_status place(const tartan_module *module, const tartan_place_optio
                             .step_limit = options->step_limit,
                             .frame_limit = options->frame_limit,
                             .lookahead_limit = options->lookahead_limit,
-                            .memory_limit = options->memory_limit,
-                            .stop = stop,
-                            .context = p};
+                            .watch = &p->watch};
+    if (options->memory_limit && (!p->watch.memory_limit || options->memory_limit < p->watch.memory_limit))
+        p->watch.memory_limit = options->memory_limit;
     tn_place_fault fault;
     tn_error found;
     tn_status status = tn_place_rules_make(module->module, &p->rules, &found);

@@ -87,8 +87,8 @@ static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count,
         if (!is_own_test(m, b))
             continue;
         add_functions(m, block, functions, count);
-        status =
-            tn_coverage_new(m->schema, functions + first, *count - first, 0, longest, m->options->max_states, &alone, error);
+        status = tn_coverage_new(m->schema, functions + first, *count - first, 0, longest, m->options->max_states,
+                                 &alone, error);
         tn_coverage_free(alone);
         if (status == TN_LIMIT) {
             tn_diagnostic *note = tn_finding_limit(m->opened, error, NULL);

@@ -16,7 +16,7 @@ typedef struct tartan_place_options {
     uint64_t step_limit;      /* 1,000,000,000 */
     uint64_t frame_limit;     /* frames that are open at a time: 1,000,000 */
     uint64_t lookahead_limit; /* steps of one look ahead: 1,000,000 */
-    uint64_t memory_limit;    /* bytes of filled cells: 4 GiB */
+    uint64_t memory_limit;    /* bytes that the process may hold: any number */
 } tartan_place_options;
 TARTAN_SIZED(tartan_place_options)
 

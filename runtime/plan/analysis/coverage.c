@@ -378,8 +378,8 @@ static tn_status count_otherwise(tn_coverage *c, mpz_t flips, tn_error *error)
     if (status == TN_OK)
         status = tn_sparse_words(c->classes->count, c->min, c->max, &plans, error);
     if (status == TN_OK)
-        status = tn_count_both(plans, otherwise, TN_DFA_AND, c->classes->size, c->min, c->max, "difference", &bounds, flips,
-                               error);
+        status = tn_count_both(plans, otherwise, TN_DFA_AND, c->classes->size, c->min, c->max, "difference", &bounds,
+                               flips, error);
     tn_sparse_free(plans);
     tn_dfa_free(otherwise);
     return status;

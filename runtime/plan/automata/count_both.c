@@ -45,7 +45,7 @@ typedef struct tn_both_front {
 
 typedef struct tn_both {
     tn_agreement of;
-    uint32_t *away_a;  /* [states]: symbols to acceptance, or NEVER */
+    uint32_t *away_a; /* [states]: symbols to acceptance, or NEVER */
     uint32_t *away_b;
     uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
     tn_numbering numbers;
@@ -408,8 +408,8 @@ static tn_status walk_pairs(tn_both *both, uint32_t min, const char *what, tn_bo
 }
 
 /* Counts pair by pair. */
-static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min, const char *what,
-                             tn_bounds *bounds, bool *fits, mpz_t count, tn_error *error)
+static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min, const char *what, tn_bounds *bounds,
+                             bool *fits, mpz_t count, tn_error *error)
 {
     tn_agreement *of = &both->of;
     bool swept = false;

@@ -131,8 +131,8 @@ static tn_status count_both(const tn_library *library, const tn_sparse *plans, c
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max, "library", &bounds, count,
-                         error);
+    return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max, "library", &bounds,
+                         count, error);
 }
 
 tn_status tn_library_count_kept(const tn_library *library, const tn_dfa *plans, mpz_t count, tn_error *error)

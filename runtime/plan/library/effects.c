@@ -19,8 +19,8 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(base, clause, operation, library->classes->size, library->min, library->max, "library", &bounds,
-                         count, error);
+    return tn_count_both(base, clause, operation, library->classes->size, library->min, library->max, "library",
+                         &bounds, count, error);
 }
 
 /* Where, and what to do about it. */
@@ -59,7 +59,8 @@ static tn_status count_kept(tn_counting_rest *rest, size_t number, mpz_t only, t
     tn_sparse *plans = NULL;
     tn_status status = tn_others_alone(rest->others, number, &plans, error);
     if (status == TN_OK)
-        status = tn_count_range(plans, library->classes->size, library->min, library->max, only, error);
+        status = tn_count_range(plans, library->classes->size, library->min, library->max, only,
+                                library->schema->module->watch, error);
     if (status == TN_OK) {
         pthread_mutex_lock(&rest->lock);
         if (tn_library_keep_alone(library, rest->others->order[number], plans))

@@ -155,8 +155,8 @@ static tn_status count_with(const tn_others *others, const tn_sparse *plans, con
 {
     const tn_library *library = others->library;
     tn_bounds bounds = tn_library_bounds(library);
-    return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max, others->sequence.what,
-                         &bounds, count, error);
+    return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max,
+                         others->sequence.what, &bounds, count, error);
 }
 
 /* Counts what of the plans the clauses from a number on keep; uses the plans up. */
@@ -167,7 +167,8 @@ static tn_status count_rest(const tn_others *others, size_t from, tn_bounds *bou
     tn_bounds last = tn_library_bounds(library);
     mpz_set_ui(count, 0);
     if (from == others->sequence.count)
-        return tn_count_range(*plans, library->classes->size, library->min, library->max, count, error);
+        return tn_count_range(*plans, library->classes->size, library->min, library->max, count,
+                              library->schema->module->watch, error);
     return tn_sequence_count(&others->sequence, from, library->classes->size, library->min, library->max, bounds, &last,
                              plans, count, error);
 }
