@@ -343,6 +343,7 @@ static tn_status measure_rules(measuring *m, tn_error *error)
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->module->RULE_count; i++) {
         const tn_rule_record *rule = &m->module->RULE_records[i];
+        tn_watch_tell(m->module->watch, i, (double)m->module->RULE_count);
         bool wanted = !(rule->flags & TN_IMPORTED) || (m->options->imported && is_named(m, rule));
         if (wanted && rule->schema == m->schema_index)
             status = measure_subject(

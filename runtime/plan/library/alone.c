@@ -155,19 +155,24 @@ tn_status tn_library_count_alone_less(const tn_library *library, uint32_t i, con
 
 /* ---- shortest plans */
 
+static tn_status read_trays(const tn_library *library, const tn_key *word, tn_tray **trays, size_t *length,
+                            tn_error *error)
+{
+    *length = word->size;
+    *trays = malloc((word->size + 1) * sizeof **trays);
+    for (size_t i = 0; *trays && i < word->size; i++)
+        (*trays)[i] = library->classes->representative[word->data[i]];
+    return *trays ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status shortest(const tn_library *library, const tn_sparse *plans, tn_tray **trays, size_t *length,
                           bool *found, tn_error *error)
 {
     tn_key word = {0};
     *trays = NULL;
     tn_status status = tn_sparse_shortest(plans, library->min, library->max, &word, found, error);
-    if (status == TN_OK && *found) {
-        *length = word.size;
-        *trays = malloc((word.size + 1) * sizeof **trays);
-        status = *trays ? TN_OK : tn_fail_memory(error);
-    }
-    for (size_t i = 0; *trays && i < word.size; i++)
-        (*trays)[i] = library->classes->representative[word.data[i]];
+    if (status == TN_OK && *found)
+        status = read_trays(library, &word, trays, length, error);
     free(word.data);
     return status;
 }
@@ -175,7 +180,13 @@ static tn_status shortest(const tn_library *library, const tn_sparse *plans, tn_
 tn_status tn_library_alone_shortest(const tn_library *library, uint32_t i, tn_tray **trays, size_t *length, bool *found,
                                     tn_error *error)
 {
+    const tn_effect *effect = library->late->effects ? &library->late->effects[i] : NULL;
     const tn_sparse *plans;
+    if (effect && effect->looked) {
+        *trays = NULL;
+        *found = mpz_sgn(effect->only) > 0;
+        return *found ? read_trays(library, &effect->shortest, trays, length, error) : TN_OK;
+    }
     tn_status status = tn_library_alone(library, i, &plans, error);
     return status == TN_OK ? shortest(library, plans, trays, length, found, error) : status;
 }

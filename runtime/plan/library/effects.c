@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/crew.h"
+#include "runtime/plan/automata/shortest.h"
 #include "runtime/plan/library/alone.h"
 #include "runtime/plan/library/others.h"
 
@@ -53,14 +54,17 @@ typedef struct tn_counting_rest {
 } tn_counting_rest;
 
 /* Counts from the automaton, and keeps that. */
-static tn_status count_kept(tn_counting_rest *rest, size_t number, mpz_t only, tn_error *error)
+static tn_status count_kept(tn_counting_rest *rest, size_t number, tn_effect *effect, tn_error *error)
 {
     const tn_library *library = rest->library;
     tn_sparse *plans = NULL;
     tn_status status = tn_others_alone(rest->others, number, &plans, error);
     if (status == TN_OK)
-        status = tn_count_range(plans, library->classes->size, library->min, library->max, only,
+        status = tn_count_range(plans, library->classes->size, library->min, library->max, effect->only,
                                 library->schema->module->watch, error);
+    if (status == TN_OK)
+        status = tn_sparse_shortest(plans, library->min, library->max, &effect->shortest, &effect->looked, error);
+    effect->looked = status == TN_OK;
     if (status == TN_OK) {
         pthread_mutex_lock(&rest->lock);
         if (tn_library_keep_alone(library, rest->others->order[number], plans))
@@ -81,7 +85,7 @@ static void count_clause(void *context, uint32_t i)
         effect->status = rest->started;
         effect->error = rest->failure;
     } else if (effect->status == TN_LIMIT) {
-        effect->status = rest->keeping ? count_kept(rest, i, effect->only, &effect->error)
+        effect->status = rest->keeping ? count_kept(rest, i, effect, &effect->error)
                                        : tn_others_count_alone(rest->others, i, effect->only, &effect->error);
     }
     if (effect->status == TN_LIMIT)
@@ -258,8 +262,10 @@ static tn_status add_effects(const tn_library *library, bool keeping, tn_error *
 
 void tn_effects_free(tn_effect *effects, size_t count)
 {
-    for (size_t i = 0; effects && i < count; i++)
+    for (size_t i = 0; effects && i < count; i++) {
         mpz_clears(effects[i].out, effects[i].only, NULL);
+        free(effects[i].shortest.data);
+    }
     free(effects);
 }
 

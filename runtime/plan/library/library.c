@@ -232,8 +232,11 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
                                   library->applied_count - required, error);
     if (status == TN_OK)
         status = tn_sparse_copy(library->generator, &library->live, error);
-    for (size_t i = required; status == TN_OK && i < library->applied_count; i++)
+    for (size_t i = required; status == TN_OK && i < library->applied_count; i++) {
+        tn_watch_tell(library->schema->module->watch, (double)i, (double)library->applied_count);
         status = apply_clause(library, library->applied[i], &library->live, error);
+    }
+    tn_watch_tell(library->schema->module->watch, 0, 0);
     return status;
 }
 

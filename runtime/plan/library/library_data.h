@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 #include "runtime/plan/automata/count.h"
+#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/automata/sparse.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
@@ -19,6 +20,8 @@
 typedef struct tn_effect {
     mpz_t out;        /* as in tn_library_effect; negative: not counted */
     mpz_t only;       /* where status is TN_OK */
+    tn_key shortest;  /* the first of the shortest plans that only it keeps out, as letters; empty: there is none */
+    bool looked;      /* is that known? */
     tn_status status; /* TN_LIMIT: not counted, or not yet */
     tn_error error;   /* why not */
 } tn_effect;

@@ -3,16 +3,29 @@
 
 #include <stdlib.h>
 
+#define ANSWERS_WORK_PER_STATE 20000u /* steps for all clauses together: of a million states under a minute */
+
 bool tn_others_bounded(const tn_library *library)
 {
     return library->within || library->generator->folded;
 }
 
-tn_bounds tn_others_bounds(const tn_library *library, bool within)
+/* Of plans of any length what is tried before it is asked within the lengths. */
+static tn_bounds row_bounds(const tn_library *library, bool within)
 {
     tn_bounds bounds = tn_library_bounds(library);
     if (!within && library->max_eager < bounds.max_work)
         bounds.max_work = library->max_eager;
+    return bounds;
+}
+
+/* All clauses have an equal share, so that an answer does not depend on which is asked first. */
+static tn_bounds each_bounds(const tn_library *library, bool within)
+{
+    tn_bounds bounds = row_bounds(library, within);
+    uint64_t share = (uint64_t)ANSWERS_WORK_PER_STATE * bounds.max_states / (library->applied_count + 1);
+    if (share < bounds.max_work)
+        bounds.max_work = share;
     return bounds;
 }
 
@@ -88,7 +101,10 @@ tn_status tn_others_make(const tn_library *library, bool within, const tn_others
     tn_others *others = calloc(1, sizeof *others);
     if (!others)
         return tn_fail_memory(error);
-    *others = (tn_others){.library = library, .within = within, .bounds = tn_others_bounds(library, within)};
+    *others = (tn_others){.library = library,
+                          .within = within,
+                          .bounds = row_bounds(library, within),
+                          .each = each_bounds(library, within)};
     others->order = malloc((library->applied_count + 1) * sizeof *others->order);
     others->place = malloc(((size_t)library->record->clause_count + 1) * sizeof *others->place);
     tn_status status =
@@ -137,7 +153,7 @@ static tn_status turn_round(const tn_others *others, size_t number, tn_bounds *b
 
 tn_status tn_others_alone(const tn_others *others, size_t number, tn_sparse **plans, tn_error *error)
 {
-    tn_bounds bounds = others->bounds;
+    tn_bounds bounds = others->each;
     *plans = NULL;
     tn_status status = turn_round(others, number, &bounds, plans, error);
     if (status == TN_OK)
@@ -154,7 +170,7 @@ static tn_status count_with(const tn_others *others, const tn_sparse *plans, con
                             tn_dfa_operation operation, mpz_t count, tn_error *error)
 {
     const tn_library *library = others->library;
-    tn_bounds bounds = tn_library_bounds(library);
+    tn_bounds bounds = others->each;
     return tn_count_both(plans, dfa, operation, library->classes->size, library->min, library->max,
                          others->sequence.what, &bounds, count, error);
 }
@@ -164,7 +180,7 @@ static tn_status count_rest(const tn_others *others, size_t from, tn_bounds *bou
                             tn_error *error)
 {
     const tn_library *library = others->library;
-    tn_bounds last = tn_library_bounds(library);
+    tn_bounds last = others->each;
     mpz_set_ui(count, 0);
     if (from == others->sequence.count)
         return tn_count_range(*plans, library->classes->size, library->min, library->max, count,
@@ -177,7 +193,7 @@ tn_status tn_others_count_alone(const tn_others *others, size_t number, mpz_t co
 {
     const tn_sequence *sequence = &others->sequence;
     const tn_sequence_clause *clause = &sequence->clauses[number];
-    tn_bounds bounds = others->bounds;
+    tn_bounds bounds = others->each;
     tn_sparse *plans = NULL;
     tn_status status;
     if (number + 1 == sequence->count) {
@@ -198,7 +214,7 @@ tn_status tn_others_count(const tn_others *others, const bool *skipped, const tn
 {
     const tn_sequence *sequence = &others->sequence;
     size_t first = sequence->count, end = 0;
-    tn_bounds bounds = others->bounds;
+    tn_bounds bounds = others->each;
     tn_sparse *left = NULL;
     for (size_t i = 0; i < sequence->count; i++) {
         if (!skipped[others->order[i]])

@@ -18,17 +18,14 @@ struct tn_others {
     bool within;          /* only plans of the library's lengths are looked at */
     size_t *order;        /* [applied_count]: the clauses as they are applied here */
     size_t *place;        /* [clause_count]: of each clause in `order`, or SIZE_MAX */
-    tn_bounds bounds;     /* of each automaton's making */
+    tn_bounds bounds;     /* of putting them in a row */
+    tn_bounds each;       /* of an answer */
     tn_sequence sequence; /* of the clauses in that order */
 };
 
 /* Are the plans bounded without the library's lengths too (by totals)? Then what is asked is asked within them at once,
  * since that takes no more states. */
 bool tn_others_bounded(const tn_library *library);
-
-/* The most steps that an answer may take: within the lengths as many as a library, of plans of any length what is tried
- * before that. */
-tn_bounds tn_others_bounds(const tn_library *library, bool within);
 
 /* Puts the clauses in a row. The library keeps what is made (library->late) and frees it. TN_LIMIT (E0802). */
 tn_status tn_others_make(const tn_library *library, bool within, const tn_others **others, tn_error *error);
