@@ -23,4 +23,8 @@ golden check_small 'tartan check blow-up.plan --max-states 3'
 golden relations 'tartan check blow-up.plan --relations --max-states 3'
 golden regex 'tartan export blow-up.plan --regex --rule far'
 golden match "printf '%s\\n' \"$plan | $plan\" | tartan match blow-up.plan --rule far --format bits"
+# Within the library's lengths, so many states are enough for all questions about it; over plans of any length they are not.
+golden ward_count 'tartan count ward-strip.plan --max-states 45000'
+golden ward_check 'tartan check ward-strip.plan --max-states 45000'
+golden ward_coverage 'tartan test ward-strip.plan --coverage --max-states 45000'
 finish
