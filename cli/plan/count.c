@@ -6,6 +6,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
+#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 #include "runtime/base/utf8.h"
@@ -14,7 +15,8 @@ typedef struct count_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_count_options count;
-    const char *by; /* the measure that is counted by */
+    const char *plan; /* whose houses are counted */
+    const char *by;   /* the measure that is counted by */
     const char *step;
     tn_option_number bins;
     const char *output;
@@ -289,15 +291,27 @@ static void answer(tn_job *job, const tn_ready_library *ready, const count_setti
         tn_job_count(job, ready, &settings->count, settings->output);
 }
 
+/* With --plan, or where --library names a library of houses. */
+static bool counts_houses(const tn_job *job, const count_settings *settings)
+{
+    const char *library = settings->plans.library;
+    return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const count_settings *settings = (const count_settings *)common;
     tn_job job;
-    tn_ready_library ready;
+    tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+    bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
+    if (open && counts_houses(&job, settings)) {
+        const tn_house_settings houses = tn_job_houses(&settings->plans);
+        tn_job_count_houses(&job, &houses, settings->plan, settings->count.json, settings->output);
+    } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         answer(&job, &ready, settings);
+    }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -310,6 +324,7 @@ static const tn_option options[] = {
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
     NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
+    TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTION_TRAYS,
@@ -321,13 +336,17 @@ static const tn_option options[] = {
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]",
+    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]\nFILE "
+             "--library HOUSES [--plan PLAN] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
         "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
         "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
         "many more plans there would be without them. Counts are exact whatever their size: they are "
-        "computed over the library's automaton, and no plan is made.",
+        "computed over the library's automaton, and no plan is made. "
+        "Of a library of houses (docs/houses.md) it says how many plans there are and how many have a house, how many "
+        "choices of section and functions, how many with openings, and how many houses. They are counted plan by "
+        "plan; --plan counts those of one plan.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),
