@@ -10,6 +10,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/manual.h"
+#include "cli/common/memory_guard.h"
 #include "cli/common/options.h"
 #include "cli/common/terminal.h"
 
@@ -92,6 +93,7 @@ static int completion(const char *name)
 /* An editor's server has nothing to lose, and ends at once. */
 static void watch(const tn_command *command, const tn_settings *settings)
 {
+    tn_memory_guard_start(command, settings);
     if (strcmp(command->name, "lsp") == 0)
         return;
     tn_interrupt_watch(settings->diagnostics == 1);

@@ -122,6 +122,7 @@ const tn_command tn_command_breed = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "make the population smaller",
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

@@ -124,6 +124,7 @@ const tn_command tn_command_evolve = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "make the population smaller",
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

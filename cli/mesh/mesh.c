@@ -261,6 +261,7 @@ const tn_command tn_command_mesh = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer samples with --grid",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

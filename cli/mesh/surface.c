@@ -47,7 +47,7 @@ tn_status tn_open_field_of(tn_job *job, const char *name, tn_open_field *open, t
         surface++;
     if (surface >= module->SURFACE_count)
         return no_surface(&job->opened, name, error);
-    tn_status status = tn_field_meshes_read(module, tn_openmesh_read, job->opened.path, &open->meshes, error);
+    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, job->opened.path, &open->meshes, error);
     if (status == TN_OK)
         status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
     return status;

@@ -211,6 +211,7 @@ const tn_command tn_command_diff = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "two files, OLD and NEW",
     .operands_min = 2,
     .operands_max = 2,

@@ -467,6 +467,7 @@ const tn_command tn_command_draw = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer of them",
     .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,

@@ -262,6 +262,7 @@ const tn_command tn_command_enumerate = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

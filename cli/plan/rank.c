@@ -131,6 +131,7 @@ const tn_command tn_command_rank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a PLAN",
     .operands_min = 2,
     .operands_max = 2,

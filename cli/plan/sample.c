@@ -145,6 +145,7 @@ const tn_command tn_command_sample = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer plans",
     .operands = "a FILE and a number N",
     .operands_min = 1,
     .operands_max = 2,

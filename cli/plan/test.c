@@ -121,7 +121,8 @@ static int run(const tn_command *command, const tn_settings *common)
             test_solids(&job, &report);
             continue;
         }
-        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, &report.counts));
+        tn_job_status(&job,
+                      tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, NULL, &report.counts));
         if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }

@@ -92,6 +92,7 @@ const tn_command tn_command_unrank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a RANK",
     .operands_min = 2,
     .operands_max = 2,

@@ -99,7 +99,8 @@ static void analyse(tn_job *job, const tn_library *library)
 static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, NULL, &counts));
+    tn_job_show(job);
     write_tested(job, &counts, NULL);
 }
 

@@ -66,7 +66,8 @@ static tn_status open_goals(tn_design_scorer *s, const char *goals, tn_error *er
     if (tn_open(goals, false, &s->opened) != TN_OK)
         return refuse(error, goals, tn_first_error(&s->opened), NULL);
     if (tn_solid_choose(&s->opened, NULL, &solid) != TN_OK)
-        return refuse(error, goals, "it has no design, or more than one", "write a file with one design, and its `fitness` lines");
+        return refuse(error, goals, "it has no design, or more than one",
+                      "write a file with one design, and its `fitness` lines");
     s->record = &s->opened.module->SOLID_records[solid];
     if (s->record->goal_count == 0)
         return refuse(error, goals, "it wants nothing", "add lines such as `fitness lightness = mass target 0;`");
@@ -104,7 +105,8 @@ static tn_status build(const char *sentence, size_t size, tn_opened *opened, tn_
     uint32_t solid;
     *built = (tn_built){0};
     tn_status status =
-        tn_open_text(TN_NOTATION(solid), "the sentence", sentence, size, &(tn_compile_options){0}, opened);
+        tn_open_text(TN_NOTATION(solid), &(tn_input){.text = sentence, .size = size, .name = "the sentence"},
+                     &(tn_compile_options){0}, opened);
     if (status == TN_OK)
         status = tn_solid_choose(opened, NULL, &solid);
     if (status != TN_OK)

@@ -39,7 +39,7 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
         return tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.100s cannot be used: %.300s", path,
                        tn_first_error(&g->opened));
     }
-    tn_status status = tn_study_read(g->opened.module, path, tn_openmesh_read, &g->study, error);
+    tn_status status = tn_study_read(g->opened.module, path, &tn_openmesh_reader, &g->study, error);
     for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
         if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
             g->goals[g->goal_count++] = goal;
@@ -106,7 +106,8 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
     const tn_study *study = &g->study;
     *r = (rules){0};
     tn_status status =
-        tn_open_text(TN_NOTATION(hemls), "the sentence", sentence, size, &(tn_compile_options){0}, &r->opened);
+        tn_open_text(TN_NOTATION(hemls), &(tn_input){.text = sentence, .size = size, .name = "the sentence"},
+                     &(tn_compile_options){0}, &r->opened);
     if (status != TN_OK)
         return tn_open_error(&r->opened, status, error);
     status = tn_growth_system_read(r->opened.module, &r->system, error);

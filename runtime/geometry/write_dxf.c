@@ -240,7 +240,7 @@ static void write_face(tn_text_out *out, const tn_mesh *mesh, uint32_t face, con
 
 static void write_lines(tn_text_out *out, joining *j, bool y_up)
 {
-    for (uint32_t line = 0; line < j->mesh->line_count; line++) {
+    for (uint32_t line = 0; line < j->mesh->line_count && !out->failed; line++) {
         bool closed;
         if (j->done[line])
             continue;
@@ -264,7 +264,7 @@ static void write_all(tn_text_out *out, joining *j, const bool *creases, const t
     write_pair(out, "0", "SECTION");
     write_pair(out, "2", "ENTITIES");
     if (creases)
-        for (uint32_t face = 0; face < j->mesh->face_count; face++)
+        for (uint32_t face = 0; face < j->mesh->face_count && !out->failed; face++)
             write_face(out, j->mesh, face, creases, style->y_up);
     else
         write_lines(out, j, style->y_up);

@@ -128,7 +128,7 @@ static inline void grow_module(const tn_module *module)
     tn_error error;
     tn_status status = tn_growth_system_read(module, &system, &error);
     if (status == TN_OK)
-        status = tn_study_read(module, "fuzz.study", tn_openmesh_read, &study, &error);
+        status = tn_study_read(module, "fuzz.study", &tn_openmesh_reader, &study, &error);
     study.options.edge_limit = GROW_EDGES;
     study.options.threads = 1;
     study.options.explain = true;

@@ -163,6 +163,7 @@ static bool is_number(const tn_checked_schema *schema, const tn_ast_word *word)
 static const tn_ast_word *after_nots(const tn_ast_list *words, bool *negated)
 {
     const tn_ast_word *word = (const tn_ast_word *)words->first;
+    *negated = false;
     for (; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
         *negated = !*negated;
     return word;
