@@ -5,8 +5,11 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/library_job.h"
+#include "driver/open/findings.h"
 #include "driver/report/report.h"
+#include "runtime/plan/library/alone.h"
 
 typedef struct report_settings {
     tn_settings common;
@@ -53,14 +56,23 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *folde
                                  .max_states = (uint32_t)settings->plans.max_states.value};
     const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
                                           .max_states = options.max_states,
+                                          .automaton = ready->library,
                                           .imported = true};
     const tn_plan_analysis_options analysis = {
         .max_states = options.max_states, .library = ready->library, .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses = {0};
     tn_covered covered = {0};
-    tn_status status = tn_plan_analyse(&job->opened, &analysis, &analyses);
+    tn_progress progress;
+    tn_progress_watch(&progress, "clauses counted", tn_interrupt_waiting());
+    tn_status status = tn_library_find_alone(ready->library, &error);
+    if (status != TN_OK)
+        tn_finding_error(&job->opened, &error);
+    else
+        status = tn_plan_analyse(&job->opened, &analysis, &analyses);
+    progress.what = "rules measured";
     if (status == TN_OK)
         status = tn_coverage_measure(&job->opened, &coverage, &covered);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
     if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &covered, &options, &page, &error) == TN_OK)
         write_page(job, path, &page);
@@ -96,8 +108,7 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
            "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     OPTION_MAX_STATES,
     OPTION_THREADS(plans.threads),
     OPTION_WERROR,
@@ -108,12 +119,10 @@ const tn_command tn_command_report = {
     .summary = "write a library as an HTML page",
     .usage = "FILE -o FOLDER",
     .description =
-        "Writes one page that needs no server and no network: the library's counts by length as a chart; every rule "
-        "with its picture, its text, how many plans it prunes or (required) keeps out and how many only it does, or "
-        "(neither) how many it matches, how it lies to the others, the plans that show it, and which of its parts the "
-        "tests notice; "
-        "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
-        "filtered.",
+        "Writes one page that needs no server and no network. It shows the library's counts by length as a chart; "
+        "every rule with its picture, its text, its counts, how it relates to the other rules, the plans that "
+        "prove it, and which of its parts the tests notice; the warnings of checking; and a sample of plans, kept "
+        "and dropped, with the reasons. The sample can be filtered.",
     .example = "$ tartan report lahave-houses -o report",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -28,9 +28,8 @@ typedef struct tartan_placed_part {
 
 typedef struct tartan_placement tartan_placement;
 
-/* Places the parts of the module's grammar. `options` and `watch` may be NULL; the watch is told the parts placed so
- * far. TARTAN_INVALID: the module has no such grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an
- * option's. The placement borrows the module. */
+/* Places the parts of the module's grammar. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such
+ * grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an option's. The placement borrows the module. */
 TARTAN_API tartan_status tartan_place(const tartan_module *module, const tartan_place_options *options,
                                       const tartan_watch *watch, tartan_placement **placement, tartan_error *error);
 TARTAN_API void tartan_placement_free(tartan_placement *placement);

@@ -308,7 +308,7 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
     return status;
 }
 
-tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, tn_watch *watch, mpz_t *counts,
+tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_watch *watch,
                            tn_error *error)
 {
     uint64_t *weights = NULL;
@@ -322,8 +322,8 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint3
     return status;
 }
 
-tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, tn_watch *watch,
-                         mpz_t count, tn_error *error)
+tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, mpz_t count,
+                         tn_watch *watch, tn_error *error)
 {
     mpz_set_ui(count, 0);
     if (min > max)
@@ -333,7 +333,7 @@ tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_
         return tn_fail_memory(error);
     for (uint32_t length = 0; length <= max; length++)
         mpz_init(counts[length]);
-    tn_status status = tn_count_lengths(sparse, sizes, max, watch, counts, error);
+    tn_status status = tn_count_lengths(sparse, sizes, max, counts, watch, error);
     for (uint32_t length = min; status == TN_OK && length <= max; length++)
         mpz_add(count, count, counts[length]);
     for (uint32_t length = 0; length <= max; length++)

@@ -119,8 +119,8 @@ static tn_status make_totals(tn_library *library, tn_error *error)
         if (length >= library->min)
             tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
     }
-    return tn_count_lengths(library->generator, library->classes->size, library->max, library->schema->module->watch,
-                            library->generated, error);
+    return tn_count_lengths(library->generator, library->classes->size, library->max, library->generated,
+                            library->schema->module->watch, error);
 }
 
 /* Marks how many trays of each column have passed, every so many trays. */
