@@ -1,3 +1,4 @@
+/* Turns an engine's finding, a code offset, into a message at its place in the source. */
 #include "driver/open/findings.h"
 
 bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)

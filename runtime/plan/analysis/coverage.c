@@ -1,3 +1,4 @@
+/* Counts what would be decided otherwise if a part of a rule never matched. */
 #include "runtime/plan/analysis/coverage.h"
 
 #include <stdlib.h>
