@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
@@ -100,6 +101,8 @@ static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
     const tn_library *library = c->ready->library;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i <= c->length_count; i++) {
+        if (tn_interrupt_check(error) != TN_OK)
+            return TN_STOPPED;
         uint32_t length = i == c->length_count ? TN_ALL_LENGTHS : c->low + (uint32_t)i;
         tn_library_kept(library, length, c->lengths[i].kept);
         status = tn_library_generated(library, length, c->lengths[i].generated, error);
@@ -135,7 +138,7 @@ static void write_lengths(const counts *c, FILE *out)
     if (c->mirror)
         fprintf(out, "  %*s", mirror, "up to mirror");
     fputc('\n', out);
-    for (size_t i = 0; i <= c->length_count; i++) {
+    for (size_t i = 0; i <= c->length_count && !tn_interrupted(); i++) {
         if (i < c->length_count)
             fprintf(out, "%8zu", c->low + i);
         else
@@ -165,7 +168,7 @@ static void write_clauses(const counts *c, bool prunes, const char *what, const 
     }
     if (any)
         fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, what, outs, out_heading, onlys, "only by it", "states");
-    for (uint32_t i = 0; i < c->clause_count; i++) {
+    for (uint32_t i = 0; i < c->clause_count && !tn_interrupted(); i++) {
         if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
             continue;
         fprintf(out, "%-*s", names, clause_name(c, i));
@@ -205,7 +208,7 @@ static void set_number(json_t *object, const char *key, const mpz_t number)
 static json_t *lengths_json(const counts *c)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < c->length_count; i++) {
+    for (size_t i = 0; i < c->length_count && !tn_interrupted(); i++) {
         json_t *item = json_object();
         json_object_set_new(item, "length", json_integer((json_int_t)(c->low + i)));
         set_number(item, "generated", c->lengths[i].generated);
@@ -275,7 +278,10 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
         tn_job_fail(job, &error);
     } else if (tn_job_output(job, path, &output)) {
         (options->json ? write_json : write_text)(&c, output.stream);
-        tn_job_commit(job, &output);
+        bool complete = tn_interrupt_check(&error) == TN_OK; /* long plans have long numbers, and take long to write */
+        if (!complete)
+            tn_job_fail(job, &error);
+        tn_job_close(job, &output, complete);
     }
     counts_free(&c);
 }

@@ -315,9 +315,9 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "draw either rules or plans, not both");
     else if (is_sampled(settings) && settings->common.operands.count > 1)
         tn_job_usage(job, "draw either a file of plans or a --sample, not both");
-    else if (!is_sampled(settings) &&
-             (settings->sampled.seed.given || settings->sampled.length.given || settings->plans.trays.given))
-        tn_job_usage(job, "--seed, --length and --trays say what is sampled: give --sample N too");
+    else if (!is_sampled(settings) && (settings->sampled.seed.given || settings->sampled.length.given ||
+                                       settings->sampled.diverse || settings->plans.trays.given))
+        tn_job_usage(job, "--seed, --length, --diverse and --trays say what is sampled: give --sample N too");
     else
         return true;
     return false;
@@ -424,6 +424,7 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    OPTION_DIVERSE,
     TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
     TEXT("paper", 0, "SIZE", paper,
          "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
@@ -447,8 +448,9 @@ static const tn_option options[] = {
 const tn_command tn_command_draw = {
     .name = "draw",
     .summary = "draw plans, rules or a design of boxes",
-    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
-             "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg",
+    .usage =
+        "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] [--diverse] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
+        "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg",
     .description =
         "Draws plans on one sheet: from a file, from standard input, or sampled from the library. Each plan is "
         "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "

@@ -39,6 +39,12 @@ void tn_watch_begin(tn_watch *watch, tn_go_on *go_on, void *context);
 /* Is it over? On the watch's own thread the callback is asked first, some thirty times a second. NULL: never. */
 bool tn_watch_stopped(tn_watch *watch);
 
+/* The same for long loops: asked at every so manieth item. */
+static inline bool tn_watch_stopped_at(tn_watch *watch, size_t item)
+{
+    return item % 4096 == 0 && tn_watch_stopped(watch);
+}
+
 /* The same as a status: TN_OK, or TN_STOPPED with a sentence. */
 tn_status tn_watch_check(tn_watch *watch, tn_error *error);
 
