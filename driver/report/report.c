@@ -1,3 +1,4 @@
+/* Writes the report of a library: the page, its counts and its warnings. */
 #include "driver/report/report.h"
 
 #include <stdlib.h>
