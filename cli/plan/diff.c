@@ -191,10 +191,7 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", compare.output,
          "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", compare.title, "the picture's title"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_diff = {

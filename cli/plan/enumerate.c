@@ -230,8 +230,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS enumerate_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
@@ -241,10 +240,7 @@ static const tn_option options[] = {
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_enumerate = {

@@ -139,8 +139,7 @@ static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     OPTION_OUTPUT,
     OPTION_MAX_STATES,
 };

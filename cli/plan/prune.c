@@ -184,8 +184,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS prune_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     TEXT("dropped", 'd', "FILE", dropped,
          "write the plans that are dropped to FILE, each with the clauses that drop it"),
     CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),

@@ -118,8 +118,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS sample_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
@@ -128,10 +127,7 @@ static const tn_option options[] = {
     OPTION_PLAN_FORMAT,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_sample = {

@@ -73,13 +73,9 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS unrank_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     FLAG("json", 0, json, "write the plan as a JSON object"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_unrank = {

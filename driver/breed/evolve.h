@@ -104,7 +104,7 @@ tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, 
  * said at every resuming. */
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
 
-/* Is there nothing left to wish for (`stop`)? */
+/* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);
 
 /* Writes best/, stats.csv and fitness.svg. */

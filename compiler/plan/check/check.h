@@ -135,7 +135,8 @@ typedef struct tn_checked_rule {
     const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
     struct tn_checked_rule *of; /* the template that a hidden rule was made of */
     tn_checked_sum *sum;        /* of a measure; NULL: already reported */
-    uint32_t serial;            /* among all that is checked as rules are */
+    struct tn_checked_form *form; /* whose houses it is about; NULL: it is about plans */
+    uint32_t serial;              /* among all that is checked as rules are */
     uint32_t index, whole, holds; /* emitted: of its record and functions */
 } tn_checked_rule;
 
@@ -158,6 +159,8 @@ typedef struct tn_checked_library {
     size_t unit;
     tn_checked_schema *schema; /* NULL: already reported */
     struct tn_checked_library *from;
+    struct tn_checked_library *plans; /* of a library of houses: whose plans they stand on */
+    struct tn_checked_form *form;     /* of a library of houses; NULL: of plans */
     tn_checked_clause **clauses;
     size_t clause_count, clause_capacity;
     tn_names clause_names;      /* name -> tn_checked_clause */
@@ -228,7 +231,9 @@ typedef struct tn_check {
     /* of the rule or library being checked */
     size_t unit;
     tn_checked_schema *schema;
-    tn_checked_rule *rule; /* NULL in a library */
+    tn_checked_rule *rule;        /* NULL in a library */
+    struct tn_checked_form *form; /* of a library of houses */
+    bool form_wrong;              /* it has another one than it says, which was reported */
     tn_ast_list allow;
 } tn_check;
 
@@ -283,6 +288,7 @@ tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span);
 
 /* ---- condition.c */
+#define TN_AREAS (TN_NONE - 1) /* instead of a field: areas are added, in halves of a square micrometre */
 /* `field`: whose lengths are added, or TN_NONE for a count. */
 tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field);
 /* The condition of a `total`. */
@@ -333,6 +339,18 @@ void tn_check_settle(tn_check *check); /* checks the rules that were added since
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
+
+/* ---- house.c: what is asked of houses */
+/* `cell`, `room`, `section`, `touch`, `apart`: finds the form that is meant, and what they say of it. */
+void tn_check_ask(tn_check *check, tn_ast_expr *expr);
+bool tn_sums_areas(const tn_ast_expr *sum); /* is it `sum(area of cell(...), ...)`? */
+void tn_check_areas(tn_check *check, tn_ast_expr *sum);
+/* A rule that is named: is it about houses of the same form as what names it? */
+void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
+/* The form called so, where it is in scope; NULL: there is none. */
+struct tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const char *name);
+/* Numbers the rules and libraries that there are records of: those of plans, and those of houses. */
+void tn_check_number_records(tn_check *check);
 
 /* ---- order.c */
 void tn_check_order(tn_check *check); /* orders the rules, callees first; reports circles */

@@ -21,17 +21,19 @@ static bool expects(const tn_expected *e, const char *token)
     return false;
 }
 
+enum { GROUP_MAX = 32 };
+
 /* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers
  * all of its tokens. */
 static const struct {
     const char *phrase;
-    const char *tokens[28];
+    const char *tokens[GROUP_MAX];
 } groups[] = {
     {"a rule expression",
      {"`tray`",  "`neighbour`",      "`any`",      "a name",     "`not`",       "`symmetric`", "`quantity`", "`sum`",
       "`many`",  "`occurrences`",    "`optional`", "`distance`", "`beginning`", "`end`",       "`(`",        "`trays`",
       "an area", "a decimal number", "`matches`",  "`some`",     "`every`",     "`plan`",      "a number",   "a length",
-      "`-`"}},
+      "`-`",     "`cell`",           "`room`",     "`section`",  "`touch`",     "`apart`"}},
     {"an operator such as `and`, `or` or `>`",
      {"`and`", "`+`", "`or`", "`implies`", "`in`", "`*`", "`/`", "`-`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"`+`, `-`, `*` or `/`", {"`+`", "`*`", "`/`", "`-`"}},
@@ -73,7 +75,7 @@ static size_t say_groups(tn_expected *e, char *text, size_t size)
             open |= !e->said[i] && strcmp(e->tokens[i], tokens[0]) == 0;
         if (!open || !expects(e, tokens[1]))
             continue;
-        for (size_t t = 0; t < 28 && tokens[t]; t++)
+        for (size_t t = 0; t < GROUP_MAX && tokens[t]; t++)
             for (size_t i = 0; i < e->count; i++)
                 e->said[i] |= strcmp(e->tokens[i], tokens[t]) == 0;
         add_phrase(text, size, groups[g].phrase, &said);

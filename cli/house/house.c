@@ -128,7 +128,8 @@ static void write_files(tn_job *job, const tn_house *house)
 
 static void read_house(tn_job *job, const tn_house_form *form, const char *line)
 {
-    size_t max_trays = settings_of(job)->max_length.given ? (size_t)settings_of(job)->max_length.value : 4096;
+    size_t max_trays =
+        settings_of(job)->max_length.given ? (size_t)settings_of(job)->max_length.value : TN_HOUSE_TRAYS_DEFAULT;
     tn_house house;
     tn_error error = {0};
     tn_status status = tn_house_read(form, line, strlen(line), max_trays, &house, &error);
