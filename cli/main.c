@@ -12,6 +12,7 @@
 #include "cli/common/manual.h"
 #include "cli/common/memory_guard.h"
 #include "cli/common/options.h"
+#include "cli/common/pipes.h"
 #include "cli/common/terminal.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
@@ -117,6 +118,7 @@ static int run(const tn_command *command, int count, char **words)
         exit_code = help(command->name, false);
     } else {
         watch(command, settings);
+        tn_pipes_announce(settings);
         exit_code = command->run(command, settings);
     }
     tn_settings_free(command, settings);

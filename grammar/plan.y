@@ -36,6 +36,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %union {
     tn_ast_word *word;
     tn_ast_list list;
+    tn_ast_literal literal;
     tn_ast_range range;
     tn_operator op;
     tn_ast_cond *cond;
@@ -54,7 +55,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token END_OF_FILE 0 "the end of the file"
 %token <word> NAME "a name" FIELD_NAME "a field" NUMBER "a number" LENGTH "a length" STRING "a text in quotes"
 %token <word> CLAUSE_NAME "a clause's name"
-%token <word> AREA "an area"
+%token <word> AREA "an area" HOUSE "a house"
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
@@ -63,7 +64,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
-%token IN "`in`" MOD "`mod`"
+%token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`"
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
@@ -85,8 +86,10 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <rule> rule_head
 %type <library> library_head
 %type <word> doc role using constant operand spec_word literal_word clause_name expectation
-%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names plan trays words
+%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
+%type <list> by_kinds walk_by
+%type <literal> plan
 %type <range> range
 %type <op> comparison
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
@@ -378,8 +381,27 @@ primary
     | SUM OPEN tray_sum COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
     | SUM OPEN tray_sum OF expression COMMA condition CLOSE
                                                 { $$ = tn_ast_sum(parse, @$, $3, $5, $7); }
+    | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
+    | ROOM OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_ROOM, @$, $3); }
+    | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
+    | TOUCH OPEN cells COMMA cells by_kinds CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_TOUCH, @$, tn_ast_append(tn_ast_one($3), $5), $6); }
+    | APART OPEN cells COMMA FROM cells walk_by CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_one($3), $6), $7); }
+    | APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $9), $10); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
+    ;
+
+by_kinds
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | BY or_names                               { $$ = $2; }
+    ;
+
+walk_by
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | COMMA BY or_names                         { $$ = $3; }
     ;
 
 head_number
@@ -517,6 +539,7 @@ comparison
 library_head
     : library NAME doc using                    { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4}; }
     | library NAME doc using FROM NAME          { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6}; }
+    | library NAME doc using FROM NAME IN NAME  { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6, .in = $8}; }
     ;
 
 clauses
@@ -827,7 +850,8 @@ expectation
     ;
 
 plan
-    : OPEN_BRACKET trays CLOSE_BRACKET          { $$ = $2; }
+    : OPEN_BRACKET trays CLOSE_BRACKET          { $$ = (tn_ast_literal){.trays = $2}; }
+    | OPEN_BRACKET HOUSE CLOSE_BRACKET          { $$ = (tn_ast_literal){.house = $2}; }
     ;
 
 trays

@@ -155,9 +155,10 @@ static void complete_tray(cursor *c, bool literal)
 
 static void complete_expression(cursor *c)
 {
-    static const char *const words[] = {"tray",     "any",         "neighbour", "symmetric", "quantity", "sum",
-                                        "many",     "occurrences", "distance",  "and",       "or",       "not",
-                                        "optional", "beginning",   "end",       "using",     "allow",    NULL};
+    static const char *const words[] = {"tray",        "cell",      "room",      "section",  "touch", "apart",
+                                        "any",         "neighbour", "symmetric", "quantity", "sum",   "many",
+                                        "occurrences", "distance",  "and",       "or",       "not",   "optional",
+                                        "beginning",   "end",       "using",     "allow",    NULL};
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
     offer_words(c, words);
 }

@@ -202,7 +202,7 @@ static void use_test(tn_index *index, const tn_ast_test *test)
     }
     const tn_symbol *schema = tn_index_schema(index, subject ? subject->name : NULL);
     for (TN_EACH(const tn_ast_case, test_case, test->cases)) {
-        for (TN_EACH(const tn_ast_tray, tray, test_case->trays))
+        for (TN_EACH(const tn_ast_tray, tray, test_case->literal.trays))
             use_words(index, schema, NULL, &tray->words);
         for (TN_EACH(const tn_ast_word, name, test_case->by))
             if (!use_name(index, &index->clauses, name))

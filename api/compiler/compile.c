@@ -42,7 +42,8 @@ void tn_api_report(tn_diagnostics *diagnostics, tartan_report *report, void *con
 }
 
 /* The first error, in one sentence. */
-tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, tartan_error *error)
+tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, const tn_watch *watch,
+                                 tartan_error *error)
 {
     for (size_t i = 0; i < diagnostics->count; i++) {
         const tn_diagnostic *item = &diagnostics->items[i];
@@ -57,7 +58,7 @@ tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status st
     }
     tn_error found;
     if (status == TN_STOPPED) {
-        tn_fail_stopped(NULL, &found);
+        tn_fail_stopped(watch, &found);
         return tn_api_fail(&found, error);
     }
     return status == TN_MEMORY ? tn_api_memory(error)
@@ -127,7 +128,8 @@ static tartan_status open_text(const char *path, const char *text, size_t size, 
     if (compiled == TN_MEMORY && !opened->compilation.arena)
         return tn_api_memory(error);
     tn_api_report(&opened->compilation.diagnostics, options->report, options->report_context);
-    return compiled == TN_OK ? TARTAN_OK : tn_api_first_error(&opened->compilation.diagnostics, compiled, error);
+    return compiled == TN_OK ? TARTAN_OK
+                             : tn_api_first_error(&opened->compilation.diagnostics, compiled, &watch, error);
 }
 
 static tartan_status take(const char *path, const tartan_compile_options *given, tartan_compile_options *options,
@@ -226,7 +228,7 @@ tartan_status tartan_format_text(const char *path, const char *text, size_t size
         *formatted = made;
         *formatted_size = made_size;
     } else {
-        result = tn_api_first_error(&diagnostics, status, error);
+        result = tn_api_first_error(&diagnostics, status, NULL, error);
     }
     tn_diagnostics_clear(&diagnostics);
     tn_sources_clear(&sources);

@@ -14,7 +14,9 @@ tartan_status tn_api_open_file(const char *path, const tartan_compile_options *o
 /* Everything that there is to say, to the caller's function (may be NULL). */
 void tn_api_report(tn_diagnostics *diagnostics, tartan_report *report, void *context);
 
-/* What made the work fail, in one sentence: the first error. Returns the status. */
-tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, tartan_error *error);
+/* What made the work fail, in one sentence: the first error, or why the watch (which may be NULL) ended it.
+ * Returns the status. */
+tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, const tn_watch *watch,
+                                 tartan_error *error);
 
 #endif

@@ -37,8 +37,6 @@ static tartan_status place(const tartan_module *module, const tartan_place_optio
                             .frame_limit = options->frame_limit,
                             .lookahead_limit = options->lookahead_limit,
                             .watch = &p->watch};
-    if (options->memory_limit && (!p->watch.memory_limit || options->memory_limit < p->watch.memory_limit))
-        p->watch.memory_limit = options->memory_limit;
     tn_place_fault fault;
     tn_error found;
     tn_status status = tn_place_rules_make(module->module, &p->rules, &found);

@@ -60,7 +60,7 @@ tartan_status tn_api_source_end(tn_api_work *work, tn_status status, tartan_erro
 {
     tn_diagnostics *list = &work->source->opened.compilation.diagnostics;
     work->source->opened.module->watch = NULL;
-    tartan_status result = status == TN_OK ? TARTAN_OK : tn_api_first_error(list, status, error);
+    tartan_status result = status == TN_OK ? TARTAN_OK : tn_api_first_error(list, status, &work->watch, error);
     tn_diagnostics_clear(list);
     *list = work->kept;
     return result;

@@ -4,8 +4,7 @@
 
 #include "cli/common/job.h"
 #include "cli/common/mesh_output.h"
-#include "runtime/field/contour.h"
-#include "runtime/field/meshes.h"
+#include "cli/mesh/surface.h"
 #include "runtime/geometry/measure.h"
 
 typedef struct tn_mesh_settings {
@@ -35,16 +34,6 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char 
 
 /* Meshes a design of boxes of the file that is open, and reports what fails. */
 void tn_job_mesh_solid(tn_job *job, tn_out_format format);
-
-/* A surface of the file that is open. Close it in any case. */
-typedef struct tn_open_field {
-    tn_field_meshes meshes;
-    tn_field field;
-} tn_open_field;
-
-/* The surface of --surface, or the last of the file. */
-tn_status tn_open_field_of(tn_job *job, tn_open_field *open, tn_error *error);
-void tn_open_field_close(tn_open_field *open);
 
 /* What there is to say of a mesh. */
 typedef struct tn_mesh_stats {

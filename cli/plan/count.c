@@ -338,8 +338,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS count_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     FLAG("json", 0, count.json, "write JSON, every count as a string of digits"),
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
@@ -348,10 +347,7 @@ static const tn_option options[] = {
          "leave out what each clause does, which may take far longer than the counts"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_count = {
@@ -360,13 +356,14 @@ const tn_command tn_command_count = {
     .usage =
         "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]",
     .description =
-        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
-        "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
-        "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
-        "many more plans there would be without them. The counts are written first. What each clause does may take far "
-        "longer where there are hundreds of clauses: each has an equal share of the work, and one that needs more is "
-        "not counted, with a note; --no-effects leaves it out. Counts are exact whatever their size: they are "
-        "computed over the library's automaton, and no plan is made.",
+        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
+        "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
+        "these lengths that it keeps out. For both it counts how many more plans there would be without that "
+        "clause. The counts are written first. What each clause does may take far longer where there are hundreds of "
+        "clauses: each has an equal share of the work, and one that needs more is not counted, with a note. "
+        "--no-effects leaves it out. Counts are exact, whatever their size. They are computed from the library's "
+        "automaton, without "
+        "listing plans.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

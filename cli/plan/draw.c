@@ -419,8 +419,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
@@ -442,25 +441,22 @@ static const tn_option options[] = {
     OPTION_MAX_BOXES(max_boxes),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans on a sheet, to scale, or a design of boxes",
+    .summary = "draw plans, rules or a design of boxes",
     .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
              "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg",
     .description =
-        "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
-        "zones, marks and "
-        "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
-        "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
-        "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
-        "of "
-        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.\n"
+        "Draws plans on one sheet: from a file, from standard input, or sampled from the library. Each plan is "
+        "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
+        "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
+        "pages as it needs; SVG and PNG are one sheet.\n\n"
+        "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
+        "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
+        "their zones.\n\n"
         "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",

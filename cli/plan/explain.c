@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/judged.h"
 #include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
@@ -318,6 +319,17 @@ static void draw_solid(tn_job *job)
         tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
 }
 
+static void explain_plan_or_house(tn_job *job)
+{
+    const explain_settings *settings = settings_of(job);
+    const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : "";
+    if (tn_is_house_line(text))
+        tn_job_explain_house(job, settings->plans.library, &settings->rules, text, settings->full, settings->json,
+                             tn_job_max_length(&settings->plans));
+    else
+        explain(job);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -331,7 +343,7 @@ static int run(const tn_command *command, const tn_settings *common)
         tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
                              settings_of(&job)->json);
     else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
-        explain(&job);
+        explain_plan_or_house(&job);
     return tn_job_end(&job);
 }
 
@@ -355,19 +367,20 @@ static const tn_option options[] = {
 
 const tn_command tn_command_explain = {
     .name = "explain",
-    .summary = "say why a plan is kept or dropped, and by which trays",
-    .usage = "FILE PLAN\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o STEPS.svg]",
+    .summary = "explain why a library keeps or drops a plan",
+    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o "
+             "STEPS.svg]",
     .description =
-        "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
-        "with "
-        "its trays, - where it does not, with what comes closest; what is counted, and what lies between for a "
-        "distance. "
-        "(A distance asks for some source that is far from every destination: one is enough.) Of a rule that does not "
-        "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
-        "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
-        "the "
-        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
-        "Of a design of boxes it says how they were squashed, pair by pair; with -o it draws each step.",
+        "Says which clauses of a library drop a plan, and shows for each clause how its parts come out. + marks a "
+        "part that matches, with its trays. - marks a part that does not match, with what comes closest. For a "
+        "rule that does not match, the largest part that does is shown. A distance needs only one source that is "
+        "far from every destination, so one is shown.\n\n"
+        "For a dropped plan, the nearest plans that the library keeps follow. A changed field costs 1; a tray "
+        "that is added or left out costs as much as it has fields. With --rule, or if the file has no library, "
+        "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
+        "HOUSE is a house line (docs/houses.md): explain says which clauses of a library of houses drop it, and "
+        "whether its plan is one of the library's. The tiles may be left out.\n\n"
+        "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

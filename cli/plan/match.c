@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/judged.h"
 #include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
@@ -162,10 +163,15 @@ static void match_plans(matching *m)
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const match_settings *settings = (const match_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
     matching m = {.job = &job, .path = tn_job_plans_path(&job)};
-    if (m.path && tn_job_open(&job, common->operands.items[0]) && choose_rules(&m) && compile_rules(&m))
+    bool open = m.path && tn_job_open(&job, common->operands.items[0]);
+    if (open && tn_job_matches_houses(&job, &settings->rules))
+        tn_job_match_houses(&job, &settings->rules, m.path, (tn_house_answer)settings->format, settings->output,
+                            tn_job_max_length(&settings->plans));
+    else if (open && choose_rules(&m) && compile_rules(&m))
         match_plans(&m);
     tn_rules_free(m.compiled);
     tn_schema_free(m.schema);
@@ -190,13 +196,14 @@ static const tn_option options[] = {
 
 const tn_command tn_command_match = {
     .name = "match",
-    .summary = "say which rules each plan matches",
+    .summary = "print which rules match each plan",
     .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits]",
-    .description = "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; standard input where no file or - is "
-                   "given) and writes a line "
-                   "for each: the rules it matches, of those that the file itself holds, in their order. The exit code "
-                   "is 0 whether or "
-                   "not a rule matches.",
+    .description =
+        "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; from standard input if no file or - is "
+        "given). For each plan it writes a line with the rules that match, of those that the file itself holds, "
+        "in their order. The exit code is 0 whether or not a rule matches.\n\n"
+        "If the file has rules about houses, or --rule names one, house lines are read instead (docs/houses.md). "
+        "Their tiles may be left out.",
     .example = "$ tartan match lahave plans.txt --rule narrow-pair --format bits",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -155,15 +155,15 @@ const tn_command tn_command_test = {
     .summary = "run the test blocks of rule files",
     .usage = "FILE...",
     .description =
-        "Runs every test block of the files, each case by the interpreter and by the automata. A failure "
-        "shows the plan, what "
-        "was expected of it, the rule with its place, and how the rule's parts came out. A case marked "
-        "`todo` is expected to fail; once it passes, that is a failure. The last line says how many passed "
-        "and failed; the exit code is 1 where one failed. With --coverage, for each part of each rule and clause: how "
-        "many of the plans that the library generates (without a library: of all plans of up to 4 trays) "
-        "would be decided otherwise if it never matched, counted exactly, and whether a test case would "
-        "notice. Of designs of boxes it prints what they measure and holds them to their requirements. Tests of files "
-        "that are only used (`use`) do not run.",
+        "Runs every test block of the files, each case by the interpreter and by the automata. A failure shows "
+        "the plan, what was expected of it, the rule with its place, and how the rule's parts came out. A case "
+        "marked `todo` is expected to fail; when it passes, that is a failure too. The last line says how many "
+        "passed and failed, and the exit code is 1 if one failed. Tests of files that are only used (`use`) do "
+        "not run.\n\n"
+        "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
+        "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
+        "are those that the library generates or, without a library, all plans of up to 4 trays.\n\n"
+        "For designs of boxes it prints what they measure, and checks their requirements.",
     .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),

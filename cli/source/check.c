@@ -266,25 +266,22 @@ static const tn_option options[] = {
 
 const tn_command tn_command_check = {
     .name = "check",
-    .summary = "say what is wrong with rule files",
+    .summary = "check rule files for errors and warnings",
     .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE --test --json\nFILE [--test] [--count] [--diff OLD] "
              "[--library "
              "NAME]\nFILE --relations [--examples] [--json]",
     .description =
-        "Compiles each rule file and all that it uses, and shows every error and warning with its place and a "
-        "suggestion. Then says what the file's rules and libraries mean where that is surely not meant: a rule that "
-        "matches no plan or every plan, or just what another one does; a pruning rule or requirement that changes "
-        "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
-        "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
-        "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end, and of a design of boxes (.solid) "
-        "where "
-        "boxes are squashed, clipped away or apart. "
-        "Connection grammars (.pcfg) are one grammar together, in the order given. "
-        "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
-        "testing, "
-        "counting and comparing have in common is worked out once, so that after an edit this is faster than one "
-        "command after another. The answers are those of the other commands.",
+        "Compiles each rule file and all files that it uses, and shows every error and warning with its place and "
+        "a suggested fix.\n\n"
+        "Then it warns about rules that are probably wrong: a rule that matches no plan, every plan, or only what "
+        "another rule matches; a pruning rule or requirement that changes nothing; a library without a plan, with "
+        "the clauses that contradict each other; a distance that only holds where there is no destination. This "
+        "is decided on the rules' automata, for plans of any length, and the shortest plan is shown as proof. A "
+        "module (.tnb) is checked for loading. A grammar (.bnf) gets a warning if its sentences tend to grow "
+        "without end, and a design of boxes (.solid) if boxes are squashed, clipped away or apart. Several "
+        "connection grammars (.pcfg) are one grammar, in the order given.\n\n"
+        "With --test, --count or --diff the answers of these commands are given too. That is faster than one "
+        "command after another, because they share most of their work.",
     .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples\n$ tartan check "
                "houses.plan --test --count "
                "--diff old.plan",

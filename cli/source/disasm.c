@@ -106,8 +106,8 @@ const tn_command tn_command_disasm = {
     .summary = "list the bytecode of a rule file or module",
     .usage = "FILE [--rule NAME]... [-o FILE.txt]\nFILE.field --tape [-o FILE.txt]",
     .description =
-        "Lists the tables of a module and each function's bytecode beside the source lines it comes from. Takes a rule "
-        "file (compiled on the way) or a module.",
+        "Lists the tables of a module, and each function's bytecode beside the source lines that it comes from. "
+        "Takes a rule file, which is compiled first, or a module.",
     .example = "$ tartan disasm houses.plan | less",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -165,7 +165,7 @@ static void read_numbers(const reading *r, const operation *op, tn_pcfg_text arg
     }
 }
 
-/* ---- what is surely not meant */
+/* ---- warnings */
 
 static void warn_of_size(const reading *r)
 {

@@ -14,9 +14,9 @@ enum {
 /* Does a bracket stand directly at the word before it? */
 static bool takes_bracket(const tn_format *format, size_t i)
 {
-    static const char *const calls[] = {"cell",        "section", "tray",     "neighbour", "neighbor", "quantity",
-                                        "occurrences", "sum",     "distance", "many",      "optional", "every",
-                                        "matches",     "min",     "max",      NULL};
+    static const char *const calls[] = {"cell",     "room",     "touch",       "apart", "section",  "tray", "neighbour",
+                                        "neighbor", "quantity", "occurrences", "sum",   "distance", "many", "optional",
+                                        "every",    "matches",  "min",         "max",   NULL};
     return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
 }
 

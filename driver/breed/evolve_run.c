@@ -178,7 +178,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     if (run->generations == 0 || !evaluator->adjust) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning"
+        tn_error_help(error, run->generations ? "targets and weights belong to growing, building and learning"
                                               : "change the study itself");
         return TN_INVALID;
     }

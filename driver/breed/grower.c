@@ -169,8 +169,7 @@ static bool find_goal(const tn_grower *g, const char *name, uint32_t *goal)
     return false;
 }
 
-/* Reads "target 3 weight 2", in any order. */
-static bool read_wish(const char *text, double *target, double *weight)
+bool tn_wish_read(const char *text, double *target, double *weight)
 {
     while (text[strspn(text, " ")]) {
         char what[16];
@@ -206,7 +205,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
            weight = !found    ? 0
                     : is_term ? wants->weight[goal]
                               : named->weight;
-    if (!found || !change[length] || !read_wish(change + length, &target, &weight)) {
+    if (!found || !change[length] || !tn_wish_read(change + length, &target, &weight)) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
         tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
                       name_of(g, g->goals[0]));
@@ -225,16 +224,18 @@ tn_evaluator tn_grower_evaluator(tn_grower *grower)
                           .adjust = adjust};
 }
 
-const char *tn_grower_objective(const tn_grower *g, size_t i)
+const char *tn_grower_objective(const void *grower, size_t i)
 {
+    const tn_grower *g = grower;
     return name_of(g, g->goals[i]);
 }
 
 /* ---- pictures */
 
-tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const char *const *labels, size_t count,
+tn_status tn_grower_draw(const void *grower, const char *const *sentences, const char *const *labels, size_t count,
                          const char *title, const char *path, tn_error *error)
 {
+    const tn_grower *g = grower;
     tn_canvas_format format;
     tn_view **views = calloc(count + 1, sizeof *views);
     tn_camera camera = tn_camera_default();

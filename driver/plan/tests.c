@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/house/tests.h"
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
@@ -360,6 +361,14 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_wat
         tn_error error;
         if (b.tests->imported)
             continue;
+        if (b.tests->of_houses) {
+            tn_status status =
+                tn_house_tests_run(opened, b.tests, &counts->passed, &counts->failed, &counts->todo, &error);
+            if (status == TN_OK)
+                continue;
+            tn_finding_error(opened, &error);
+            return status;
+        }
         tn_status status = b.tests->is_measure ? run_values(&b, watcher, counts, &error)
                                                : run_block(&b, max_states, watcher, counts, &error);
         if (status != TN_OK) {

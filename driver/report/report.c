@@ -82,7 +82,7 @@ static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
     return good && tn_report_html(r, "</div>\n");
 }
 
-/* What checking found to say about the rules. */
+/* The warnings of checking, and its notes but for limits. */
 static bool put_findings(const tn_reporting *r)
 {
     tn_diagnostics *found = &r->opened->compilation.diagnostics;
@@ -95,7 +95,7 @@ static bool put_findings(const tn_reporting *r)
         good = put_finding(r, item);
         any = true;
     }
-    return good && (any || tn_report_html(r, "<p class=\"quiet\">Nothing: `tartan check` has no warning.</p>\n"));
+    return good && (any || tn_report_html(r, "<p class=\"quiet\">`tartan check` has no warnings.</p>\n"));
 }
 
 /* ---- limits */
@@ -153,7 +153,7 @@ static bool put_head(const tn_reporting *r)
            tn_report_text(r, name) && tn_report_html(r, "</title>\n") && tn_report_html(r, tn_report_head) &&
            tn_report_html(r, "<h1>") && tn_report_text(r, name) && tn_report_html(r, "</h1>\n<p>") &&
            tn_report_text(r, doc) &&
-           tn_report_html(r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Findings</a> <a "
+           tn_report_html(r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "
                              "href=\"#rules\">Rules</a> <a href=\"#plans\">Plans</a></nav>\n");
 }
 

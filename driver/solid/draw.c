@@ -30,29 +30,42 @@ typedef struct drawing {
 /* ---- views */
 
 /* Takes a view of a mesh whose groups are cells: all images of a box have its colour. */
-static tn_status add_view(drawing *d, tn_mesh *mesh, const tn_camera *camera, const char *label, tn_error *error)
+static tn_status take_view(const tn_built *built, tn_mesh *mesh, const tn_camera *camera, tn_view **view,
+                           tn_error *error)
 {
     tn_sight sight;
+    tn_solid_turn_up(mesh);
     tn_status status = tn_sight_of_mesh(mesh, &sight, error);
     for (uint32_t f = 0; status == TN_OK && f < sight.face_count; f++)
-        sight.groups[f] %= d->built->built.box_count;
+        sight.groups[f] %= built->built.box_count;
     sight.closed = true;
     if (status == TN_OK)
-        status = tn_view_take(&sight, camera, &d->views[d->count], error);
-    if (status == TN_OK)
-        snprintf(d->labels[d->count++], sizeof *d->labels, "%s", label);
+        status = tn_view_take(&sight, camera, view, error);
     tn_sight_clear(&sight);
     return status;
 }
 
-static tn_status add_union(drawing *d, const tn_camera *camera, const char *label, tn_error *error)
+tn_status tn_built_view(const tn_built *built, const tn_camera *camera, tn_view **view, tn_error *error)
 {
     tn_union u;
-    tn_status status = tn_union_make(d->built->cells, d->built->cell_count, &u, error);
-    tn_solid_turn_up(&u.mesh);
+    *view = NULL;
+    tn_status status = tn_union_make(built->cells, built->cell_count, &u, error);
     if (status == TN_OK)
-        status = add_view(d, &u.mesh, camera, label, error);
+        status = take_view(built, &u.mesh, camera, view, error);
     tn_union_clear(&u);
+    return status;
+}
+
+static void name_view(drawing *d, const char *label)
+{
+    snprintf(d->labels[d->count++], sizeof *d->labels, "%s", label);
+}
+
+static tn_status add_union(drawing *d, const tn_camera *camera, const char *label, tn_error *error)
+{
+    tn_status status = tn_built_view(d->built, camera, &d->views[d->count], error);
+    if (status == TN_OK)
+        name_view(d, label);
     return status;
 }
 
@@ -60,9 +73,10 @@ static tn_status add_cells(drawing *d, const tn_cut_box *cells, const char *labe
 {
     tn_mesh mesh = {0};
     tn_status status = tn_union_cells(cells, d->built->cell_count, &mesh, error);
-    tn_solid_turn_up(&mesh);
     if (status == TN_OK)
-        status = add_view(d, &mesh, &d->how->camera, label, error);
+        status = take_view(d->built, &mesh, &d->how->camera, &d->views[d->count], error);
+    if (status == TN_OK)
+        name_view(d, label);
     tn_mesh_clear(&mesh);
     return status;
 }

@@ -44,6 +44,9 @@ tn_squash_words tn_squash_told(const tn_module *module, uint32_t solid, const tn
 /* y is up in designs, and z in meshes and pictures: (x, y, z) becomes (x, -z, y). */
 void tn_solid_turn_up(tn_mesh *mesh);
 
+/* Takes a view of what is built: each box and its images in one colour. */
+tn_status tn_built_view(const tn_built *built, const tn_camera *camera, tn_view **view, tn_error *error);
+
 /* What is drawn of a design. */
 typedef enum tn_solid_views {
     TN_SOLID_VIEW,     /* the design as it is built */

@@ -16,7 +16,6 @@ typedef struct tartan_place_options {
     uint64_t step_limit;      /* 1,000,000,000 */
     uint64_t frame_limit;     /* frames that are open at a time: 1,000,000 */
     uint64_t lookahead_limit; /* steps of one look ahead: 1,000,000 */
-    uint64_t memory_limit;    /* bytes that the process may hold: any number */
 } tartan_place_options;
 TARTAN_SIZED(tartan_place_options)
 
@@ -29,9 +28,8 @@ typedef struct tartan_placed_part {
 
 typedef struct tartan_placement tartan_placement;
 
-/* Places the parts of the module's grammar. `options` and `watch` may be NULL; the watch is told the parts placed so
- * far. TARTAN_INVALID: the module has no such grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an
- * option's. The placement borrows the module. */
+/* Places the parts of the module's grammar. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such
+ * grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an option's. The placement borrows the module. */
 TARTAN_API tartan_status tartan_place(const tartan_module *module, const tartan_place_options *options,
                                       const tartan_watch *watch, tartan_placement **placement, tartan_error *error);
 TARTAN_API void tartan_placement_free(tartan_placement *placement);

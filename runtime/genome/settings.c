@@ -180,10 +180,10 @@ static bool is_written(const findings *f, tn_setting setting)
     return f->study->of[setting].written > 0;
 }
 
-/* One of match, fit, grow, and keep with drop. */
+/* One of match, fit, grow, build, and keep with drop. */
 static void find_problem(findings *f)
 {
-    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_KEEP, TN_SET_DROP};
+    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_BUILD, TN_SET_KEEP, TN_SET_DROP};
     tn_setting first = TN_SETTING_COUNT;
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
         if (!is_written(f, starts[i]))
@@ -195,7 +195,8 @@ static void find_problem(findings *f)
     }
     if (first == TN_SETTING_COUNT)
         find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what is wanted",
-             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` with "
+             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, or "
+             "`keep \"PLANS\"` with "
              "`drop \"PLANS\"`");
     if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
         find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,

@@ -2,14 +2,11 @@
 #include "runtime/house/house.h"
 #include "runtime/module/code.h"
 
-__extension__ typedef __int128 square;
-
 /* ---- code */
 
-static bool area_compares(const tn_cell *cell, int64_t test, int64_t square_micrometres)
+bool tn_area_compares(tn_int128 area, int64_t test, int64_t square_micrometres)
 {
-    square area = (square)(cell->at.x1 - cell->at.x0) * (cell->at.y1 - cell->at.y0),
-           other = (square)square_micrometres * 1000000;
+    tn_int128 other = (tn_int128)square_micrometres * 1000000;
     switch ((tn_area_test)test) {
     case TN_AREA_LESS:
         return area < other;
@@ -38,9 +35,17 @@ static bool chosen(const tn_house *house, int64_t shape)
     return false;
 }
 
-/* What an instruction without inputs says; what asks for a cell is false of a section. */
-static bool question(const tn_house *house, const tn_instruction *instruction, const tn_cell *cell)
+typedef struct tn_asked_cell {
+    const tn_house *house;
+    const tn_cell *cell; /* NULL: the section alone */
+} tn_asked_cell;
+
+/* What asks for a cell is false of a section, and what asks for a room is false of a cell. */
+static bool ask_cell(const void *context, const tn_instruction *instruction)
 {
+    const tn_asked_cell *asked = context;
+    const tn_house *house = asked->house;
+    const tn_cell *cell = asked->cell;
     const tn_house_form *form = house->form;
     if (instruction->opcode == TN_OP_EVERY)
         return true;
@@ -60,14 +65,15 @@ static bool question(const tn_house *house, const tn_instruction *instruction, c
                form->record->rule_first + (int64_t)cell->function == instruction->first;
     case TN_OP_IS_VOID:
         return cell->open;
+    case TN_OP_HAS_AREA:
+        return tn_area_compares(tn_cell_area(cell), instruction->first, instruction->second);
     default:
-        return area_compares(cell, instruction->first, instruction->second);
+        return false;
     }
 }
 
-bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell)
+bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask *ask, const void *context)
 {
-    const tn_module *module = house->form->module;
     bool stack[TN_DECISION_STACK_MAX];
     size_t depth = 0;
     uint32_t at = module->FUNCTION_records[function].code_begin;
@@ -89,9 +95,15 @@ bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *ce
         case TN_OP_DECIDE:
             return stack[depth - 1];
         default:
-            stack[depth++] = question(house, &instruction, cell);
+            stack[depth++] = ask(context, &instruction);
         }
     }
+}
+
+bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell)
+{
+    tn_asked_cell asked = {house, cell};
+    return tn_decision_run(house->form->module, function, ask_cell, &asked);
 }
 
 bool tn_house_section_stands(const tn_house *house)

@@ -7,10 +7,13 @@
 #ifndef TARTAN_HOUSE_HOUSE_H
 #define TARTAN_HOUSE_HOUSE_H
 
+#include "runtime/base/int128.h"
 #include "runtime/house/form/form.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"
 
 #define TN_NO_CELL UINT32_MAX
+#define TN_HOUSE_TRAYS_DEFAULT 4096u /* the longest plan that is read, where nobody says another limit */
 #define TN_NO_FUNCTION UINT32_MAX
 #define TN_FACE_KINDS_MAX (TN_FACE_KIND_COUNT + TN_OPENINGS_MAX)
 
@@ -64,6 +67,19 @@ const tn_shape_record *tn_house_shape(const tn_house *house, uint32_t zone, tn_c
 /* What a function of kind CELL decides on a cell, or of kind SECTION on the house (cell NULL). */
 bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell);
 
+/* Runs such a function, asking what each instruction says that has no inputs. */
+typedef bool tn_decision_ask(const void *context, const tn_instruction *instruction);
+bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask *ask, const void *context);
+
+/* Does an area in square nanometres compare so (a tn_area_test) with another? */
+bool tn_area_compares(tn_int128 area, int64_t test, int64_t square_micrometres);
+
+/* Between the planes of its walls, in square nanometres. */
+static inline tn_int128 tn_cell_area(const tn_cell *cell)
+{
+    return (tn_int128)(cell->at.x1 - cell->at.x0) * (cell->at.y1 - cell->at.y0);
+}
+
 /* Is the section one that the form does not forbid? */
 bool tn_house_section_stands(const tn_house *house);
 
@@ -82,6 +98,11 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
  * out. E1611 with its columns where it is no house of the form; errors of the plan as tn_plan_parse_line has them. */
 tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
                         tn_error *error);
+
+/* The same where the tiles may be left out, whatever choice they leave: no rule asks for them. Each cell then has the
+ * first that fits, if any does. */
+tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                             tn_house *house, tn_error *error);
 
 /* Appends the house's line. TN_MEMORY. */
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);

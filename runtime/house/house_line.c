@@ -256,8 +256,9 @@ static tn_status check_parts(const char *line, size_t size, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
-                        tn_error *error)
+/* Everything but the tiles. */
+static tn_status read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                           tn_error *error)
 {
     tn_part_reader plan = open_part(line, size, PLAN);
     tn_plan trays = {0};
@@ -279,7 +280,21 @@ tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size
         status = read_functions(house, line, size, error);
     if (status == TN_OK)
         status = read_faces(house, line, size, error);
+    return status;
+}
+
+tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                        tn_error *error)
+{
+    tn_status status = read_open(form, line, size, max_trays, house, error);
     return status == TN_OK ? read_tiles(house, line, size, error) : status;
+}
+
+tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                             tn_house *house, tn_error *error)
+{
+    tn_status status = read_open(form, line, size, max_trays, house, error);
+    return status == TN_OK && open_part(line, size, TILES).there ? read_tiles(house, line, size, error) : status;
 }
 
 /* ---- writing */

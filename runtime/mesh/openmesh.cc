@@ -1,7 +1,11 @@
 /* OpenMesh behind its C face: files, smoothing, subdividing, decimating. */
 extern "C" {
+#include "runtime/base/file.h"
 #include "runtime/mesh/openmesh.h"
 }
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -151,7 +155,15 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
     return guarded(error, [&] {
         poly_mesh m;
         OpenMesh::IO::Options options;
-        if (!OpenMesh::IO::read_mesh(m, path, options)) {
+        int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* for its state alone */
+        tn_file_state before = tn_file_state_of(file);
+        bool read = OpenMesh::IO::read_mesh(m, path, options);
+        tn_status same = tn_file_state_same(&before, file, path, error);
+        if (file >= 0)
+            close(file);
+        if (same != TN_OK)
+            return same;
+        if (!read) {
             tn_fail(error, TN_IO, E_CANNOT_READ, "cannot read a mesh from %s", path);
             tn_error_help(error,
                           "OBJ, PLY, STL, OFF and OM files can be read; see that it is there and is one of these");

@@ -54,6 +54,12 @@ static inline tn_operands tn_code_operands(uint8_t opcode)
     return (tn_operands)kinds[opcode];
 }
 
+/* Is it a relation over the trays of a house, which a plan alone does not say? */
+static inline bool tn_code_asks_house(tn_opcode opcode)
+{
+    return opcode >= TN_OP_SOME_CELL && opcode <= TN_OP_AREAS;
+}
+
 typedef struct tn_opcode_effect {
     uint8_t pops;
     uint8_t pushes;

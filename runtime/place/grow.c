@@ -181,6 +181,13 @@ static tn_status keep_step(derivation *d, uint32_t index)
     return TN_OK;
 }
 
+/* Tells how many parts there are, and asks whether to go on. */
+static tn_status look_up(const derivation *d)
+{
+    tn_watch_tell(d->options.watch, (double)d->model->count, 0);
+    return tn_watch_check(d->options.watch, d->error);
+}
+
 static tn_status derive(derivation *d)
 {
     uint32_t index, alternative;
@@ -191,8 +198,8 @@ static tn_status derive(derivation *d)
     if (status == TN_OK)
         status = expand(d, 0, 0);
     while (status == TN_OK && (step = tn_pending_next(d, &d->pending, &index, &alternative)) != NULL) {
-        if (++done % ASK_EVERY == 0 && tn_watch_stopped(d->options.watch))
-            return tn_fail_stopped(d->options.watch, d->error);
+        if (++done % ASK_EVERY == 0 && (status = look_up(d)) != TN_OK)
+            return status;
         if (step->kind == TN_STEP_EXPAND) {
             status = expand(d, step->index, alternative);
             continue;

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "runtime/base/crew.h"
-#include "runtime/numeric/numeric.h"
 #include "runtime/geometry/hidden.h"
 #include "runtime/geometry/vector.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/scene/view_parts.h"
 
 tn_camera tn_camera_default(void)

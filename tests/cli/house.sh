@@ -18,6 +18,16 @@ golden no_form "tartan house sheds.plan ''"
 golden no_format "tartan house cottage '' -o house.stl"
 golden too_near "tartan house near.plan \"9' open:9' | 9' open:9'6\\\" ; - ; hall | hall\""
 
+bedrooms="14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall"
+golden dropped "tartan explain cottage \"$bedrooms\""
+golden dropped_json "tartan explain cottage \"$bedrooms\" --json"
+golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rule dark-living"
+golden explained_line "tartan explain cottage \"14' room:14' none ; 3\""
+golden explained_nothing "tartan explain sheds.plan ';'"
+golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
+golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"
+golden failed_test "tartan test houses-wrong.plan"
+
 # Every part is a closed mesh: each edge is there twice, once in each direction.
 "$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o "$scratch/h.obj" \
     -o "$scratch/h.json" -o "$scratch/h.ply" -o "$scratch/h.glb"

@@ -55,7 +55,7 @@ diff -u tests/cli/install/exported "$scratch/exported" || fail 'the libraries ex
 while read -r name; do
     grep -q "\`$name\`" docs/c-interface.md || fail "docs/c-interface.md does not name $name"
 done <"$scratch/exported"
-grep -oE '\`tartan_[a-z_]+\`' docs/c-interface.md | tr -d '\`' | grep -vE '^tartan_(status|error|watch)$' | sort -u | comm -23 - "$scratch/exported" >"$scratch/gone"
+grep -oE '`tartan_[a-z_]+`' docs/c-interface.md | tr -d '`' | grep -vE '^tartan_(status|error|watch)$' | sort -u | comm -23 - "$scratch/exported" >"$scratch/gone"
 [ ! -s "$scratch/gone" ] || fail "docs/c-interface.md names $(cat "$scratch/gone")"
 
 # Who has which: a program links the parts that it needs.

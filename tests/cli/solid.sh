@@ -133,6 +133,42 @@ else
     grep -q 'E0907' err || fail "drawing: $(cat err)"
 fi
 
+# Slices: closed lines whose areas are the volume; holes turn the other way; a prism at a vertex's height.
+"$TARTAN" slice table --layer 0.01 -o table.cli
+cat >hollow.solid <<'SOLID'
+solid hollow "a ring, a roof, and a foot that touches it along an edge" {
+  model mm;
+  symmetry x;
+  box side from (1, 0, -2) to (2, 2, 2);
+  box end from (0, 0, 1) to (1, 2, 2);
+  box back from (0, 0, -2) to (1, 2, -1);
+  box roof from (0, 2, -2) to (2, 3, 2) clip normal (1, 1, 0) through (2, 2, 0);
+  box foot from (2, -1, 0) to (3, 0, 1);
+}
+SOLID
+"$TARTAN" slice hollow.solid --layer 1 -o hollow.cli
+python3 -B "$OLDPWD/tests/slices.py" hollow.cli 4 7 || fail 'the lines of a hollow design'
+grep -qx '\$\$UNITS/1' hollow.cli || fail 'the unit of slices'
+python3 - table.cli 0.01 84.982 <<'PY' || fail 'the areas of slices are not the volume'
+import sys
+total = 0
+for line in open(sys.argv[1]):
+    if line.startswith("$$POLYLINE/"):
+        v = [float(x) for x in line[11:].split(",")[3:]]
+        p = list(zip(v[::2], v[1::2]))
+        total += sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(p, p[1:])) / 2
+assert abs(total * float(sys.argv[2]) - float(sys.argv[3])) < 1e-3, total
+PY
+for kind in svg dxf cli; do
+    "$TARTAN" slice table --layer 1 -o one.$kind && "$TARTAN" slice table --layer 1 -o two.$kind
+    cmp -s one.$kind two.$kind || fail "slices .$kind differ"
+done
+for wrong in '--grid 9' '--layer 0' '--max-boxes 3' '--solid chair'; do
+    status=0
+    "$TARTAN" slice table --layer 1 $wrong -o no.svg 2>err || status=$?
+    [ "$status" != 0 ] && [ -s err ] && [ ! -e no.svg ] || fail "slice table $wrong gives $status"
+done
+
 # A module does what its source does; one that was tampered with is refused.
 "$TARTAN" build table -o table.tnb
 "$TARTAN" mesh table.tnb -o module.obj && cmp -s one.obj module.obj || fail 'the module gives another mesh'

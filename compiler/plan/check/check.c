@@ -1,19 +1,26 @@
 #include "compiler/plan/check/check.h"
 
 #include "compiler/plan/check/expand.h"
+#include "compiler/plan/check/form.h"
 
 /* What everything else needs to know of the rules: which schema they are for. */
+static void find_schema(tn_check *check, tn_checked_rule *rule)
+{
+    const tn_ast_word *using = rule->ast->using;
+    bool schema = !using || tn_names_get(&check->schemas, using->text);
+    rule->form = schema ? NULL : tn_check_form_named(check, rule->unit, using->text);
+    rule->schema =
+        rule->form ? rule->form->schema : tn_check_schema_for(check, rule->unit, using, rule->ast->name->node.span);
+}
+
 static void find_schemas(tn_check *check)
 {
     tn_checked *result = check->result;
-    for (size_t i = 0; i < result->rule_count; i++) {
-        tn_checked_rule *rule = result->rules[i];
-        rule->schema = tn_check_schema_for(check, rule->unit, rule->ast->using, rule->ast->name->node.span);
-    }
+    for (size_t i = 0; i < result->rule_count; i++)
+        find_schema(check, result->rules[i]);
     for (size_t i = 0; i < check->template_count; i++) {
-        tn_checked_rule *rule = check->templates[i];
-        rule->schema = tn_check_schema_for(check, rule->unit, rule->ast->using, rule->ast->name->node.span);
-        tn_check_parameters(check, rule);
+        find_schema(check, check->templates[i]);
+        tn_check_parameters(check, check->templates[i]);
     }
 }
 
@@ -65,9 +72,48 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     tn_check_meaning(check, body);
     if (rule->is_measure)
         tn_check_plan_measure(check, rule);
+    if (rule->is_measure && rule->form) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, body->node.span,
+                                     "a measure is of plans, and this asks for cells of houses");
+        tn_help(check->diagnostics, d, "write a rule with a condition, such as `quantity(cell(...), n > 1)`");
+    }
     rule->about_plan = tn_check_whole(check, body) && !rule->is_measure;
     tn_check_warnings(check, body);
     note_call(check, rule, errors);
+}
+
+/* A constant, arithmetic of constants, values joined by `or` or after `not`. Names are looked up where it is used. */
+static bool is_let_value(const tn_ast_expr *value)
+{
+    switch (value->kind) {
+    case TN_EXPR_NUMBER:
+    case TN_EXPR_NAME:
+    case TN_EXPR_BROKEN:
+        return true;
+    case TN_EXPR_OR:
+    case TN_EXPR_NOT:
+    case TN_EXPR_PLUS:
+    case TN_EXPR_MINUS:
+    case TN_EXPR_TIMES:
+    case TN_EXPR_OVER:
+    case TN_EXPR_NEGATIVE:
+        for (TN_EACH(const tn_ast_expr, part, value->parts))
+            if (!is_let_value(part))
+                return false;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void tn_check_let(tn_check *check, const tn_ast_expr *value)
+{
+    if (is_let_value(value))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span,
+                                 "`let` names a constant or values of a field, and this is neither");
+    tn_help(check->diagnostics, d,
+            "write `let wide = 4.8m` or `let rooms = single or double`; a rule is named by `rule NAME = ...`");
 }
 
 void tn_check_settle(tn_check *check)
@@ -96,8 +142,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {find_schemas,   tn_check_settle, tn_check_libraries, tn_check_forms,
-                                                tn_check_asked, tn_check_tests,  tn_check_allowances};
+    static void (*const steps[])(tn_check *) = {tn_check_forms,          find_schemas,   tn_check_settle,
+                                                tn_check_libraries,      tn_check_asked, tn_check_unused,
+                                                tn_check_number_records, tn_check_tests, tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

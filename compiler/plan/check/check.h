@@ -128,12 +128,14 @@ typedef struct tn_checked_rule {
     tn_ast_expr *written;                /* the body before anything was written out */
     bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
-    bool hidden;                  /* made of a call: it has no record of its own */
-    bool about_plan;              /* has a comparison that speaks of the whole plan */
-    bool failed;                  /* of a template: a call of it was wrong inside */
-    const tn_ast_expr *call;      /* what a hidden rule was made for first, or NULL */
-    struct tn_checked_rule *of;   /* the template that a hidden rule was made of */
-    tn_checked_sum *sum;          /* of a measure; NULL: already reported */
+    bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
+    bool hidden;                /* made of a call: it has no record of its own */
+    bool about_plan;            /* has a comparison that speaks of the whole plan */
+    bool failed;                /* of a template: a call of it was wrong inside */
+    const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
+    struct tn_checked_rule *of; /* the template that a hidden rule was made of */
+    tn_checked_sum *sum;        /* of a measure; NULL: already reported */
+    struct tn_checked_form *form; /* whose houses it is about; NULL: it is about plans */
     uint32_t serial;              /* among all that is checked as rules are */
     uint32_t index, whole, holds; /* emitted: of its record and functions */
 } tn_checked_rule;
@@ -157,6 +159,8 @@ typedef struct tn_checked_library {
     size_t unit;
     tn_checked_schema *schema; /* NULL: already reported */
     struct tn_checked_library *from;
+    struct tn_checked_library *plans; /* of a library of houses: whose plans they stand on */
+    struct tn_checked_form *form;     /* of a library of houses; NULL: of plans */
     tn_checked_clause **clauses;
     size_t clause_count, clause_capacity;
     tn_names clause_names;      /* name -> tn_checked_clause */
@@ -227,7 +231,9 @@ typedef struct tn_check {
     /* of the rule or library being checked */
     size_t unit;
     tn_checked_schema *schema;
-    tn_checked_rule *rule; /* NULL in a library */
+    tn_checked_rule *rule;        /* NULL in a library */
+    struct tn_checked_form *form; /* of a library of houses */
+    bool form_wrong;              /* it has another one than it says, which was reported */
     tn_ast_list allow;
 } tn_check;
 
@@ -265,8 +271,9 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
 void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
 /* A value that the field does not have: E0303. */
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
-void tn_report_unit(tn_check *check, const tn_ast_word *number); /* E0008 */
-bool tn_word_is(const tn_ast_word *word, const char *text);      /* case does not count */
+/* E0008; schema: the one whose lengths are meant, or NULL. */
+void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *number);
+bool tn_word_is(const tn_ast_word *word, const char *text); /* case does not count */
 
 /* ---- spec.c */
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
@@ -281,6 +288,7 @@ tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span);
 
 /* ---- condition.c */
+#define TN_AREAS (TN_NONE - 1) /* instead of a field: areas are added, in halves of a square micrometre */
 /* `field`: whose lengths are added, or TN_NONE for a count. */
 tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field);
 /* The condition of a `total`. */
@@ -323,17 +331,34 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: repor
 #define TN_PARAMETERS_MAX 16                                      /* of a rule */
 
 /* ---- check.c */
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
 void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
+
+/* ---- house.c: what is asked of houses */
+/* `cell`, `room`, `section`, `touch`, `apart`: finds the form that is meant, and what they say of it. */
+void tn_check_ask(tn_check *check, tn_ast_expr *expr);
+bool tn_sums_areas(const tn_ast_expr *sum); /* is it `sum(area of cell(...), ...)`? */
+void tn_check_areas(tn_check *check, tn_ast_expr *sum);
+/* A rule that is named: is it about houses of the same form as what names it? */
+void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
+/* The form called so, where it is in scope; NULL: there is none. */
+struct tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const char *name);
+/* Numbers the rules and libraries that there are records of: those of plans, and those of houses. */
+void tn_check_number_records(tn_check *check);
 
 /* ---- order.c */
 void tn_check_order(tn_check *check); /* orders the rules, callees first; reports circles */
 
 /* ---- library.c */
 void tn_check_libraries(tn_check *check);
-void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
+void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
+void tn_check_asked(tn_check *check);  /* adds what the command line asks to the library that it is about */
 
 /* ---- form.c */
 void tn_check_forms(tn_check *check);

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/check/check.h"
+#include "compiler/plan/check/amount.h"
 
 typedef struct tn_condition_builder {
     tn_check *check;
@@ -95,10 +95,37 @@ static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
     return false;
 }
 
+/* Areas are compared in halves of a square micrometre. */
+static bool check_area(tn_check *check, const tn_ast_word *word)
+{
+    if (word->broken)
+        return false;
+    if (word->kind == TN_WORD_AREA || (word->kind != TN_WORD_DECIMAL && word->value == 0))
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span,
+                                 "areas are added here, and `%s` is none", word->text);
+    tn_help(check->diagnostics, d, "write an area, such as `90sf` or `8.5m2`");
+    return false;
+}
+
+/* What a constant counts in the condition's steps. */
+static int64_t counted(tn_condition_builder *b, const tn_ast_word *word)
+{
+    int64_t square_micrometres;
+    if (b->field != TN_AREAS || word->kind != TN_WORD_AREA)
+        return word->value;
+    if (!tn_amount_read_cell(b->check, word, &square_micrometres)) {
+        fail(b);
+        return 0;
+    }
+    return square_micrometres > INT64_MAX / 2 ? INT64_MAX : 2 * square_micrometres;
+}
+
 static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
 {
     if (word->kind != TN_WORD_NAME)
-        return check_unit(b->check, word, b->field != TN_NONE) || fail(b);
+        return (b->field == TN_AREAS ? check_area(b->check, word) : check_unit(b->check, word, b->field != TN_NONE)) ||
+               fail(b);
     if (!word->broken) {
         tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
                                      "a number has to stand here, and `%s` is none", word->text);
@@ -168,14 +195,33 @@ static void add_compare(tn_condition_builder *b, const tn_ast_cond *cond)
     bool constant_left = left->kind != TN_WORD_NAME;
     const tn_ast_word *variable = constant_left ? right : left, *constant = constant_left ? left : right;
     if (check_variable(b, variable) && check_constant(b, constant))
-        compare(b, constant_left ? turned(cond->op) : cond->op, constant->value, cond->node.span);
+        compare(b, constant_left ? turned(cond->op) : cond->op, counted(b, constant), cond->node.span);
+}
+
+static void add_areas_within(tn_condition_builder *b, const tn_ast_cond *cond)
+{
+    const tn_ast_range *range = &cond->range;
+    if (!check_area(b->check, range->low) || !check_area(b->check, range->high)) {
+        fail(b);
+        return;
+    }
+    int64_t low = counted(b, range->low), high = counted(b, range->high);
+    step(b, TN_OP_WITHIN, low, high, cond->node.span);
+    if (low <= high || b->condition->broken)
+        return;
+    tn_diagnostic *d =
+        tn_report(b->check->diagnostics, E_RANGE_BACKWARDS, range->span, "this range ends before it starts");
+    tn_advise(b->check->diagnostics, d, "%s..%s", range->high->text, range->low->text);
+    fail(b);
 }
 
 static void add_within(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!check_variable(b, cond->left))
         return;
-    if (tn_check_range(b->check, &cond->range, b->field != TN_NONE))
+    if (b->field == TN_AREAS)
+        add_areas_within(b, cond);
+    else if (tn_check_range(b->check, &cond->range, b->field != TN_NONE))
         step(b, TN_OP_WITHIN, cond->range.low->value, cond->range.high->value, cond->node.span);
     else
         fail(b);
@@ -198,6 +244,13 @@ static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!check_variable(b, cond->left) || !check_constant(b, cond->modulus) || !check_constant(b, cond->right))
         return;
+    if (b->field == TN_AREAS) {
+        tn_diagnostic *d =
+            tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->node.span, "areas have no remainders");
+        tn_help(b->check->diagnostics, d, "compare the area with another: `a > 90sf`");
+        fail(b);
+        return;
+    }
     int64_t modulus = cond->modulus->value, remainder = cond->right->value;
     if (modulus <= 0) {
         tn_diagnostic *d = tn_report(b->check->diagnostics, E_BAD_REMAINDER, cond->modulus->node.span,
@@ -282,7 +335,7 @@ tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *con
     add(&b, cond);
     if (condition->broken || tn_arena_failed(check->arena))
         return condition;
-    if (!b.warned)
+    if (!b.warned && field != TN_AREAS)
         tn_check_truth(check, condition, b.variable->text, field);
     return share(check, condition);
 }

@@ -94,6 +94,7 @@ static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *exp
     if (copy->rule && !copy->rule->hidden) /* it was checked where it was written; here it may mean something else */
         copy->rule = NULL;
     copy->spec = NULL;
+    copy->ask = NULL;
     copy->sum = copy->high = NULL;
     copy->condition_checked = NULL;
     copy->tests = tn_ast_empty();
@@ -277,6 +278,7 @@ static tn_checked_rule *new_rule(tn_rule_expansion *expansion, const tn_ast_expr
                                                       : of->name,
                               .unit = of->unit,
                               .schema = check->schema,
+                              .form = of->form,
                               .is_measure = of->is_measure,
                               .hidden = true,
                               .call = call,

@@ -84,6 +84,8 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     put_word(t, expr->detail);
     for (TN_EACH(const tn_ast_item, item, expr->items))
         put_item(t, item);
+    for (TN_EACH(const tn_ast_word, kind, expr->kinds))
+        put_word(t, kind);
     if (expr->figure)
         put_expression(t, expr->figure);
     if (expr->condition)

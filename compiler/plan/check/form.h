@@ -13,6 +13,7 @@ typedef struct tn_decision_step {
     tn_opcode opcode;
     uint32_t index; /* of a field, storey, function or shape of the form; an area's test */
     tn_checked_spec *spec;
+    struct tn_decision *cells; /* of a room: what each of its cells is */
     int64_t area;
     tn_span span;
 } tn_decision_step;
@@ -86,6 +87,7 @@ typedef struct tn_checked_form {
     tn_checked_opening *openings;
     tn_checked_face *faces;
     tn_checked_tile *tiles;
+    uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
 } tn_checked_form;
 
@@ -107,6 +109,29 @@ void tn_decision_add(tn_check *check, tn_decision *decision, tn_decision_step st
 /* `decided`: may it ask for functions and voids, which are known after `at`, `void` and `no`? False: reported. */
 bool tn_form_cell(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, bool decided,
                   tn_decision *decision);
+
+/* One alternative of an item of `cell(...)`, without a `not` before it. context: the field of those before it. */
+bool tn_form_cell_words(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, tn_span span,
+                        tn_item_context *context, tn_decision *decision);
+
+/* The first word after `not`s; NULL where there is none: reported. */
+const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *alternative, const char *what,
+                                   bool *negated);
+/* `area < 90sf` (HAS_AREA, ROOM_AREA), `cells > 1` (ROOM_CELLS), from its first word on. False: reported. */
+bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode, tn_decision *decision);
+
+/* ---- form_room.c */
+bool tn_form_room(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision);
+
+/* ---- house.c: what a rule asks of houses, as an instruction */
+typedef struct tn_checked_ask {
+    const tn_checked_form *form;
+    tn_decision first, second, through; /* of one thing: first alone */
+    bool has_through;
+    uint32_t *kinds;
+    uint32_t kind_count;
+    uint32_t function; /* emitted: what decides on one thing, or the MEETING record; plus one; 0: not yet */
+} tn_checked_ask;
 
 /* ---- form_face.c, form_tile.c */
 void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);

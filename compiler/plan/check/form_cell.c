@@ -44,26 +44,42 @@ static bool bad_cell(tn_check *check, tn_span span, const char *message, const c
     return false;
 }
 
-/* area < 90sf */
-static bool read_area(tn_cell_reader *reader, const tn_ast_word *word)
+const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *alternative, const char *what,
+                                   bool *negated)
 {
+    const tn_ast_word *word = (const tn_ast_word *)alternative->words.first;
+    for (*negated = false; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
+        *negated = !*negated;
+    if (!word) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, alternative->node.span, "`not` of nothing");
+        tn_help(check->diagnostics, d, "say what the %s is not", what);
+    }
+    return word;
+}
+
+/* area < 90sf, cells > 1 */
+bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode, tn_decision *decision)
+{
+    bool areas = opcode != TN_OP_ROOM_CELLS;
     const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
-    const tn_ast_word *area = sign ? (const tn_ast_word *)sign->node.next : NULL;
-    if (!sign || sign->kind != TN_WORD_OPERATOR || !area || area->kind != TN_WORD_AREA || area->node.next)
-        return bad_cell(reader->check, word->node.span, "an area is compared with another",
-                        "write `area < 90sf` or `area >= 8.5m2`");
+    const tn_ast_word *other = sign ? (const tn_ast_word *)sign->node.next : NULL;
+    if (!sign || sign->kind != TN_WORD_OPERATOR || !other || other->kind != (areas ? TN_WORD_AREA : TN_WORD_NUMBER) ||
+        other->node.next)
+        return areas ? bad_cell(check, word->node.span, "an area is compared with another",
+                                "write `area < 90sf` or `area >= 8.5m2`")
+                     : bad_cell(check, word->node.span, "the number of cells is compared with a whole number",
+                                "write `cells > 1`");
     static const tn_area_test tests[] = {
         [TN_LESS] = TN_AREA_LESS,       [TN_AT_MOST] = TN_AREA_AT_MOST,   [TN_EQUAL] = TN_AREA_EQUAL,
         [TN_UNEQUAL] = TN_AREA_UNEQUAL, [TN_AT_LEAST] = TN_AREA_AT_LEAST, [TN_GREATER] = TN_AREA_GREATER,
     };
-    int64_t square_micrometres;
-    if (!tn_amount_read_cell(reader->check, area, &square_micrometres))
+    tn_decision_step step = {.opcode = opcode,
+                             .index = tests[sign->op],
+                             .area = other->value,
+                             .span = tn_span_join(word->node.span, other->node.span)};
+    if (areas && !tn_amount_read_cell(check, other, &step.area))
         return false;
-    tn_decision_add(reader->check, reader->decision,
-                    (tn_decision_step){.opcode = TN_OP_HAS_AREA,
-                                       .index = tests[sign->op],
-                                       .area = square_micrometres,
-                                       .span = tn_span_join(word->node.span, area->node.span)});
+    tn_decision_add(check, decision, step);
     return true;
 }
 
@@ -116,23 +132,31 @@ static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_
     return true;
 }
 
+static bool read_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span span)
+{
+    bool found = false;
+    if (word->kind == TN_WORD_NAME && strcmp(word->text, "area") == 0)
+        return tn_form_compared(reader->check, word, TN_OP_HAS_AREA, reader->decision);
+    if (word->kind == TN_WORD_NAME && !read_own_word(reader, word, &found))
+        return false;
+    return found || read_tray_words(reader, word, span);
+}
+
+bool tn_form_cell_words(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, tn_span span,
+                        tn_item_context *context, tn_decision *decision)
+{
+    tn_cell_reader reader = {.check = check, .form = form, .decision = decision, .decided = true, .context = *context};
+    bool good = read_words(&reader, word, span);
+    *context = reader.context;
+    return good;
+}
+
 static bool read_alternative(tn_cell_reader *reader, const tn_ast_alternative *alternative)
 {
-    const tn_ast_word *word = (const tn_ast_word *)alternative->words.first;
-    bool negated = false, found = false;
-    for (; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
-        negated = !negated;
-    if (!word)
-        return bad_cell(reader->check, alternative->node.span, "`not` of nothing", "say what the cell is not");
-    if (word->kind == TN_WORD_NAME && strcmp(word->text, "area") == 0) {
-        if (!read_area(reader, word))
-            return false;
-    } else {
-        if (word->kind == TN_WORD_NAME && !read_own_word(reader, word, &found))
-            return false;
-        if (!found && !read_tray_words(reader, word, alternative->node.span))
-            return false;
-    }
+    bool negated;
+    const tn_ast_word *word = tn_form_negated(reader->check, alternative, "cell", &negated);
+    if (!word || !read_words(reader, word, alternative->node.span))
+        return false;
     if (negated)
         add(reader, TN_OP_NONE_OF, 0, alternative->node.span);
     return true;
@@ -170,6 +194,9 @@ static bool read_cells(tn_cell_reader *reader, const tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_CELL)
         return read_cell(reader, expr);
+    if (expr->kind != TN_EXPR_AND && expr->kind != TN_EXPR_OR && expr->kind != TN_EXPR_NOT)
+        return expr->kind != TN_EXPR_BROKEN && bad_cell(reader->check, expr->node.span, "this says nothing of a cell",
+                                                        "write `cell(...)`, joined by `and`, `or` and `not`");
     bool good = expr->kind != TN_EXPR_BROKEN, first = true;
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         good &= read_cells(reader, part);

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "compiler/common/limits.h"
-#include "compiler/plan/check/check.h"
+#include "compiler/plan/check/form.h"
 
 enum { UNSEEN, OPEN, DONE };
 
@@ -165,6 +165,14 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
         [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
         [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
     };
+    if (library->form && (ast->form == TN_FORM_TRAYS || kinds[ast->form] == TN_CLAUSE_TOTAL)) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, ast->node.span,
+                                     "a library of houses cannot say which plans there are");
+        tn_note(check->diagnostics, d, &library->plans->ast->name->node.span, "its plans are those of `%s`",
+                library->plans->name);
+        tn_help(check->diagnostics, d, "write this line in a library of plans, and make the houses `from` that");
+        return;
+    }
     if (ast->form == TN_FORM_TRAYS) {
         set_trays(check, library, ast);
         return;
@@ -190,6 +198,37 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
 
 static void check_library(tn_check *check, tn_checked_library *library);
 
+/* `from PLANS in FORM`: houses on the plans of a library. From a library of houses: more clauses, in the same form. */
+static void stand_in_form(tn_check *check, tn_checked_library *library, tn_checked_library *from)
+{
+    const tn_ast_word *word = library->ast->in;
+    tn_checked_form *form = tn_check_form_named(check, library->unit, word->text);
+    const char *other = from->form ? from->form->name : NULL;
+    library->broken |= !form;
+    if (!form) {
+        if (check->incomplete || word->broken)
+            return;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_UNKNOWN_FORM, word->node.span, "there is no form `%s`", word->text);
+        tn_help(check->diagnostics, d, "declare it with `form %s of SCHEMA { ... }`, or `use` the file that does",
+                word->text);
+    } else if (other && form != from->form) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, word->node.span,
+                                     "library `%s` has houses of form `%s`", from->name, other);
+        tn_note(check->diagnostics, d, &from->ast->name->node.span, "library `%s` is here", from->name);
+        tn_help(check->diagnostics, d, "write `in %s`, or begin with a library of plans", other);
+    } else if (form->schema && from->schema && form->schema != from->schema) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, word->node.span,
+                                     "form `%s` is of schema `%s`, and the plans are of schema `%s`", form->name,
+                                     form->schema->name, from->schema->name);
+        tn_note(check->diagnostics, d, &form->ast->name->node.span, "form `%s` is here", form->name);
+        tn_help(check->diagnostics, d, "name a form of schema `%s`", from->schema->name);
+    } else if (!from->form) {
+        library->form = form;
+        library->plans = from;
+    }
+}
+
 /* Takes over the clauses of another library. */
 static void take_over(tn_check *check, tn_checked_library *library)
 {
@@ -208,12 +247,16 @@ static void take_over(tn_check *check, tn_checked_library *library)
         return;
     }
     check_library(check, name->library);
-    const tn_checked_library *from = library->from = name->library;
+    tn_checked_library *from = library->from = name->library;
     library->schema = from->schema;
+    library->form = from->form;
+    library->plans = from->form ? from->plans : NULL;
+    if (library->ast->in)
+        stand_in_form(check, library, from);
     library->trays = from->trays;
     library->trays_min = from->trays_min;
     library->trays_max = from->trays_max;
-    for (size_t i = 0; i < from->clause_count; i++)
+    for (size_t i = 0; i < from->clause_count && !library->form == !from->form; i++)
         put_clause(check, library, from->clauses[i]);
 }
 
@@ -231,6 +274,8 @@ static void check_library(tn_check *check, tn_checked_library *library)
     check->unit = library->unit;
     check->schema = library->schema;
     check->rule = NULL;
+    check->form = library->form;
+    check->form_wrong = ast->in && (!library->form || strcmp(library->form->name, ast->in->text) != 0);
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
         if (clause->form != TN_FORM_ALLOW)
             continue;
@@ -327,6 +372,8 @@ void tn_check_asked(tn_check *check)
     check->unit = check->imports->count - 1;
     check->schema = library->schema;
     check->rule = NULL;
+    check->form = library->form;
+    check->form_wrong = false;
     check->allow = library->allow;
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);

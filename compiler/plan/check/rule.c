@@ -9,8 +9,10 @@
 static void add_use(tn_check *check, tn_ast_expr *expr)
 {
     tn_checked_rule *rule = check->rule;
-    if (!rule)
+    if (!rule) { /* in a library */
+        expr->rule->used = true;
         return;
+    }
     if (rule->use_count == rule->use_capacity) {
         size_t capacity = rule->use_capacity ? rule->use_capacity * 2 : 4;
         tn_checked_rule **uses = TN_NEW_ARRAY(check->arena, tn_checked_rule *, capacity);
@@ -106,6 +108,10 @@ bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_as
 static void check_sum(tn_check *check, tn_ast_expr *sum)
 {
     tn_sum_amount amount;
+    if (tn_sums_areas(sum)) {
+        tn_check_areas(check, sum);
+        return;
+    }
     sum->field = tn_field_find(check->schema, sum->name->text);
     bool lengths = tn_check_figure(check, check->schema, sum->figure, &amount);
     if (!sum->parts.first)
@@ -150,7 +156,11 @@ static void report_number(tn_check *check, const tn_ast_expr *expr)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
                                  "a rule has to stand here, and this is a number");
-    tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
+    if (expr->kind == TN_EXPR_NUMBER)
+        tn_help(check->diagnostics, d,
+                "each side of `and` and `or` compares: `quantity(a) = 2 or quantity(a) = 3`, or `quantity(a) in 2..3`");
+    else
+        tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
 }
 
 /* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */
@@ -227,7 +237,14 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_IMPLIES:
         check_parts(check, expr);
         break;
-    default: /* already reported, or written out before; cells and sections are of forms, and nowhere else */
+    case TN_EXPR_CELL:
+    case TN_EXPR_ROOM:
+    case TN_EXPR_SECTION:
+    case TN_EXPR_TOUCH:
+    case TN_EXPR_APART:
+        tn_check_ask(check, expr);
+        break;
+    default: /* already reported, or written out before */
         break;
     }
 }
@@ -253,6 +270,12 @@ static void check_same_schema(tn_check *check, const tn_ast_expr *name)
     tn_help(check->diagnostics, d,
             "use rules of one schema together; `using %s` after the name says which schema counts",
             name->rule->schema->name);
+}
+
+static void check_same(tn_check *check, const tn_ast_expr *name)
+{
+    check_same_schema(check, name);
+    tn_check_same_form(check, name);
 }
 
 static void note_name(tn_check *check, tn_diagnostic *d, const tn_ast_expr *expr)
@@ -302,7 +325,7 @@ static void check_distance(tn_check *check, const tn_ast_expr *distance)
 void tn_check_meaning(tn_check *check, tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_NAME)
-        check_same_schema(check, expr);
+        check_same(check, expr);
     else if (expr->kind == TN_EXPR_SYMMETRIC)
         check_symmetric(check, expr);
     else if (expr->kind == TN_EXPR_DISTANCE)

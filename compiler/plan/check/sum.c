@@ -44,6 +44,19 @@ static void report_rule(tn_check *check, const tn_ast_expr *expr)
             "`quantity(...)` counts trays, `occurrences(...)` places, and `matches(...)` is 1 or 0");
 }
 
+/* Cells and rooms are counted with a condition alone; without one trays would be. */
+static void refuse_cells(tn_check *check, const tn_ast_expr *quantity)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)quantity->parts.first;
+    if (part->kind == TN_EXPR_NAME && part->rule && !part->rule->is_measure)
+        part = part->rule->ast->body;
+    if (part->kind != TN_EXPR_CELL && part->kind != TN_EXPR_ROOM)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, quantity->node.span,
+                                 "cells and rooms are counted with a condition");
+    tn_help(check->diagnostics, d, "write `quantity(%s(...), n > 1)`", part->kind == TN_EXPR_CELL ? "cell" : "room");
+}
+
 void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
 {
     if (expr->kind == TN_EXPR_NAME)
@@ -58,6 +71,8 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_OCCURRENCES:
     case TN_EXPR_MATCHES:
         tn_check_expr(check, (tn_ast_expr *)expr->parts.first);
+        if (expr->kind == TN_EXPR_QUANTITY)
+            refuse_cells(check, expr);
         break;
     case TN_EXPR_SUM:
         if (expr->parts.first)

@@ -80,7 +80,10 @@ static const char *const *check_by(tn_check *check, const tn_ast_case *ast, tn_e
     for (TN_EACH(const tn_ast_word, word, ast->by)) {
         if (!names)
             return NULL;
-        const tn_checked_clause *clause = tn_names_get(&subject->library->clause_names, word->text);
+        const tn_checked_library *library = subject->library;
+        const tn_checked_clause *clause = tn_names_get(&library->clause_names, word->text);
+        if (!clause && library->plans)
+            clause = tn_names_get(&library->plans->clause_names, word->text);
         if (clause || tn_word_is(word, "trays")) {
             names[count++] = clause ? clause->name : "trays";
         } else {
@@ -122,6 +125,17 @@ static bool check_value(tn_check *check, const tn_ast_case *ast, const tn_checke
     return tn_same_power(check, of, measure->ast->name->node.span, wanted, value->node.span, "the value of", &both);
 }
 
+/* A plan where a house is wanted, or the reverse. */
+static void report_literal(tn_check *check, const tn_ast_case *ast, bool of_houses)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_HOUSE, ast->node.span,
+                                 of_houses ? "what is tested is about houses, and this is a plan"
+                                           : "what is tested is about plans, and this is a house");
+    tn_help(check->diagnostics, d,
+            of_houses ? "write the line of a house: `[plan ; section ; functions ; faces]`"
+                      : "write the plan alone, up to the first `;`");
+}
+
 static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, const tn_checked_name *subject,
                        tn_test_case *result)
 {
@@ -134,7 +148,17 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, c
                              .doc = ast->doc ? ast->doc->text : NULL};
     result->by = check_by(check, ast, result->expectation, subject);
     result->by_count = ast->by.count;
-    result->values = check->schema ? tn_check_plan(check, check->schema, ast->trays, &result->length) : NULL;
+    bool of_houses = subject->rule ? subject->rule->form != NULL : subject->library->form != NULL;
+    if (of_houses != (ast->literal.house != NULL)) {
+        report_literal(check, ast, of_houses);
+        return false;
+    }
+    if (of_houses) {
+        result->house = ast->literal.house->text;
+        result->house_place = ast->literal.house->node.span;
+        return result->by;
+    }
+    result->values = check->schema ? tn_check_plan(check, check->schema, ast->literal.trays, &result->length) : NULL;
     if (ast->value && !check_value(check, ast, subject->rule, result))
         return false;
     return result->by && result->values;
@@ -151,6 +175,7 @@ static void check_subject(tn_check *check, const tn_ast_test *ast, const tn_ast_
     check->schema = subject->rule ? subject->rule->schema : subject->library->schema;
     block->subject = word->text;
     block->is_library = subject->library != NULL;
+    block->of_houses = subject->rule ? subject->rule->form != NULL : subject->library->form != NULL;
     block->is_measure = subject->rule && subject->rule->is_measure;
     block->index = subject->rule ? subject->rule->index : subject->library->index;
     block->schema = check->schema ? check->schema->index : 0;

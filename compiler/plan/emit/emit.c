@@ -47,10 +47,10 @@ tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_im
         return tn_fail_memory(error);
     tn_emit_sources(emit.builder, imports, diagnostics->sources);
     tn_emit_schemas(&emit);
+    tn_emit_forms(&emit);
     tn_emit_rules(&emit);
     tn_emit_libraries(&emit);
     tn_emit_measures(&emit);
-    tn_emit_forms(&emit);
     tn_status status = TN_OK;
     if (emit.instructions > TN_INSTRUCTIONS_MAX) {
         status =

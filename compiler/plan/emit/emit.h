@@ -52,8 +52,22 @@ void tn_emit_measures(tn_emit *emit); /* their records */
 
 /* ---- library.c */
 void tn_emit_libraries(tn_emit *emit);
+/* The clause's function of H; once, also where several libraries have the clause. */
+uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schema);
 
 /* ---- form.c */
-void tn_emit_forms(tn_emit *emit);
+struct tn_decision;
+void tn_emit_forms(tn_emit *emit); /* before what asks for their houses */
+uint32_t tn_emit_decision(tn_emit *emit, const struct tn_checked_form *form, struct tn_decision *decision,
+                          const char *name, tn_function_kind kind);             /* the function */
+uint32_t tn_emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t count); /* the first HOUSE_ITEM record */
+
+/* ---- house.c */
+void tn_emit_ask_needs(tn_emit *emit, tn_ast_expr *expr); /* the functions of what is asked of houses */
+void tn_emit_ask(tn_emit *emit, const tn_ast_expr *expr); /* its relation */
+/* `quantity` of cells or rooms; false: it counts trays. */
+bool tn_emit_quantity(tn_emit *emit, const tn_ast_expr *quantity);
+void tn_emit_house_rule(tn_emit *emit, const tn_checked_rule *rule);
+void tn_emit_house_library(tn_emit *emit, const tn_checked_library *library);
 
 #endif

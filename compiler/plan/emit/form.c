@@ -2,11 +2,6 @@
 #include "compiler/plan/check/form.h"
 #include "compiler/plan/emit/emit.h"
 
-/* Where the form's records begin. */
-typedef struct tn_form_base {
-    uint32_t storey, rule, shape;
-} tn_form_base;
-
 static tn_string text(tn_emit *emit, const tn_ast_word *word)
 {
     return tn_builder_string(emit->builder, word ? word->text : NULL);
@@ -16,30 +11,44 @@ static tn_string text(tn_emit *emit, const tn_ast_word *word)
 
 /* ---- code */
 
-static uint32_t emit_decision(tn_emit *emit, const tn_checked_form *form, tn_form_base base,
-                              const tn_decision *decision, const char *name, tn_function_kind kind)
+/* What an instruction's index is in the module. */
+static int64_t index_of(const tn_checked_form *form, const tn_decision_step *step)
 {
-    for (size_t i = 0; i < decision->count; i++)
-        if (decision->steps[i].spec)
-            tn_emit_spec(emit, decision->steps[i].spec);
-    tn_emit_begin(emit, form->schema->index);
-    for (size_t i = 0; i < decision->count; i++) {
-        const tn_decision_step *step = &decision->steps[i];
-        int64_t first = step->index;
-        if (step->opcode == TN_OP_IN_TRAY)
-            first = step->spec->index;
-        else if (step->opcode == TN_OP_IN_ZONE)
-            first += form->schema->field_first;
-        else if (step->opcode == TN_OP_IN_STOREY)
-            first += base.storey;
-        else if (step->opcode == TN_OP_IS_FOR)
-            first += base.rule;
-        else if (step->opcode == TN_OP_CHOSEN)
-            first += base.shape;
-        tn_emit_op(emit, step->span, step->opcode, first, step->area);
+    switch (step->opcode) {
+    case TN_OP_IN_TRAY:
+        return step->spec->index;
+    case TN_OP_IN_ZONE:
+        return (int64_t)form->schema->field_first + step->index;
+    case TN_OP_IN_STOREY:
+        return (int64_t)form->storey_first + step->index;
+    case TN_OP_IS_FOR:
+        return (int64_t)form->rule_first + step->index;
+    case TN_OP_CHOSEN:
+        return (int64_t)form->shape_first + step->index;
+    default:
+        return step->index;
     }
+}
+
+uint32_t tn_emit_decision(tn_emit *emit, const tn_checked_form *form, tn_decision *decision, const char *name,
+                          tn_function_kind kind)
+{
+    for (size_t i = 0; i < decision->count; i++) {
+        tn_decision_step *step = &decision->steps[i];
+        if (step->spec)
+            tn_emit_spec(emit, step->spec);
+        if (step->cells)
+            step->index = tn_emit_decision(emit, form, step->cells, "cells", TN_FUNCTION_CELL);
+    }
+    uint32_t schema = emit->schema;
+    tn_emit_begin(emit, form->schema->index);
+    for (size_t i = 0; i < decision->count; i++)
+        tn_emit_op(emit, decision->steps[i].span, decision->steps[i].opcode, index_of(form, &decision->steps[i]),
+                   decision->steps[i].area);
     tn_emit_op(emit, decision->span, TN_OP_DECIDE, 0, 0);
-    return tn_emit_end(emit, name, kind);
+    uint32_t function = tn_emit_end(emit, name, kind);
+    emit->schema = schema;
+    return function;
 }
 
 /* ---- records */
@@ -55,7 +64,7 @@ static void emit_storeys(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
-static void emit_choices(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+static void emit_choices(tn_emit *emit, const tn_checked_form *form)
 {
     for (uint32_t i = 0; i < form->choice_count; i++) {
         const tn_checked_choice *choice = &form->choices[i];
@@ -74,20 +83,20 @@ static void emit_choices(tn_emit *emit, const tn_checked_form *form, tn_form_bas
                                                                  .zone = choice->zone == TN_NONE
                                                                              ? TN_NO_RECORD
                                                                              : form->schema->field_first + choice->zone,
-                                                                 .shape_first = base.shape + choice->shape_first,
+                                                                 .shape_first = form->shape_first + choice->shape_first,
                                                                  .shape_count = choice->shape_count,
                                                                  PLACE(choice->ast->node.span)});
     }
 }
 
-static void emit_rules(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+static void emit_rules(tn_emit *emit, tn_checked_form *form)
 {
     static const char *const words[] = {"function", "void", "no", "forbid"};
     for (uint32_t i = 0; i < form->rule_count; i++) {
-        const tn_checked_cell_rule *rule = &form->rules[i];
+        tn_checked_cell_rule *rule = &form->rules[i];
         const char *name = rule->ast->name ? rule->ast->name->text : words[rule->kind];
-        uint32_t decides = emit_decision(emit, form, base, &rule->decision, name,
-                                         rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
+        uint32_t decides = tn_emit_decision(emit, form, &rule->decision, name,
+                                            rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
         tn_builder_add_CELL_RULE(emit->builder, &(tn_cell_rule_record){.name = text(emit, rule->ast->name),
                                                                        .doc = text(emit, rule->ast->doc),
                                                                        .kind = rule->kind,
@@ -111,7 +120,7 @@ static void emit_openings(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
-static uint32_t emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t count)
+uint32_t tn_emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t count)
 {
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_ITEM);
     for (uint32_t i = 0; i < count; i++)
@@ -119,21 +128,21 @@ static uint32_t emit_items(tn_emit *emit, const uint32_t *numbers, uint32_t coun
     return first;
 }
 
-static void emit_faces(tn_emit *emit, const tn_checked_form *form, tn_form_base base)
+static void emit_faces(tn_emit *emit, const tn_checked_form *form)
 {
     for (uint32_t i = 0; i < form->face_count; i++) {
-        const tn_checked_face *face = &form->faces[i];
+        tn_checked_face *face = &form->faces[i];
         bool outside = face->ast->relation == TN_FACE_OUTSIDE;
-        uint32_t first = emit_decision(emit, form, base, &face->first, "face", TN_FUNCTION_CELL);
+        uint32_t first = tn_emit_decision(emit, form, &face->first, "face", TN_FUNCTION_CELL);
         uint32_t second =
-            outside ? TN_NO_RECORD : emit_decision(emit, form, base, &face->second, "face", TN_FUNCTION_CELL);
+            outside ? TN_NO_RECORD : tn_emit_decision(emit, form, &face->second, "face", TN_FUNCTION_CELL);
         tn_builder_add_FACE_LINE(
             emit->builder,
             &(tn_face_line_record){.relation = face->ast->relation,
                                    .side = face->ast->detail ? (uint32_t)face->ast->detail->value : TN_HOUSE_ANY_SIDE,
                                    .first = first,
                                    .second = second,
-                                   .kind_first = emit_items(emit, face->kinds, face->kind_count),
+                                   .kind_first = tn_emit_items(emit, face->kinds, face->kind_count),
                                    .kind_count = face->kind_count,
                                    PLACE(face->ast->node.span)});
     }
@@ -157,9 +166,9 @@ static void emit_tiles(tn_emit *emit, const tn_checked_form *form)
         tn_builder_add_TILE(emit->builder,
                             &(tn_tile_record){.name = text(emit, tile->ast->name),
                                               .doc = text(emit, tile->ast->doc),
-                                              .purpose_first = emit_items(emit, tile->purposes, tile->purpose_count),
+                                              .purpose_first = tn_emit_items(emit, tile->purposes, tile->purpose_count),
                                               .purpose_count = tile->purpose_count,
-                                              .against_first = emit_items(emit, tile->against, tile->against_count),
+                                              .against_first = tn_emit_items(emit, tile->against, tile->against_count),
                                               .against_count = tile->against_count,
                                               .wide_least = tile->wide[0],
                                               .wide_most = tile->wide[1],
@@ -171,7 +180,7 @@ static void emit_tiles(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
-static void emit_form(tn_emit *emit, const tn_checked_form *form)
+static void emit_form(tn_emit *emit, tn_checked_form *form)
 {
     uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CHOICE),
@@ -179,13 +188,16 @@ static void emit_form(tn_emit *emit, const tn_checked_form *form)
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_OPENING),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FACE_LINE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE)};
-    tn_form_base base = {counts[0], counts[2], (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE)};
+    form->storey_first = counts[0];
+    form->rule_first = counts[2];
+    form->shape_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE);
+    form->index = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FORM);
     bool imported = form->unit + 1 != emit->imports->count;
     emit_storeys(emit, form);
-    emit_choices(emit, form, base);
-    emit_rules(emit, form, base);
+    emit_choices(emit, form);
+    emit_rules(emit, form);
     emit_openings(emit, form);
-    emit_faces(emit, form, base);
+    emit_faces(emit, form);
     emit_tiles(emit, form);
     tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
                                                          .doc = text(emit, form->ast->doc),

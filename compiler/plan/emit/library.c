@@ -9,8 +9,7 @@ static void emit_total(tn_emit *emit, const tn_checked_clause *clause)
     tn_emit_op(emit, clause->span, TN_OP_SUM, field, clause->condition->function - 1);
 }
 
-/* The clause's function of H; once, also where several libraries have the clause. */
-static uint32_t clause_function(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
+uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
 {
     if (clause->rule)
         return clause->rule->holds;
@@ -36,7 +35,7 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLAUSE);
     for (size_t i = 0; i < library->clause_count; i++) {
         tn_checked_clause *clause = library->clauses[i];
-        uint32_t holds = clause_function(emit, clause, library->schema->index);
+        uint32_t holds = tn_emit_clause(emit, clause, library->schema->index);
         tn_builder_add_CLAUSE(emit->builder, &(tn_clause_record){
                                                  .name = tn_builder_string(emit->builder, clause->name),
                                                  .doc = tn_builder_string(emit->builder, clause->doc),
@@ -89,5 +88,9 @@ void tn_emit_libraries(tn_emit *emit)
 {
     emit_pattern(emit);
     for (size_t i = 0; i < emit->checked->library_count; i++)
-        emit_library(emit, emit->checked->libraries[i]);
+        if (!emit->checked->libraries[i]->form)
+            emit_library(emit, emit->checked->libraries[i]);
+    for (size_t i = 0; i < emit->checked->library_count; i++)
+        if (emit->checked->libraries[i]->form)
+            tn_emit_house_library(emit, emit->checked->libraries[i]);
 }

@@ -161,14 +161,26 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         tn_emit_op(emit, span, TN_OP_MIRROR, mirrored(expr), 0);
         tn_emit_op(emit, span, TN_OP_OR, 0, 0);
         break;
+    case TN_EXPR_CELL:
+    case TN_EXPR_ROOM:
+    case TN_EXPR_SECTION:
+    case TN_EXPR_TOUCH:
+    case TN_EXPR_APART:
+        tn_emit_ask(emit, expr);
+        break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
+        if (tn_emit_quantity(emit, expr))
+            break;
         tn_emit_whole(emit, first_part(expr));
         tn_emit_op(emit, span, expr->kind == TN_EXPR_QUANTITY ? TN_OP_QUANTITY : TN_OP_OCCURRENCES, condition_of(expr),
                    0);
         break;
     case TN_EXPR_SUM:
-        emit_sum(emit, expr);
+        if (expr->ask)
+            tn_emit_ask(emit, expr);
+        else
+            emit_sum(emit, expr);
         break;
     case TN_EXPR_MANY:
         tn_emit_whole(emit, first_part(expr));
@@ -240,6 +252,7 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
         tn_emit_needs(emit, test, name);
     if (expr->condition_checked)
         tn_emit_condition(emit, expr->condition_checked);
+    tn_emit_ask_needs(emit, expr);
     tn_emit_sum_needs(emit, expr->sum, name);
     tn_emit_sum_needs(emit, expr->high, name);
     if (expr->kind != TN_EXPR_SYMMETRIC || first_part(expr)->kind == TN_EXPR_NAME)
@@ -297,6 +310,10 @@ void tn_emit_rules(tn_emit *emit)
         const tn_checked_rule *rule = checked->rules[i];
         if (rule->is_measure || rule->hidden)
             continue;
+        if (rule->form) {
+            tn_emit_house_rule(emit, rule);
+            continue;
+        }
         tn_span span = rule->ast->top.node.span;
         tn_builder_add_RULE(emit->builder,
                             &(tn_rule_record){

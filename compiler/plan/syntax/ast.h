@@ -120,6 +120,9 @@ typedef enum tn_expr_kind {
     TN_EXPR_FALSE,
     TN_EXPR_CELL,    /* of a form: items as of a tray */
     TN_EXPR_SECTION, /* of a form: items of section values */
+    TN_EXPR_ROOM,    /* of a form: items as of a cell, and what is about the whole room */
+    TN_EXPR_TOUCH,   /* parts: two cells */
+    TN_EXPR_APART,   /* parts: from, to, and perhaps by way of */
     TN_EXPR_BROKEN,  /* already reported */
 
     /* sums: QUANTITY, OCCURRENCES and SUM without a condition are such too */
@@ -154,7 +157,8 @@ typedef struct tn_ast_expr {
     uint32_t depth;
     const tn_ast_word *name;    /* of a rule; of the field of a sum or quantifier; a constant */
     const tn_ast_word *detail;  /* the word after a sum's field: `depth` */
-    tn_ast_list items;          /* tray: tn_ast_item */
+    tn_ast_list items;          /* tray, cell, room, section: tn_ast_item */
+    tn_ast_list kinds;          /* touch, apart: tn_ast_word after `by` */
     tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
     tn_ast_list names;          /* quantifier: the words that it binds */
@@ -163,6 +167,7 @@ typedef struct tn_ast_expr {
     tn_ast_cond *condition;
     size_t unit; /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
     struct tn_checked_rule *rule;                   /* checked: what a name means */
+    struct tn_checked_ask *ask;                     /* checked: what is asked of houses; NULL: nothing */
     struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
     struct tn_checked_condition *condition_checked; /* checked */
     struct tn_checked_sum *sum;       /* checked: comparison: the left side less the right; a `within`: less low */
@@ -281,7 +286,7 @@ typedef struct tn_ast_clause {
 
 typedef struct tn_ast_library {
     tn_ast_top top;
-    const tn_ast_word *name, *doc, *using, *from;
+    const tn_ast_word *name, *doc, *using, *from, *in;
     tn_ast_list clauses; /* tn_ast_clause */
 } tn_ast_library;
 
@@ -290,11 +295,17 @@ typedef struct tn_ast_tray {
     tn_ast_list words;
 } tn_ast_tray;
 
+/* What is in a case's brackets: trays, or the line of a house. */
+typedef struct tn_ast_literal {
+    tn_ast_list trays; /* tn_ast_tray */
+    const tn_ast_word *house;
+} tn_ast_literal;
+
 typedef struct tn_ast_case {
     tn_ast_node node;
     tn_ast_list expectations; /* tn_ast_word, a value of tn_expectation each: one for each subject */
     bool todo;                /* expected to fail */
-    tn_ast_list trays;        /* tn_ast_tray */
+    tn_ast_literal literal;
     const tn_ast_word *doc;
     tn_ast_list by;     /* tn_ast_word */
     tn_ast_expr *value; /* of a measure: what it has to be */
@@ -414,9 +425,10 @@ tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes);
 void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases);
 tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation);
 void *tn_ast_case_todo(void *test_case);
-void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_literal literal,
                       const tn_ast_word *doc, tn_ast_list by);
-void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc);
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value,
+                        const tn_ast_word *doc);
 void *tn_ast_literal_tray(tn_parse *parse, tn_span span, tn_ast_list words);
 
 #endif

@@ -261,21 +261,22 @@ void *tn_ast_case_todo(void *test_case)
     return made;
 }
 
-void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_list trays,
+void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_literal literal,
                       const tn_ast_word *doc, tn_ast_list by)
 {
     tn_ast_case *made = TN_NEW(parse->arena, tn_ast_case);
     if (!made)
         return NULL;
-    *made = (tn_ast_case){.node.span = span, .expectations = expectations, .trays = trays, .doc = doc, .by = by};
+    *made = (tn_ast_case){.node.span = span, .expectations = expectations, .literal = literal, .doc = doc, .by = by};
     return made;
 }
 
-void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_list trays, tn_ast_expr *value, const tn_ast_word *doc)
+void *tn_ast_value_case(tn_parse *parse, tn_span span, tn_ast_literal literal, tn_ast_expr *value,
+                        const tn_ast_word *doc)
 {
     tn_ast_word *word = tn_ast_expect(parse, span, "value", TN_EXPECT_VALUE);
     tn_ast_case *made =
-        word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), trays, doc, tn_ast_empty()) : NULL;
+        word && value ? tn_ast_case_new(parse, span, tn_ast_one(word), literal, doc, tn_ast_empty()) : NULL;
     if (made)
         made->value = value;
     return made;

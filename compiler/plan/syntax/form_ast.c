@@ -76,3 +76,11 @@ tn_ast_expr *tn_ast_house_leaf(tn_parse *parse, tn_expr_kind kind, tn_span span,
         expr->items = items;
     return expr;
 }
+
+tn_ast_expr *tn_ast_meeting(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list parts, tn_ast_list kinds)
+{
+    tn_ast_expr *expr = parts.count > 1 ? tn_ast_of(parse, kind, span, parts) : NULL;
+    if (expr)
+        expr->kinds = kinds;
+    return expr;
+}

@@ -17,6 +17,8 @@ typedef struct tn_test_case {
     tn_expectation expectation;
     const uint8_t *values; /* [tray][field]: index of the value within its field */
     size_t length;         /* trays */
+    const char *house;     /* instead: the line of a house, or NULL */
+    tn_span house_place;
     const char *doc;       /* or NULL */
     const char *const *by; /* drop ... by NAME, NAME: clause names; all must be among the reasons */
     size_t by_count;
@@ -28,7 +30,8 @@ typedef struct tn_test_case {
 typedef struct tn_test_block {
     const char *subject; /* name of the rule, library or measure */
     bool is_library, is_measure;
-    uint32_t index;  /* of its RULE, LIBRARY or MEASURE record */
+    bool of_houses;
+    uint32_t index;  /* of its RULE, LIBRARY or MEASURE record; of houses: HOUSE_RULE or HOUSE_LIBRARY */
     uint32_t schema; /* of its SCHEMA record */
     bool imported;
     const tn_test_case *cases;

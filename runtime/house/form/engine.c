@@ -1,6 +1,9 @@
 /* Verifies the forms of a module: what standing a house relies on beyond the bounds of each field. */
-#include "runtime/module/engine.h"
+#include <stdlib.h>
+
 #include "runtime/house/form/form.h"
+#include "runtime/module/code.h"
+#include "runtime/module/engine.h"
 
 static const tn_function_record *function_of(const tn_checker *checker, uint32_t index)
 {
@@ -85,6 +88,40 @@ static tn_status check_tile(const tn_checker *checker, const tn_form_record *for
                            : status;
 }
 
+/* ---- rules and libraries of houses */
+
+static tn_status check_rules_of_houses(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (uint32_t i = 0; i < module->HOUSE_RULE_count; i++) {
+        const tn_house_rule_record *rule = &module->HOUSE_RULE_records[i];
+        uint32_t schema = module->FORM_records[rule->form].schema;
+        if (!decides(checker, rule->whole, TN_FUNCTION_WHOLE, schema) ||
+            !decides(checker, rule->holds, TN_FUNCTION_HOLDS, schema))
+            return tn_refuse(checker, "rule %u about houses names a function of another kind or schema", i);
+    }
+    return tn_check_different(checker, &module->HOUSE_RULE_records->name, sizeof *module->HOUSE_RULE_records,
+                              module->HOUSE_RULE_count, "two rules about houses have the same name");
+}
+
+static tn_status check_libraries_of_houses(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count; i++) {
+        const tn_house_library_record *library = &module->HOUSE_LIBRARY_records[i];
+        uint32_t schema = module->FORM_records[library->form].schema;
+        if (module->LIBRARY_records[library->plans].schema != schema)
+            return tn_refuse(checker, "library %u of houses has plans of another schema than its form's", i);
+        for (uint32_t k = 0; k < library->clause_count; k++)
+            if (!decides(checker, module->HOUSE_CLAUSE_records[library->clause_first + k].holds, TN_FUNCTION_HOLDS,
+                         schema))
+                return tn_refuse(checker, "clause %u of houses names a function of another kind or schema",
+                                 library->clause_first + k);
+    }
+    return tn_check_different(checker, &module->HOUSE_LIBRARY_records->name, sizeof *module->HOUSE_LIBRARY_records,
+                              module->HOUSE_LIBRARY_count, "two libraries of houses have the same name");
+}
+
 static bool has_length(const tn_checker *checker, uint32_t schema)
 {
     const tn_schema_record *record = &checker->module->SCHEMA_records[schema];
@@ -125,8 +162,12 @@ static tn_status verify(const tn_checker *checker)
         if (status != TN_OK)
             return status;
     }
-    return tn_check_different(checker, &module->FORM_records->name, sizeof *module->FORM_records, module->FORM_count,
-                              "two forms have the same name");
+    tn_status status = check_rules_of_houses(checker);
+    if (status == TN_OK)
+        status = check_libraries_of_houses(checker);
+    return status == TN_OK ? tn_check_different(checker, &module->FORM_records->name, sizeof *module->FORM_records,
+                                                module->FORM_count, "two forms have the same name")
+                           : status;
 }
 
 static tn_status verify_function(const tn_checker *checker, uint32_t function)
@@ -145,18 +186,100 @@ static tn_status check_area(const tn_checker *checker, const tn_instruction *ins
     return TN_OK;
 }
 
+/* A lower function of the kind that the opcode asks for, and of the caller's schema. */
+static tn_status check_decision(const tn_checker *checker, const tn_instruction *instruction)
+{
+    bool room = instruction->opcode == TN_OP_SOME_ROOM || instruction->opcode == TN_OP_ROOMS;
+    tn_function_kind kind = instruction->opcode == TN_OP_SECTION_IS ? TN_FUNCTION_SECTION
+                            : room                                  ? TN_FUNCTION_ROOM
+                                                                    : TN_FUNCTION_CELL;
+    uint32_t callee = (uint32_t)instruction->first;
+    if (callee >= checker->record || !decides(checker, callee, kind, function_of(checker, checker->record)->schema))
+        return tn_refuse(checker, "function %u does not decide on what is asked there", callee);
+    return TN_OK;
+}
+
+static tn_status check_counted(const tn_checker *checker, const tn_instruction *instruction)
+{
+    if (function_of(checker, (uint32_t)instruction->second)->kind != TN_FUNCTION_CONDITION)
+        return tn_refuse(checker, "function %u is no condition", (unsigned)instruction->second);
+    return check_decision(checker, instruction);
+}
+
+static tn_status check_meeting(const tn_checker *checker, const tn_instruction *instruction)
+{
+    const tn_meeting_record *meeting = &checker->module->MEETING_records[instruction->first];
+    uint32_t functions[] = {meeting->first, meeting->second,
+                            meeting->through == TN_NO_RECORD ? meeting->first : meeting->through};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        if (functions[i] >= checker->record ||
+            !decides(checker, functions[i], TN_FUNCTION_CELL, function_of(checker, checker->record)->schema))
+            return tn_refuse(checker, "meeting %u asks a function that does not decide on cells",
+                             (unsigned)instruction->first);
+    return TN_OK;
+}
+
 static void list_area(tn_lister *lister, const tn_instruction *instruction)
 {
     static const char *const signs[] = {"<", "<=", "=", "!=", ">=", ">"};
     fprintf(lister->out, "area %s %lld", signs[instruction->first], (long long)instruction->second);
 }
 
-static const tn_section sections[] = {TN_SECTION_FORM,       TN_SECTION_STOREY,    TN_SECTION_CHOICE,
-                                      TN_SECTION_SHAPE,      TN_SECTION_CELL_RULE, TN_SECTION_OPENING,
-                                      TN_SECTION_FACE_LINE,  TN_SECTION_TILE,      TN_SECTION_TILE_BOX,
-                                      TN_SECTION_HOUSE_ITEM, TN_SECTION_STRINGS};
+/* ---- rules and libraries of plans do not ask for houses */
 
-static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area}};
+static bool sum_asks(const tn_module *module, const tn_sum_record *sum, const bool *asking)
+{
+    for (uint32_t i = 0; i < sum->term_count; i++)
+        if (asking[module->TERM_records[sum->term_first + i].part])
+            return true;
+    return false;
+}
+
+static bool code_asks(const tn_module *module, const tn_function_record *function, const bool *asking)
+{
+    for (uint32_t at = function->code_begin; at < function->code_end;) {
+        tn_instruction instruction = tn_code_read(module->code, at);
+        tn_operands operands = tn_code_operands((uint8_t)instruction.opcode);
+        if (tn_code_asks_house(instruction.opcode) || (operands == TN_OPERANDS_FUNC && asking[instruction.first]) ||
+            (operands == TN_OPERANDS_SUMMED && sum_asks(module, &module->SUM_records[instruction.first], asking)))
+            return true;
+        at += instruction.length;
+    }
+    return false;
+}
+
+/* Calls go to lower functions, so that one pass finds all that ask by way of others. */
+static tn_status verify_after(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    bool *asking = calloc(module->FUNCTION_count + 1, sizeof *asking);
+    tn_status status = asking ? TN_OK : tn_fail_memory(checker->error);
+    for (size_t i = 0; asking && i < module->FUNCTION_count; i++)
+        asking[i] = tn_function_kinds[module->FUNCTION_records[i].kind].code == TN_CODE_RULE &&
+                    code_asks(module, &module->FUNCTION_records[i], asking);
+    for (uint32_t i = 0; status == TN_OK && i < module->RULE_count; i++)
+        if (asking[module->RULE_records[i].whole] || asking[module->RULE_records[i].holds])
+            status = tn_refuse(checker, "rule %u is about plans and asks for houses", i);
+    for (uint32_t i = 0; status == TN_OK && i < module->CLAUSE_count; i++)
+        if (asking[module->CLAUSE_records[i].holds])
+            status = tn_refuse(checker, "clause %u is about plans and asks for houses", i);
+    for (uint32_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
+        if (sum_asks(module, &module->SUM_records[module->MEASURE_records[i].sum], asking))
+            status = tn_refuse(checker, "measure %u is about plans and asks for houses", i);
+    free(asking);
+    return status;
+}
+
+static const tn_section sections[] = {TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,
+                                      TN_SECTION_SHAPE,        TN_SECTION_CELL_RULE,  TN_SECTION_OPENING,
+                                      TN_SECTION_FACE_LINE,    TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
+                                      TN_SECTION_HOUSE_ITEM,   TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+                                      TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_STRINGS};
+
+static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
+                                            {TN_OPERANDS_DECISION, check_decision, NULL},
+                                            {TN_OPERANDS_DECISION_COND, check_counted, NULL},
+                                            {TN_OPERANDS_MEETING, check_meeting, NULL}};
 
 extern const tn_engine tn_engine_house;
 const tn_engine tn_engine_house = {.name = "house",
@@ -165,4 +288,5 @@ const tn_engine tn_engine_house = {.name = "house",
                                    .operands = operands,
                                    .operand_count = sizeof operands / sizeof *operands,
                                    .verify = verify,
-                                   .verify_function = verify_function};
+                                   .verify_function = verify_function,
+                                   .verify_after = verify_after};

@@ -173,6 +173,29 @@ static tn_status run_return(tn_plan_vm *vm, const vm_frame *frame, tn_error *err
     return TN_OK;
 }
 
+/* The house is asked for the plain relation; a mirrored house has the same cells, rooms and faces, turned round. */
+static tn_status run_house(tn_plan_vm *vm, vm_frame *frame, const tn_instruction *op, tn_error *error)
+{
+    if (!vm->ask) {
+        tn_fail(error, TN_INVALID, E_NOT_A_HOUSE, "this asks for the cells and rooms of a house, and there is a plan");
+        tn_error_help(error, "give a house line: `plan ; section ; functions ; faces ; tiles`");
+        return TN_INVALID;
+    }
+    tn_status status = add_relation(vm, &vm->stack, error);
+    if (status == TN_OK)
+        status = add_relation(vm, &vm->stack, error); /* room to turn it */
+    if (status != TN_OK)
+        return status;
+    uint64_t *top = vm->stack.words + (--vm->stack.count - 1) * vm->relation_size;
+    uint64_t *plain = frame->reversed ? top + vm->relation_size : top;
+    memset(plain, 0, vm->relation_size * sizeof *plain);
+    status = vm->ask(vm->house, op, plain, vm->words, error);
+    if (frame->reversed)
+        tn_relation_turn(top, plain, vm->length, vm->words);
+    frame->offset += op->length;
+    return status;
+}
+
 const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed)
 {
     const vm_memo *memo = &vm->memos[2 * (size_t)function + reversed];
@@ -218,6 +241,8 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
         return run_compare(vm, frame, &op, error);
     if (op.opcode == TN_OP_RETURN)
         return run_return(vm, frame, error);
+    if (tn_code_asks_house(op.opcode))
+        return run_house(vm, frame, &op, error);
 
     const tn_opcode_effect effect = tn_code_effect((uint8_t)op.opcode);
     if (effect.pops == 0 && (status = add_relation(vm, &vm->stack, error)) != TN_OK)
@@ -312,6 +337,7 @@ tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, t
         return status;
     if (length > 0)
         memcpy(vm->trays, trays, length * sizeof *trays);
+    vm->ask = NULL;
     vm->length = length;
     vm->words = length / 64 + 1;
     vm->relation_size = (length + 1) * vm->words;
@@ -322,6 +348,12 @@ tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, t
         vm->generation = 1;
     }
     return TN_OK;
+}
+
+void tn_plan_vm_house(tn_plan_vm *vm, tn_plan_vm_ask *ask, void *house)
+{
+    vm->ask = ask;
+    vm->house = house;
 }
 
 tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, size_t end, bool *in, tn_error *error)

@@ -11,6 +11,7 @@
 
 #include <gmp.h>
 
+#include "runtime/module/code.h"
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_plan_vm tn_plan_vm;
@@ -28,6 +29,15 @@ void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work);
 
 /* Starts on a plan (copied); forgets what was found for the one before. */
 tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, tn_error *error);
+
+/* What answers for the house that stands on the plan: fills the relation of an instruction about houses
+ * (tn_code_asks_house) on the plan, rows of `words` words (relation.h), all clear before. */
+typedef tn_status tn_plan_vm_ask(void *house, const tn_instruction *instruction, uint64_t *relation, size_t words,
+                                 tn_error *error);
+
+/* Who is asked about the house on the plan; borrowed until the next plan, which has none. Rules about houses are
+ * TN_INVALID (E1616) without one. */
+void tn_plan_vm_house(tn_plan_vm *vm, tn_plan_vm_ask *ask, void *house);
 
 /* H(r, 0, N) for a rule function of kind HOLDS. An error's code_offset is the instruction that it came from. */
 tn_status tn_plan_vm_holds(tn_plan_vm *vm, uint32_t function, bool *holds, tn_error *error);

@@ -2,7 +2,6 @@
 #ifndef TARTAN_PLAN_MATCH_VM_DATA_H
 #define TARTAN_PLAN_MATCH_VM_DATA_H
 
-#include "runtime/module/code.h"
 #include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/sum.h"
 
@@ -34,6 +33,9 @@ struct tn_plan_vm {
     size_t max_length;
     uint64_t memory_limit, memory; /* bytes */
     uint64_t work_limit, work;     /* words; what is left of the limit */
+
+    tn_plan_vm_ask *ask; /* about the house on the plan, or NULL */
+    void *house;
 
     tn_tray *trays;
     size_t length;

@@ -128,7 +128,8 @@ static void write_files(tn_job *job, const tn_house *house)
 
 static void read_house(tn_job *job, const tn_house_form *form, const char *line)
 {
-    size_t max_trays = settings_of(job)->max_length.given ? (size_t)settings_of(job)->max_length.value : 4096;
+    size_t max_trays =
+        settings_of(job)->max_length.given ? (size_t)settings_of(job)->max_length.value : TN_HOUSE_TRAYS_DEFAULT;
     tn_house house;
     tn_error error = {0};
     tn_status status = tn_house_read(form, line, strlen(line), max_trays, &house, &error);
@@ -186,7 +187,7 @@ static const tn_option options[] = {
 
 const tn_command tn_command_house = {
     .name = "house",
-    .summary = "stand a plan up as a house",
+    .summary = "build a house from a plan",
     .usage = "FILE HOUSE [-o FILE]... [--form NAME]",
     .description = "Stands a plan up in a form (docs/houses.md): storeys, rooms with their functions, walls with their "
                    "openings, decks, roofs, "

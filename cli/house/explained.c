@@ -1,0 +1,184 @@
+/* Says why a house is kept or dropped, clause by clause, or which rules match it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/judged.h"
+#include "runtime/base/utf8.h"
+
+bool tn_is_house_line(const char *text)
+{
+    return strchr(text, ';') != NULL;
+}
+
+/* What is explained: a library's clauses, or rules by themselves. */
+typedef struct explaining {
+    tn_job *job;
+    tn_house_judge judge;
+    const tn_house_library_record *library; /* or NULL */
+    const tn_option_list *rules;
+    tn_house house;
+    tn_buffer text;
+    bool full, json;
+} explaining;
+
+static bool choose(explaining *e, const char *library, uint32_t *form)
+{
+    const tn_module *module = e->job->opened.module;
+    tn_diagnostic *d;
+    if (e->rules->count > 0) {
+        uint32_t rule = tn_house_rule_find(module, e->rules->items[0]);
+        *form = rule == TN_NO_RECORD ? 0 : module->HOUSE_RULE_records[rule].form;
+        if (rule != TN_NO_RECORD)
+            return true;
+        d = tn_job_usage(e->job, "the file has no rule `%.80s` about houses", e->rules->items[0]);
+        tn_help(tn_job_diagnostics(e->job), d, "name a rule that asks for cells, rooms or sections");
+        return false;
+    }
+    uint32_t found = tn_house_library_find(module, library);
+    if (found != TN_NO_RECORD) {
+        e->library = &module->HOUSE_LIBRARY_records[found];
+        *form = e->library->form;
+        return true;
+    }
+    d = library ? tn_job_usage(e->job, "the file has no library of houses `%.80s`", library)
+                : tn_job_usage(e->job, module->HOUSE_LIBRARY_count ? "the file has several libraries of houses"
+                                                                   : "the file has no library of houses");
+    tn_help(tn_job_diagnostics(e->job), d,
+            module->HOUSE_LIBRARY_count ? "say which: --library NAME"
+                                        : "a library of houses is `library NAME from PLANS in FORM { ... }`");
+    return false;
+}
+
+/* ---- a library */
+
+static const char *said(const tn_house_clause *clause)
+{
+    if (clause->trays)
+        return clause->drops ? "no plan of its has so many trays" : "the number of trays is one of its";
+    if (clause->kind == TN_CLAUSE_PRUNE)
+        return clause->drops ? "matches, and is pruned" : "does not match";
+    return clause->drops ? "does not hold, and is required" : "holds, as required";
+}
+
+static void write_clause(explaining *e, const tn_house_clause *clause)
+{
+    tn_buffer_printf(&e->text, "%s %s: %s%s%s%s\n", clause->drops ? "-" : "+", clause->name, said(clause),
+                     clause->of_plans ? ", by the plan alone" : "", *clause->doc ? "; " : "", clause->doc);
+}
+
+static void write_clause_json(explaining *e, const tn_house_clause *clause, bool first)
+{
+    static const char *const kinds[] = {"require", "total", "prune"};
+    tn_buffer_printf(&e->text, "%s{\"name\":", first ? "" : ",");
+    tn_buffer_append_json(&e->text, clause->name);
+    tn_buffer_printf(&e->text, ",\"kind\":\"%s\",\"of\":\"%s\",\"holds\":%s,\"drops\":%s}",
+                     clause->trays ? "trays" : kinds[clause->kind], clause->of_plans ? "plan" : "house",
+                     clause->holds ? "true" : "false", clause->drops ? "true" : "false");
+}
+
+static tn_status write_library(explaining *e, const char *line, tn_error *error)
+{
+    tn_house_clause *clauses = NULL;
+    size_t count = 0;
+    bool dropped = false;
+    const char *name = tn_text(e->judge.module, e->library->name);
+    tn_status status = tn_house_judge_clauses(&e->judge, e->library, &e->house, &clauses, &count, error);
+    for (size_t i = 0; i < count; i++)
+        dropped |= clauses[i].drops;
+    if (e->json) {
+        tn_buffer_printf(&e->text, "{\"house\":");
+        tn_buffer_append_json(&e->text, line);
+        tn_buffer_printf(&e->text, ",\"library\":\"%s\",\"kept\":%s,\"clauses\":[", name, dropped ? "false" : "true");
+    } else {
+        tn_buffer_printf(&e->text, "`%s` %s this house\n", name, dropped ? "drops" : "keeps");
+    }
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        if (e->json)
+            write_clause_json(e, &clauses[i], i == 0);
+        else if (e->full || clauses[i].drops)
+            write_clause(e, &clauses[i]);
+    }
+    if (e->json)
+        tn_buffer_printf(&e->text, "]}\n");
+    free(clauses);
+    return status;
+}
+
+/* ---- rules */
+
+static tn_status write_rule(explaining *e, const char *name, bool first, tn_error *error)
+{
+    const tn_module *module = e->judge.module;
+    uint32_t rule = tn_house_rule_find(module, name);
+    bool holds = false;
+    if (rule == TN_NO_RECORD || &module->FORM_records[module->HOUSE_RULE_records[rule].form] != e->judge.form.record)
+        return tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "there is no rule `%.80s` about houses of that form", name);
+    tn_status status = tn_house_rules_hold(e->judge.rules, module->HOUSE_RULE_records[rule].holds, &holds, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "%s{\"name\":\"%s\",\"matches\":%s}", first ? "" : ",", name,
+                         holds ? "true" : "false");
+    else
+        tn_buffer_printf(&e->text, "%s `%s` %s this house\n", holds ? "+" : "-", name,
+                         holds ? "matches" : "does not match");
+    return status;
+}
+
+static tn_status write_rules(explaining *e, const char *line, tn_error *error)
+{
+    tn_status status = tn_house_rules_start(e->judge.rules, &e->house, error);
+    if (e->json) {
+        tn_buffer_printf(&e->text, "{\"house\":");
+        tn_buffer_append_json(&e->text, line);
+        tn_buffer_printf(&e->text, ",\"rules\":[");
+    }
+    for (size_t i = 0; status == TN_OK && i < e->rules->count; i++)
+        status = write_rule(e, e->rules->items[i], i == 0, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "]}\n");
+    return status;
+}
+
+/* ---- the whole */
+
+static void explain(explaining *e, const char *line, size_t max_length)
+{
+    tn_error error = {0};
+    tn_status status = tn_house_read_open(&e->judge.form, line, strlen(line), max_length, &e->house, &error);
+    if (status == TN_INVALID) {
+        tn_error_place(&error, error.column ? 1 : 0, error.column, error.column_end);
+        tn_report_error(tn_job_diagnostics(e->job), &error, "HOUSE", line, strlen(line));
+        tn_job_status(e->job, status);
+        return;
+    }
+    if (status == TN_OK)
+        status = e->library ? write_library(e, line, &error) : write_rules(e, line, &error);
+    if (status == TN_OK && e->text.failed)
+        status = tn_fail_memory(&error);
+    tn_output out;
+    if (status != TN_OK) {
+        tn_job_fail(e->job, &error);
+    } else if (tn_job_output(e->job, NULL, &out)) {
+        if (e->json)
+            fwrite(e->text.data, 1, e->text.size, out.stream);
+        else
+            tn_write_shown(out.stream, e->text.data, e->text.size);
+        tn_job_commit(e->job, &out);
+    }
+}
+
+void tn_job_explain_house(tn_job *job, const char *library, const tn_option_list *rules, const char *line, bool full,
+                          bool json, size_t max_length)
+{
+    explaining e = {.job = job, .rules = rules, .full = full, .json = json};
+    uint32_t form;
+    tn_error error;
+    if (choose(&e, library, &form)) {
+        if (tn_house_judge_open(job->opened.module, form, max_length, &e.judge, &error) == TN_OK)
+            explain(&e, line, max_length);
+        else
+            tn_job_fail(job, &error);
+    }
+    tn_house_clear(&e.house);
+    tn_house_judge_close(&e.judge);
+    free(e.text.data);
+}

@@ -1,0 +1,95 @@
+/* Reads what is asked of rooms: the items of `room(...)`, as code that decides on one room.
+ *
+ * An item is what each of its cells is, `by` and a kind of face that it has, its `area`, or the number of its `cells`.
+ */
+#include <string.h>
+
+#include "compiler/plan/check/form.h"
+
+typedef struct tn_room_reader {
+    tn_check *check;
+    const tn_checked_form *form;
+    tn_decision *decision;
+    tn_item_context context;
+    bool by; /* the alternatives before were kinds of faces */
+} tn_room_reader;
+
+static void add(tn_room_reader *reader, tn_decision_step step)
+{
+    tn_decision_add(reader->check, reader->decision, step);
+}
+
+/* by window; after it in the same item a kind alone */
+static bool read_kind(tn_room_reader *reader, const tn_ast_word *word)
+{
+    const tn_ast_word *kind = tn_word_is(word, "by") ? (const tn_ast_word *)word->node.next : word;
+    reader->by = true;
+    if (!kind || kind->kind != TN_WORD_NAME || kind->node.next) {
+        tn_diagnostic *d =
+            tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span, "`by` is followed by one kind of face");
+        tn_help(reader->check->diagnostics, d, "write `by` and an opening, `open`, `wall` or `stair`");
+        return false;
+    }
+    uint32_t number = tn_form_kind(reader->check, reader->form, kind);
+    add(reader, (tn_decision_step){.opcode = TN_OP_HAS_FACE, .index = number, .span = kind->node.span});
+    return number != TN_NONE;
+}
+
+static bool read_cells(tn_room_reader *reader, const tn_ast_word *word, tn_span span)
+{
+    tn_decision *cells = TN_NEW(reader->check->arena, tn_decision);
+    if (!cells)
+        return false;
+    *cells = (tn_decision){.span = span};
+    add(reader, (tn_decision_step){.opcode = TN_OP_ALL_CELLS, .cells = cells, .span = span});
+    return tn_form_cell_words(reader->check, reader->form, word, span, &reader->context, cells);
+}
+
+static bool read_alternative(tn_room_reader *reader, const tn_ast_alternative *alternative)
+{
+    bool negated, good;
+    const tn_ast_word *word = tn_form_negated(reader->check, alternative, "room", &negated);
+    if (!word)
+        return false;
+    if (word->kind == TN_WORD_NAME && (tn_word_is(word, "by") || reader->by))
+        good = read_kind(reader, word);
+    else if (word->kind == TN_WORD_NAME && tn_word_is(word, "area"))
+        good = tn_form_compared(reader->check, word, TN_OP_ROOM_AREA, reader->decision);
+    else if (word->kind == TN_WORD_NAME && tn_word_is(word, "cells"))
+        good = tn_form_compared(reader->check, word, TN_OP_ROOM_CELLS, reader->decision);
+    else
+        good = read_cells(reader, word, alternative->node.span);
+    if (negated)
+        add(reader, (tn_decision_step){.opcode = TN_OP_NONE_OF, .span = alternative->node.span});
+    return good;
+}
+
+static bool read_item(tn_room_reader *reader, const tn_ast_item *item)
+{
+    bool good = true, first = true;
+    reader->context = (tn_item_context){.field = TN_NONE};
+    reader->by = false;
+    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
+        good &= read_alternative(reader, alternative);
+        if (!first)
+            add(reader, (tn_decision_step){.opcode = TN_OP_ONE_OF, .span = alternative->node.span});
+        first = false;
+    }
+    return good;
+}
+
+bool tn_form_room(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision)
+{
+    tn_room_reader reader = {.check = check, .form = form, .decision = decision};
+    bool good = true, first = true;
+    decision->span = expr->node.span;
+    if (!expr->items.first)
+        add(&reader, (tn_decision_step){.opcode = TN_OP_EVERY, .span = expr->node.span});
+    for (TN_EACH(const tn_ast_item, item, expr->items)) {
+        good &= read_item(&reader, item);
+        if (!first)
+            add(&reader, (tn_decision_step){.opcode = TN_OP_ALL_OF, .span = item->node.span});
+        first = false;
+    }
+    return good;
+}

@@ -1,0 +1,197 @@
+/* Checks what rules and libraries ask of houses: whose houses they are, and the cells, rooms, sections, faces and walks
+ * that they name. */
+#include <string.h>
+
+#include "compiler/plan/check/form.h"
+#include "runtime/base/nearest.h"
+
+/* ---- the form that is meant */
+
+tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const char *name)
+{
+    for (size_t i = 0; i < check->result->form_count; i++) {
+        tn_checked_form *form = check->result->forms[i];
+        if (strcmp(form->name, name) == 0 && tn_import_reaches(check->imports, unit, form->unit))
+            return form;
+    }
+    return NULL;
+}
+
+static tn_checked_form *no_form(tn_check *check, tn_span place)
+{
+    if (check->incomplete || (!check->rule && check->form_wrong))
+        return NULL;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
+                                 "this asks for cells of houses, and no form says what they are");
+    if (!check->rule)
+        tn_help(check->diagnostics, d, "a library of houses is one `from` a library of plans `in` a form");
+    else
+        tn_help(check->diagnostics, d, "declare a form of schema `%s`, or `use` the file that does",
+                check->schema ? check->schema->name : "...");
+    return NULL;
+}
+
+/* The only form of the rule's schema that is in scope. */
+static tn_checked_form *only_form(tn_check *check, tn_span place)
+{
+    tn_checked_form *found = NULL, *other = NULL;
+    for (size_t i = 0; i < check->result->form_count && !other; i++) {
+        tn_checked_form *form = check->result->forms[i];
+        if (form->schema != check->schema || !tn_import_reaches(check->imports, check->unit, form->unit))
+            continue;
+        other = found;
+        found = form;
+    }
+    if (!found)
+        return no_form(check, place);
+    if (!other)
+        return found;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
+                                 "several forms are in scope here, and it is not said whose houses are meant");
+    tn_note(check->diagnostics, d, &other->ast->name->node.span, "form `%s`", other->name);
+    tn_note(check->diagnostics, d, &found->ast->name->node.span, "form `%s`", found->name);
+    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the rule's name", other->name, found->name);
+    return NULL;
+}
+
+static tn_checked_form *form_meant(tn_check *check, tn_span place)
+{
+    if (!check->schema || check->schema->broken)
+        return NULL;
+    if (!check->rule)
+        return check->form ? check->form : no_form(check, place);
+    if (!check->rule->form)
+        check->rule->form = only_form(check, place);
+    return check->rule->form;
+}
+
+void tn_check_same_form(tn_check *check, const tn_ast_expr *name)
+{
+    tn_checked_form *other = name->rule ? name->rule->form : NULL;
+    if (!other)
+        return;
+    if (check->rule && !check->rule->form) {
+        check->rule->form = other;
+        return;
+    }
+    tn_checked_form *form = check->rule ? check->rule->form : check->form;
+    if (!form) {
+        no_form(check, name->node.span);
+        return;
+    }
+    if (form == other || (!check->rule && check->form_wrong))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, name->node.span,
+                                 "`%s` is about houses of form `%s`, and this is about those of `%s`", name->rule->name,
+                                 other->name, form->name);
+    tn_note(check->diagnostics, d, &name->rule->ast->name->node.span, "`%s` is here", name->rule->name);
+    tn_help(check->diagnostics, d, "use rules about one form together; `using %s` after a rule's name says which",
+            form->name);
+}
+
+/* ---- what is asked */
+
+static tn_checked_ask *new_ask(tn_check *check, tn_ast_expr *expr)
+{
+    tn_checked_form *form = form_meant(check, expr->node.span);
+    tn_checked_ask *ask = form && form->schema ? TN_NEW(check->arena, tn_checked_ask) : NULL;
+    if (ask)
+        *ask = (tn_checked_ask){.form = form};
+    return ask;
+}
+
+/* Can one walk through a face of the kind? Up and down by stairs. */
+static bool is_passable(const tn_checked_form *form, uint32_t kind)
+{
+    return kind == TN_FACE_OPEN || kind == TN_FACE_STAIR ||
+           (kind >= TN_FACE_KIND_COUNT && form->openings[kind - TN_FACE_KIND_COUNT].passage);
+}
+
+static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask *ask)
+{
+    bool good = true;
+    ask->kinds = TN_NEW_ARRAY(check->arena, uint32_t, expr->kinds.count);
+    for (TN_EACH(const tn_ast_word, word, expr->kinds)) {
+        uint32_t kind = ask->kinds ? tn_form_kind(check, ask->form, word) : TN_NONE;
+        good &= kind != TN_NONE;
+        if (kind == TN_NONE)
+            continue;
+        ask->kinds[ask->kind_count++] = kind;
+        if (expr->kind != TN_EXPR_APART || is_passable(ask->form, kind))
+            continue;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_CELL, word->node.span, "nobody walks through `%s`", word->text);
+        tn_help(check->diagnostics, d, "a walk goes by `open`, `stair` and the openings that are a `passage`");
+        good = false;
+    }
+    return good;
+}
+
+static bool read_meeting(tn_check *check, const tn_ast_expr *expr, tn_checked_ask *ask)
+{
+    const tn_ast_expr *first = (const tn_ast_expr *)expr->parts.first, *second = (const tn_ast_expr *)first->node.next,
+                      *through = (const tn_ast_expr *)second->node.next;
+    bool good = tn_form_cell(check, ask->form, first, true, &ask->first);
+    good &= tn_form_cell(check, ask->form, second, true, &ask->second);
+    ask->has_through = through != NULL;
+    if (through)
+        good &= tn_form_cell(check, ask->form, through, true, &ask->through);
+    return read_kinds(check, expr, ask) && good;
+}
+
+void tn_check_ask(tn_check *check, tn_ast_expr *expr)
+{
+    tn_checked_ask *ask = new_ask(check, expr);
+    if (!ask)
+        return;
+    if (expr->kind == TN_EXPR_CELL)
+        tn_form_cell(check, ask->form, expr, true, &ask->first);
+    else if (expr->kind == TN_EXPR_SECTION)
+        tn_form_section(check, ask->form, expr, &ask->first);
+    else if (expr->kind == TN_EXPR_ROOM)
+        tn_form_room(check, ask->form, expr, &ask->first);
+    else
+        read_meeting(check, expr, ask);
+    expr->ask = ask;
+}
+
+/* ---- areas */
+
+static bool names_cells(const tn_ast_expr *expr)
+{
+    if (expr->kind == TN_EXPR_CELL)
+        return true;
+    bool joined = expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR || expr->kind == TN_EXPR_NOT;
+    return joined && names_cells((const tn_ast_expr *)expr->parts.first);
+}
+
+bool tn_sums_areas(const tn_ast_expr *sum)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)sum->parts.first;
+    return part && sum->name && !sum->detail && tn_word_is(sum->name, "area") && names_cells(part);
+}
+
+void tn_check_areas(tn_check *check, tn_ast_expr *sum)
+{
+    tn_checked_ask *ask = new_ask(check, sum);
+    sum->condition_checked = tn_check_condition(check, sum->condition, TN_AREAS);
+    if (ask)
+        tn_form_cell(check, ask->form, (const tn_ast_expr *)sum->parts.first, true, &ask->first);
+    sum->ask = ask;
+}
+
+/* ---- records */
+
+void tn_check_number_records(tn_check *check)
+{
+    tn_checked *result = check->result;
+    uint32_t of_plans = 0, of_houses = 0;
+    for (size_t i = 0; i < result->rule_count; i++) {
+        tn_checked_rule *rule = result->rules[i];
+        if (!rule->is_measure && !rule->hidden)
+            rule->index = rule->form ? of_houses++ : of_plans++;
+    }
+    of_plans = of_houses = 0;
+    for (size_t i = 0; i < result->library_count; i++)
+        result->libraries[i]->index = result->libraries[i]->form ? of_houses++ : of_plans++;
+}

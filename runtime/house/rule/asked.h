@@ -1,0 +1,30 @@
+/* Rules on one house: the interpreter of rules (runtime/plan/match/vm.h) over the house's cells, rooms and faces.
+ *
+ * A tn_house_rules belongs to one thread and borrows the form. It keeps its memory from house to house.
+ */
+#ifndef TARTAN_HOUSE_RULE_ASKED_H
+#define TARTAN_HOUSE_RULE_ASKED_H
+
+#include "runtime/house/house.h"
+
+typedef struct tn_house_rules tn_house_rules;
+
+/* max_length: of a plan, in trays (0: TN_VM_LENGTH_DEFAULT). */
+tn_status tn_house_rules_new(const tn_house_form *form, size_t max_length, tn_house_rules **rules, tn_error *error);
+void tn_house_rules_free(tn_house_rules *rules);
+
+/* Starts on a house whose functions and faces are known (borrowed); forgets what was found for the one before. */
+tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_error *error);
+
+/* H on the whole house, for a function of kind HOLDS. */
+tn_status tn_house_rules_hold(tn_house_rules *rules, uint32_t function, bool *holds, tn_error *error);
+
+/* Does clause `clause` (of the library) keep the house out? */
+tn_status tn_house_rules_drop(tn_house_rules *rules, const tn_house_library_record *library, uint32_t clause,
+                              bool *drops, tn_error *error);
+
+/* Is the house kept by all clauses? */
+tn_status tn_house_rules_keep(tn_house_rules *rules, const tn_house_library_record *library, bool *kept,
+                              tn_error *error);
+
+#endif

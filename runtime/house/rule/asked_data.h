@@ -1,0 +1,34 @@
+/* What a tn_house_rules is made of, for the files that implement asked.h. */
+#ifndef TARTAN_HOUSE_RULE_ASKED_DATA_H
+#define TARTAN_HOUSE_RULE_ASKED_DATA_H
+
+#include "runtime/house/rule/asked.h"
+#include "runtime/plan/match/vm.h"
+
+/* A room: cells of one function that open faces join, with the voids above. It spans the trays [begin, end). */
+typedef struct tn_room_span {
+    uint32_t room; /* its lowest cell */
+    uint32_t begin, end;
+    uint32_t cells; /* without voids */
+    tn_int128 area; /* likewise, in square nanometres */
+} tn_room_span;
+
+struct tn_house_rules {
+    const tn_house *house;
+    tn_plan_vm *vm;
+    uint32_t *room_of; /* each cell's */
+    tn_room_span *rooms;
+    size_t room_count;
+    bool *seen;
+    uint32_t *todo;
+    int64_t *sums;
+    size_t capacity; /* of each of the arrays, in items */
+};
+
+/* ---- asked_rooms.c */
+tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
+
+/* What a function of kind ROOM decides on a room. */
+bool tn_room_decide(const tn_house_rules *rules, uint32_t function, const tn_room_span *room);
+
+#endif
