@@ -61,8 +61,8 @@ typedef struct bench {
 static void compile(sample *s)
 {
     tn_error error;
-    if (tn_open_text(TN_NOTATION(hemls), "a sentence", s->sentence, s->size, &(tn_compile_options){0}, &s->opened) ==
-            TN_OK &&
+    if (tn_open_text(TN_NOTATION(hemls), &(tn_input){.text = s->sentence, .size = s->size, .name = "a sentence"},
+                     &(tn_compile_options){0}, &s->opened) == TN_OK &&
         tn_growth_system_read(s->opened.module, &s->system, &error) != TN_OK)
         stop(error.message);
 }
@@ -221,7 +221,7 @@ int main(int count, char **words)
         tn_grower_new(words[2], false, THREADS, &grower, &error) != TN_OK)
         stop(error.message);
     if (tn_open(words[2], false, &opened) != TN_OK ||
-        tn_study_read(opened.module, words[2], tn_openmesh_read, &study, &error) != TN_OK)
+        tn_study_read(opened.module, words[2], &tn_openmesh_reader, &study, &error) != TN_OK)
         stop("the study cannot be read");
     study.options.threads = 1;
     tn_growth *growths[THREADS] = {NULL};

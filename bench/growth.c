@@ -12,7 +12,7 @@
 
 #include "bench/bench.h"
 #include "compiler/compile.h"
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"

@@ -10,7 +10,9 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/manual.h"
+#include "cli/common/memory_guard.h"
 #include "cli/common/options.h"
+#include "cli/common/pipes.h"
 #include "cli/common/terminal.h"
 
 /* Help and version go to standard output like any result: a full disk is an error, a closed pipe is not. */
@@ -92,6 +94,7 @@ static int completion(const char *name)
 /* An editor's server has nothing to lose, and ends at once. */
 static void watch(const tn_command *command, const tn_settings *settings)
 {
+    tn_memory_guard_start(command, settings);
     if (strcmp(command->name, "lsp") == 0)
         return;
     tn_interrupt_watch(settings->diagnostics == 1);
@@ -115,6 +118,7 @@ static int run(const tn_command *command, int count, char **words)
         exit_code = help(command->name, false);
     } else {
         watch(command, settings);
+        tn_pipes_announce(settings);
         exit_code = command->run(command, settings);
     }
     tn_settings_free(command, settings);

@@ -1,6 +1,6 @@
 # What others build on: the libraries (shared and static), the header, pkg-config files and the CMake package, the stdlib; manual.cmake adds what is to be read.
 #
-#   libtartan-runtime  loads modules; plans, genomes, numbers. Needs GMP and xxHash only.
+#   libtartan-runtime  loads modules; plans, genomes, fields, placing. Needs GMP and xxHash only.
 #   libtartan-growth   grows surfaces
 #   libtartan-mesh     mesh files and algorithms, by OpenMesh
 #   libtartan-draw     pictures, by cairo
@@ -63,15 +63,20 @@ endfunction()
 get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
 foreach(folder ${folders})
   get_property(part GLOBAL PROPERTY TARTAN_PART_${folder})
+  if(folder MATCHES "^api-(draw|mesh)$")
+    string(TOUPPER ${CMAKE_MATCH_1} part)
+  elseif(folder STREQUAL "api-run")
+    set(part STORE)
+  endif()
   if(folder STREQUAL "lsp")
     continue()
   elseif(part AND TARTAN_WITH_${part})
     list(APPEND TARTAN_${part}_FOLDERS ${folder})
   elseif(part)
     list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
-  elseif(folder MATCHES "^runtime-growth" AND NOT folder STREQUAL "runtime-growth-model") # modules hold growth's tables
+  elseif(folder MATCHES "^(runtime|api)-growth" AND NOT folder STREQUAL "runtime-growth-model") # modules hold growth's tables
     list(APPEND TARTAN_GROWTH_FOLDERS ${folder})
-  elseif(folder MATCHES "^(runtime|api-base|api-plan|api-genome)")
+  elseif(folder MATCHES "^(runtime|api-(base|plan|genome|geometry|field|place)$)")
     list(APPEND TARTAN_RUNTIME_FOLDERS ${folder})
   else()
     list(APPEND TARTAN_COMPILER_FOLDERS ${folder})

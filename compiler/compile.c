@@ -15,7 +15,11 @@ tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, co
                            ? tn_sources_add(&compilation->sources, input->name, input->text, input->size, &file, &error)
                            : tn_fail_memory(&error);
     if (status == TN_OK)
+        status = tn_watch_check(options->watch, &error);
+    if (status == TN_OK)
         status = notation->front->compile(compilation, options, &error);
+    if (status != TN_OK && status != TN_INVALID && tn_watch_stopped(options->watch))
+        status = tn_fail_stopped(options->watch, &error); /* a front end takes that for want of memory */
     if (status != TN_OK && status != TN_INVALID)
         tn_report_error(&compilation->diagnostics, &error, input->name, NULL, 0);
     tn_diagnostics_sort(&compilation->diagnostics);

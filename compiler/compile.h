@@ -11,8 +11,8 @@
 #include "compiler/notation.h"
 
 /* Compiles a text of the notation. The result's diagnostics say what is wrong; returns TN_OK, or TN_INVALID where there
- * is an error. The input and what the resolver found are not needed afterwards. Free with tn_compilation_clear in any
- * case. */
+ * is an error, or TN_STOPPED. The input and what the resolver found are not needed afterwards. Free with
+ * tn_compilation_clear in any case. */
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                           tn_compilation *compilation);
 

@@ -17,12 +17,14 @@ const char *tartan_version(void)
 
 tartan_status tn_api_fail(const tn_error *found, tartan_error *error)
 {
+    bool full = found->status == TN_STOPPED && found->code == E_MEMORY_LIMIT; /* nobody asked for the end */
+    tartan_status status = full ? TARTAN_LIMIT : (tartan_status)found->status;
     if (error) {
-        *error = (tartan_error){.status = (tartan_status)found->status, .code = found->code, .column = found->column};
+        *error = (tartan_error){.status = status, .code = found->code, .column = found->column};
         memcpy(error->message, found->message, sizeof error->message);
         memcpy(error->help, found->help, sizeof error->help);
     }
-    return (tartan_status)found->status;
+    return status;
 }
 
 tartan_status tn_api_refuse(tartan_error *error, tartan_status status, const char *format, ...)
@@ -109,8 +111,10 @@ tartan_status tn_api_watch(const tartan_watch *given, tn_watch *watch, tartan_er
 {
     tartan_watch own;
     tartan_status status = TN_API_TAKE(tartan_watch, &own, given, error);
-    if (status == TARTAN_OK)
+    if (status == TARTAN_OK) {
         tn_watch_begin(watch, own.go_on, own.context);
+        watch->memory_limit = own.memory_limit;
+    }
     return status;
 }
 

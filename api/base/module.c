@@ -103,6 +103,17 @@ const char *tartan_module_library_doc(const tartan_module *module, size_t i)
     return i < m->LIBRARY_count ? tn_text(m, m->LIBRARY_records[i].doc) : NULL;
 }
 
+size_t tartan_module_surface_count(const tartan_module *module)
+{
+    return module->module->SURFACE_count;
+}
+
+const char *tartan_module_surface_name(const tartan_module *module, size_t i)
+{
+    const tn_module *m = module->module;
+    return i < m->SURFACE_count ? tn_text(m, m->SURFACE_records[i].name) : NULL;
+}
+
 bool tartan_module_has_growth(const tartan_module *module)
 {
     return module->module->GROWTH_count > 0;
@@ -110,7 +121,12 @@ bool tartan_module_has_growth(const tartan_module *module)
 
 bool tartan_module_has_grammar(const tartan_module *module)
 {
-    return module->module->GRAMMAR_count > 0;
+    return tn_module_has_grammar(module->module);
+}
+
+bool tartan_module_has_places(const tartan_module *module)
+{
+    return module->module->GRAMMAR_count > 0 && !tn_module_has_grammar(module->module);
 }
 
 bool tartan_module_has_study(const tartan_module *module)

@@ -3,11 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/base/api.h"
-#include "compiler/compile.h"
+#include "api/compiler/compile.h"
+#include "compiler/format.h"
 #include "driver/open/files.h"
 #include "runtime/base/file.h"
-#include "runtime/load.h"
 
 _Static_assert((int)TARTAN_NOTE == (int)TN_NOTE && (int)TARTAN_ERROR == (int)TN_ERROR,
                "severities are the same numbers");
@@ -35,15 +34,16 @@ static void show(tn_sources *sources, const tn_diagnostic *item, tartan_report *
     report(context, &shown);
 }
 
-static void show_all(tn_compilation *compilation, tartan_report *report, void *context)
+void tn_api_report(tn_diagnostics *diagnostics, tartan_report *report, void *context)
 {
-    tn_diagnostics_sort(&compilation->diagnostics);
-    for (size_t i = 0; report && i < compilation->diagnostics.count; i++)
-        show(&compilation->sources, &compilation->diagnostics.items[i], report, context);
+    tn_diagnostics_sort(diagnostics);
+    for (size_t i = 0; report && i < diagnostics->count; i++)
+        show(diagnostics->sources, &diagnostics->items[i], report, context);
 }
 
-/* What made opening fail, in one sentence: the first error. */
-static tartan_status failed(const tn_diagnostics *diagnostics, tn_status status, tartan_error *error)
+/* The first error, in one sentence. */
+tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, const tn_watch *watch,
+                                 tartan_error *error)
 {
     for (size_t i = 0; i < diagnostics->count; i++) {
         const tn_diagnostic *item = &diagnostics->items[i];
@@ -56,19 +56,13 @@ static tartan_status failed(const tn_diagnostics *diagnostics, tn_status status,
         }
         return (tartan_status)status;
     }
-    return tn_api_refuse(error, (tartan_status)status, "the rules could not be compiled");
-}
-
-/* The module of a compilation. */
-static tartan_status load(tn_compilation *compilation, tartan_module **module, tartan_error *error)
-{
-    tn_module *loaded;
     tn_error found;
-    if (tn_module_load(compilation->module, compilation->module_size, NULL, &loaded, &found) != TN_OK)
+    if (status == TN_STOPPED) {
+        tn_fail_stopped(watch, &found);
         return tn_api_fail(&found, error);
-    uint8_t *bytes = compilation->module;
-    compilation->module = NULL;
-    return tn_api_module(loaded, bytes, compilation->module_size, module, error);
+    }
+    return status == TN_MEMORY ? tn_api_memory(error)
+                               : tn_api_refuse(error, (tartan_status)status, "the rules could not be compiled");
 }
 
 /* ---- where what is used comes from */
@@ -96,8 +90,8 @@ static tn_status resolve(void *context, const tn_request *request, tn_input *fou
 }
 
 /* Compiles with files that lie beside the text, and in the caller's folders. */
-static tn_status compile_with_files(const tn_notation *notation, tn_input *input, const tartan_compile_options *options,
-                                    tn_compilation *compilation)
+static tn_status open_with_files(const tn_notation *notation, tn_input *input, const tartan_compile_options *options,
+                                 tn_compile_options *own, tn_opened *opened)
 {
     tn_files files;
     char *identity = tn_file_identity(input->name);
@@ -108,9 +102,8 @@ static tn_status compile_with_files(const tn_notation *notation, tn_input *input
     tn_stdlib_dirs dirs = {folders, options->folder_count};
     tn_files_begin(&files, &dirs);
     input->identity = identity;
-    const tn_compile_options own = {.resolver = tn_files_resolver(&files),
-                                    .warnings_are_errors = options->warnings_are_errors};
-    tn_status status = copied ? tn_compile_text(notation, input, &own, compilation) : TN_MEMORY;
+    own->resolver = tn_files_resolver(&files);
+    tn_status status = copied ? tn_open_text(notation, input, own, opened) : TN_MEMORY;
     tn_files_clear(&files);
     for (size_t i = 0; folders && i < options->folder_count; i++)
         free(folders[i]);
@@ -119,26 +112,24 @@ static tn_status compile_with_files(const tn_notation *notation, tn_input *input
     return status;
 }
 
-static tartan_status compile(const char *path, const char *text, size_t size, tartan_compile_options *options,
-                             tartan_module **module, tartan_error *error)
+static tartan_status open_text(const char *path, const char *text, size_t size, tartan_compile_options *options,
+                               tn_opened *opened, tartan_error *error)
 {
-    tn_compilation compilation = {0};
+    tn_watch watch;
     tn_input input = {.text = text, .size = size, .name = path};
     const tn_notation *notation = tn_notation_or_first(path, text, size);
-    const tn_compile_options own = {.resolver = {resolve, options},
-                                    .warnings_are_errors = options->warnings_are_errors};
-    tn_diagnostics_init(&compilation.diagnostics, &compilation.sources);
-    tn_status compiled = options->resolve ? tn_compile_text(notation, &input, &own, &compilation)
-                                          : compile_with_files(notation, &input, options, &compilation);
-    if (compiled == TN_MEMORY && !compilation.arena) {
-        tn_compilation_clear(&compilation);
+    tn_compile_options own = {
+        .resolver = {resolve, options}, .warnings_are_errors = options->warnings_are_errors, .watch = &watch};
+    tartan_status status = tn_api_watch(options->watch, &watch, error);
+    if (status != TARTAN_OK)
+        return status;
+    tn_status compiled = options->resolve ? tn_open_text(notation, &input, &own, opened)
+                                          : open_with_files(notation, &input, options, &own, opened);
+    if (compiled == TN_MEMORY && !opened->compilation.arena)
         return tn_api_memory(error);
-    }
-    show_all(&compilation, options->report, options->report_context);
-    tartan_status status =
-        compiled == TN_OK ? load(&compilation, module, error) : failed(&compilation.diagnostics, compiled, error);
-    tn_compilation_clear(&compilation);
-    return status;
+    tn_api_report(&opened->compilation.diagnostics, options->report, options->report_context);
+    return compiled == TN_OK ? TARTAN_OK
+                             : tn_api_first_error(&opened->compilation.diagnostics, compiled, &watch, error);
 }
 
 static tartan_status take(const char *path, const tartan_compile_options *given, tartan_compile_options *options,
@@ -155,33 +146,91 @@ static tartan_status take(const char *path, const tartan_compile_options *given,
     return status;
 }
 
-tartan_status tartan_compile_text(const char *path, const char *text, size_t size, const tartan_compile_options *given,
-                                  tartan_module **module, tartan_error *error)
+tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *given,
+                          tn_opened *opened, tartan_error *error)
 {
     tartan_compile_options options;
     tartan_status status = take(path, given, &options, error);
+    *opened = (tn_opened){.path = path};
+    tn_diagnostics_init(&opened->compilation.diagnostics, &opened->compilation.sources);
     if (status != TARTAN_OK)
         return status;
     if (size && !text)
         return tn_api_missing(error, "text");
     if (tn_module_has_magic(text, size))
         return tn_api_refuse(error, TARTAN_INVALID, "%.200s is a module, not a rule file", path);
-    return compile(path, size ? text : "", size, &options, module, error);
+    return open_text(path, size ? text : "", size, &options, opened, error);
 }
 
-tartan_status tartan_compile_file(const char *path, const tartan_compile_options *given, tartan_module **module,
-                                  tartan_error *error)
+tartan_status tn_api_open_file(const char *path, const tartan_compile_options *given, tn_opened *opened,
+                               tartan_error *error)
 {
     tartan_compile_options options;
     uint8_t *bytes;
     size_t size;
     tn_error found;
+    *opened = (tn_opened){.path = path};
     tartan_status status = take(path, given, &options, error);
     if (status != TARTAN_OK)
         return status;
     if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &found) != TN_OK)
         return tn_api_fail(&found, error);
-    status = tartan_compile_text(path, (const char *)bytes, size, given, module, error);
+    status = tn_api_open(path, (const char *)bytes, size, given, opened, error);
     free(bytes);
     return status;
+}
+
+/* The module of what was opened, which ends here. */
+static tartan_status keep_module(tartan_status status, tn_opened *opened, tartan_module **module, tartan_error *error)
+{
+    if (status == TARTAN_OK) {
+        status =
+            tn_api_module(opened->module, opened->compilation.module, opened->compilation.module_size, module, error);
+        opened->module = NULL;
+        opened->compilation.module = NULL;
+    }
+    tn_close(opened);
+    return status;
+}
+
+tartan_status tartan_compile_text(const char *path, const char *text, size_t size,
+                                  const tartan_compile_options *options, tartan_module **module, tartan_error *error)
+{
+    tn_opened opened;
+    return keep_module(tn_api_open(path, text, size, options, &opened, error), &opened, module, error);
+}
+
+tartan_status tartan_compile_file(const char *path, const tartan_compile_options *options, tartan_module **module,
+                                  tartan_error *error)
+{
+    tn_opened opened;
+    return keep_module(tn_api_open_file(path, options, &opened, error), &opened, module, error);
+}
+
+/* ---- layout */
+
+tartan_status tartan_format_text(const char *path, const char *text, size_t size, tartan_report *report,
+                                 void *report_context, char **formatted, size_t *formatted_size, tartan_error *error)
+{
+    tn_sources sources = {0};
+    tn_diagnostics diagnostics;
+    char *made = NULL;
+    size_t made_size = 0;
+    if (!path || (size && !text) || !formatted || !formatted_size)
+        return tn_api_missing(error, !path ? "path" : size && !text ? "text" : "room for the text");
+    text = size ? text : "";
+    tn_diagnostics_init(&diagnostics, &sources);
+    tn_status status =
+        tn_format_text(&diagnostics, tn_notation_or_first(path, text, size), path, text, size, &made, &made_size);
+    tn_api_report(&diagnostics, report, report_context);
+    tartan_status result = TARTAN_OK;
+    if (status == TN_OK) {
+        *formatted = made;
+        *formatted_size = made_size;
+    } else {
+        result = tn_api_first_error(&diagnostics, status, NULL, error);
+    }
+    tn_diagnostics_clear(&diagnostics);
+    tn_sources_clear(&sources);
+    return result;
 }

@@ -10,15 +10,15 @@
 #include "runtime/plan/picture/draw.h"
 
 /* Where a picture of this format goes. */
-static tartan_status begin(tartan_picture_format format, uint32_t dpi, tn_picture *to, void **bytes, const size_t *size,
-                           tartan_error *error)
+static tartan_status begin(tartan_picture_format format, uint32_t dpi, const tartan_watch *given, tn_watch *watch,
+                           tn_picture *to, void **bytes, const size_t *size, tartan_error *error)
 {
     if (!bytes || !size)
         return tn_api_missing(error, "room for the picture");
     if ((unsigned)format > TARTAN_PDF)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no picture format %d", (int)format);
-    *to = (tn_picture){.format = (tn_canvas_format)((int)format + TN_CANVAS_SVG), .dpi = dpi};
-    return TARTAN_OK;
+    *to = (tn_picture){.format = (tn_canvas_format)((int)format + TN_CANVAS_SVG), .dpi = dpi, .watch = watch};
+    return tn_api_watch(given, watch, error);
 }
 
 static tartan_status finish(tn_status status, const tn_error *found, const tn_picture *to, void **bytes, size_t *size,
@@ -58,18 +58,19 @@ static tartan_status gather(const tn_schema *schema, const uint32_t *trays, cons
 }
 
 tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends, size_t count,
-                                tartan_picture_format format, const tartan_plans_drawing *given, void **bytes,
-                                size_t *size, tartan_error *error)
+                                tartan_picture_format format, const tartan_plans_drawing *given,
+                                const tartan_watch *waiting, void **bytes, size_t *size, tartan_error *error)
 {
     tartan_plans_drawing drawing;
     tn_drawn_plan *plans = NULL;
+    tn_watch watch;
     tn_picture to;
     tn_error found;
     if (!schema)
         return tn_api_missing(error, "schema");
     tartan_status status = TN_API_TAKE(tartan_plans_drawing, &drawing, given, error);
     if (status == TARTAN_OK)
-        status = begin(format, drawing.dpi, &to, bytes, size, error);
+        status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
     if (status == TARTAN_OK)
         status = gather(tn_api_schema(schema), trays, ends, count, &drawing, &plans, error);
     if (status != TARTAN_OK)
@@ -105,16 +106,18 @@ static tartan_status camera_of(const tartan_growth_drawing *drawing, tn_camera *
 }
 
 tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
-                                 const tartan_growth_drawing *given, void **bytes, size_t *size, tartan_error *error)
+                                 const tartan_growth_drawing *given, const tartan_watch *waiting, void **bytes,
+                                 size_t *size, tartan_error *error)
 {
     tartan_growth_drawing drawing;
     tn_camera camera;
+    tn_watch watch;
     tn_picture to;
     tn_view *view = NULL;
     tn_error found;
     tartan_status status = TN_API_TAKE(tartan_growth_drawing, &drawing, given, error);
     if (status == TARTAN_OK)
-        status = begin(format, drawing.dpi, &to, bytes, size, error);
+        status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
     if (status == TARTAN_OK)
         status = camera_of(&drawing, &camera, error);
     if (status == TARTAN_OK)
@@ -124,8 +127,10 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
     const tn_view_options options = {.title = drawing.title ? drawing.title : growth->study.title,
                                      .caption = drawing.caption,
                                      .dpi = drawing.dpi,
-                                     .system = growth->system};
-    tn_status drawn = tn_view_take(growth->growth, &camera, &view, &found);
+                                     .legend = tn_growth_legend(growth->system)};
+    tn_growth_watch(growth->growth, &watch);
+    tn_status drawn = tn_growth_view(growth->growth, &camera, &view, &found);
+    tn_growth_watch(growth->growth, NULL);
     if (drawn == TN_OK) {
         drawn = tn_views_draw(&view, 1, &options, &to, &found);
         tn_view_free(view);
@@ -135,15 +140,16 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
 
 /* ---- derivations */
 
-tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format, void **bytes, size_t *size,
-                                     tartan_error *error)
+tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format, const tartan_watch *waiting,
+                                     void **bytes, size_t *size, tartan_error *error)
 {
+    tn_watch watch;
     tn_picture to;
     tn_tree tree;
     tn_error found;
     tartan_status status = tn_api_derivation(mapper, error);
     if (status == TARTAN_OK)
-        status = begin(format, 0, &to, bytes, size, error);
+        status = begin(format, 0, waiting, &watch, &to, bytes, size, error);
     if (status != TARTAN_OK)
         return status;
     tn_status drawn = tn_tree_make(mapper->last.events, mapper->last.event_count, &tree, &found);

@@ -324,6 +324,24 @@ tartan_status tartan_evolution_member(const tartan_evolution *e, size_t place, t
     return TN_API_GIVE(tartan_individual, individual, &own, error);
 }
 
+tartan_generation tn_api_generation(const tn_generation_stats *s)
+{
+    tartan_generation own = {.size = sizeof own,
+                             .number = s->generation,
+                             .mean = s->mean,
+                             .scored = s->scored,
+                             .no_sentence = s->no_sentence,
+                             .failed = s->failed,
+                             .limited = s->limited,
+                             .distinct = s->distinct,
+                             .evaluations = s->evaluations,
+                             .births = s->births,
+                             .mean_codons = s->mean_codons,
+                             .mean_depth = s->mean_depth};
+    memcpy(own.best, s->best, sizeof own.best);
+    return own;
+}
+
 tartan_status tartan_evolution_generation(const tartan_evolution *e, tartan_generation *generation, tartan_error *error)
 {
     tartan_status status = usable(e, error);
@@ -332,17 +350,6 @@ tartan_status tartan_evolution_generation(const tartan_evolution *e, tartan_gene
     if (e->done == 0)
         return tn_api_refuse(error, TARTAN_INVALID, "no generation has been made yet");
     tn_generation_stats s = tn_evolution_stats(e->engine);
-    tartan_generation own = {.number = s.generation,
-                             .mean = s.mean,
-                             .scored = s.scored,
-                             .no_sentence = s.no_sentence,
-                             .failed = s.failed,
-                             .limited = s.limited,
-                             .distinct = s.distinct,
-                             .evaluations = s.evaluations,
-                             .births = s.births,
-                             .mean_codons = s.mean_codons,
-                             .mean_depth = s.mean_depth};
-    memcpy(own.best, s.best, sizeof own.best);
+    tartan_generation own = tn_api_generation(&s);
     return TN_API_GIVE(tartan_generation, generation, &own, error);
 }

@@ -36,6 +36,9 @@ struct tartan_evolution {
     tn_error failure;
 };
 
+/* What the engine counts of a generation, under its public type. */
+tartan_generation tn_api_generation(const tn_generation_stats *stats);
+
 /* The caller's options as the engine's, checked; `evolution` has its grammar. */
 tartan_status tn_api_evolution_settings(const tartan_evolution_options *options, tartan_evolution *evolution,
                                         tartan_error *error);

@@ -227,13 +227,17 @@ tartan_status tartan_mapper_nodes(tartan_mapper *mapper, const tartan_node **nod
 /* ---- inverting */
 
 tartan_status tartan_invert(const tartan_grammar *grammar, const char *sentence, size_t size, uint32_t max_depth,
-                            uint64_t **codons, size_t *count, tartan_error *error)
+                            const tartan_watch *given, uint64_t **codons, size_t *count, tartan_error *error)
 {
     tn_genome genome = {0};
     tn_error found;
-    const tn_invert_options options = {.max_depth = max_depth};
+    tn_watch watch;
+    const tn_invert_options options = {.max_depth = max_depth, .watch = &watch};
     if (!grammar || (size && !sentence))
         return tn_api_missing(error, grammar ? "sentence" : "grammar");
+    tartan_status watched = tn_api_watch(given, &watch, error);
+    if (watched != TARTAN_OK)
+        return watched;
     tn_status status = tn_invert(tn_api_grammar(grammar), size ? sentence : "", size, &options, &genome, &found);
     if (status == TN_OK && !tn_genome_reserve(&genome, 1)) /* no codons are an array too */
         status = tn_fail_memory(&found);

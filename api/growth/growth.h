@@ -2,17 +2,9 @@
 #ifndef TARTAN_API_GROWTH_GROWTH_H
 #define TARTAN_API_GROWTH_GROWTH_H
 
-#include "api/base/api.h"
-#include "runtime/geometry/mesh.h"
+#include "api/geometry/mesh.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/study.h"
-
-struct tartan_mesh {
-    tn_mesh mesh;
-};
-
-/* A mesh under its public type, which takes it over in any case. */
-tartan_status tn_api_mesh(tn_mesh *made, tartan_mesh **mesh, tartan_error *error);
 
 struct tartan_growth {
     tn_growth_system *system;

@@ -6,7 +6,6 @@
 
 #include "api/growth/options.h"
 #include "runtime/base/array.h"
-#include "runtime/mesh/openmesh.h"
 
 _Static_assert((int)TARTAN_GRAVITY == (int)TN_GRAVITY && (int)TARTAN_SOLID == (int)TN_BOUNDARY_MESH &&
                    (int)TARTAN_SOFT == (int)TN_SOFT,
@@ -40,7 +39,9 @@ static char *study_path(const tn_module *module, const char *folder)
     return size < 0 ? NULL : path;
 }
 
-static tartan_status read_study(const tartan_module *module, const char *folder, tn_study *study, tartan_error *error)
+/* reader NULL: without the meshes. */
+static tartan_status read_study(const tartan_module *module, const char *folder, const tn_mesh_reader *reader,
+                                tn_study *study, tartan_error *error)
 {
     if (!module)
         return tn_api_missing(error, "module");
@@ -50,7 +51,7 @@ static tartan_status read_study(const tartan_module *module, const char *folder,
     if (!path)
         return tn_api_memory(error);
     tn_error found;
-    tn_status status = tn_study_read(module->module, path, tn_openmesh_read, study, &found);
+    tn_status status = tn_study_read(module->module, path, reader, study, &found);
     free(path);
     if (status == TN_OK)
         return TARTAN_OK;
@@ -66,7 +67,7 @@ tartan_status tartan_growth_options_of(const tartan_module *module, tartan_growt
         return tn_api_missing(error, "options");
     tartan_status status = TN_API_TAKE(tartan_growth_options, &own, options, error);
     if (status == TARTAN_OK)
-        status = read_study(module, own.folder, &study, error);
+        status = read_study(module, own.folder, NULL, &study, error);
     if (status != TARTAN_OK)
         return status;
     fill(&study, &own);
@@ -207,7 +208,6 @@ static void set(const tartan_growth_options *options, tn_growth_options *o)
     o->explain = options->explain;
     o->seed = options->seed;
     o->edge_limit = options->edge_limit;
-    o->memory_limit = options->memory_limit;
     o->threads = (int)(options->threads > TARTAN_THREADS_MAX ? TARTAN_THREADS_MAX : options->threads);
 }
 
@@ -217,8 +217,9 @@ tartan_status tn_api_growth_study(const tartan_module *module, const tartan_grow
     tartan_growth_options options;
     *study = (tn_study){0};
     tartan_status status = TN_API_TAKE(tartan_growth_options, &options, given, error);
+    tn_mesh_reader reader = tn_api_mesh_reader(&options.read_mesh);
     if (status == TARTAN_OK)
-        status = read_study(module, options.folder, study, error);
+        status = read_study(module, options.folder, &reader, study, error);
     if (status != TARTAN_OK || !given)
         return status;
     set(&options, &study->options);

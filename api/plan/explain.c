@@ -114,7 +114,7 @@ static tn_status prepare(tartan_explanation *e, uint32_t schema, const uint32_t 
     return TN_OK;
 }
 
-static tartan_status begin(const tartan_module *module, const uint32_t *trays, size_t length,
+static tartan_status begin(const tartan_module *module, const uint32_t *trays, size_t length, const tartan_watch *watch,
                            tartan_explanation **explanation, tartan_error *error)
 {
     if (length && !trays)
@@ -122,7 +122,7 @@ static tartan_status begin(const tartan_module *module, const uint32_t *trays, s
     tartan_explanation *made = calloc(1, sizeof *made);
     if (!made)
         return tn_api_memory(error);
-    tartan_status status = tn_api_plans_begin(module, NULL, &made->plans, error);
+    tartan_status status = tn_api_plans_begin(module, watch, &made->plans, error);
     if (status == TARTAN_OK)
         *explanation = made;
     else
@@ -132,6 +132,7 @@ static tartan_status begin(const tartan_module *module, const uint32_t *trays, s
 
 static tartan_status finish(tartan_explanation *made, tartan_status status, tartan_explanation **explanation)
 {
+    tn_api_plans_made(&made->plans);
     if (status == TARTAN_OK)
         *explanation = made;
     else
@@ -140,14 +141,14 @@ static tartan_status finish(tartan_explanation *made, tartan_status status, tart
 }
 
 tartan_status tartan_explain_rules(const tartan_module *module, const char *const *names, size_t count,
-                                   const uint32_t *trays, size_t length, tartan_explanation **explanation,
-                                   tartan_error *error)
+                                   const uint32_t *trays, size_t length, const tartan_watch *watch,
+                                   tartan_explanation **explanation, tartan_error *error)
 {
-    tartan_explanation *made;
+    tartan_explanation *made = NULL;
     uint32_t *records = NULL;
     size_t found_count;
     tn_error found;
-    tartan_status status = begin(module, trays, length, &made, error);
+    tartan_status status = begin(module, trays, length, watch, &made, error);
     if (status != TARTAN_OK)
         return status;
     status = tn_api_rules_find(&made->plans.module, names, count, &records, &found_count, error);
@@ -162,12 +163,13 @@ tartan_status tartan_explain_rules(const tartan_module *module, const char *cons
 }
 
 tartan_status tartan_explain_library(const tartan_module *module, const char *name, const uint32_t *trays,
-                                     size_t length, tartan_explanation **explanation, tartan_error *error)
+                                     size_t length, const tartan_watch *watch, tartan_explanation **explanation,
+                                     tartan_error *error)
 {
-    tartan_explanation *made;
+    tartan_explanation *made = NULL;
     uint32_t index;
     tn_error found;
-    tartan_status status = begin(module, trays, length, &made, error);
+    tartan_status status = begin(module, trays, length, watch, &made, error);
     if (status != TARTAN_OK)
         return status;
     status = tn_api_library_find(&made->plans.module, name, &index, error);

@@ -41,6 +41,15 @@ static void give_up(int signal_number)
     _exit(TN_EXIT_INTERRUPTED);
 }
 
+void tn_interrupt_end(const char *text, size_t size, int exit_code)
+{
+    const last_words *last = &words[atomic_load(&current)];
+    (void)!write(STDERR_FILENO, text, size);
+    if (!as_json)
+        (void)!write(STDERR_FILENO, last->text, last->size);
+    _exit(exit_code);
+}
+
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 
 void tn_interrupt_watch(bool json)

@@ -24,6 +24,9 @@ tn_watch *tn_interrupt_waiting(void);
 /* What is said where the command is ended from without: what was written, and what is missing. */
 void tn_interrupt_last_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* Ends the program now, from whichever thread: writes the text, and for people the last words behind it. */
+_Noreturn void tn_interrupt_end(const char *text, size_t size, int exit_code);
+
 /* Only what is finished is being put in place now, or nothing is lost by ending: the clock is stopped. */
 void tn_interrupt_answered(void);
 

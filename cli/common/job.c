@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli/common/interrupt.h"
+#include "cli/common/memory_guard.h"
 #include "runtime/base/picture.h"
 
 int tn_exit_code(tn_status status)
@@ -30,6 +31,8 @@ int tn_exit_code(tn_status status)
 
 static void worsen(tn_job *job, int exit_code)
 {
+    if (exit_code == TN_EXIT_INTERRUPTED && tn_memory_guard_full())
+        exit_code = TN_EXIT_LIMIT; /* nobody asked for the end */
     if (exit_code > job->exit_code)
         job->exit_code = exit_code;
 }
@@ -118,12 +121,23 @@ void tn_job_interrupted(tn_job *job, const char *format, ...)
     tn_job_note(job, "%s", text);
 }
 
+static void say_what_was_passed(tn_job *job)
+{
+    tn_error error;
+    tn_memory_guard_describe(job->settings->command, &error);
+    tn_finding_error(&job->opened, &error);
+    worsen(job, TN_EXIT_LIMIT);
+}
+
 /* Where no command said it itself. */
 static void say_what_is_missing(tn_job *job)
 {
     const char *output = tn_settings_output(job->settings);
     job->stopped |= tn_job_diagnostics(job)->stopped;
-    if (!job->stopped || job->said)
+    if (job->stopped && tn_memory_guard_full())
+        say_what_was_passed(job);
+    bool nothing_to_lose = tn_memory_guard_full() && !(output && strcmp(output, "-") != 0);
+    if (!job->stopped || job->said || nothing_to_lose)
         return;
     if (output && strcmp(output, "-") != 0)
         tn_job_interrupted(job, "interrupted; %.400s is not written", output);

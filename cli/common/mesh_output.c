@@ -28,7 +28,8 @@ tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_
         status = tn_openmesh_smooth(mesh, (unsigned)changes->smooth.value, error);
     if (status == TN_OK && changes->decimate.given)
         status = tn_openmesh_decimate(mesh, (size_t)changes->decimate.value, error);
-    if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL))
+    if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL ||
+                            (format == TN_OUT_DXF && !mesh->lines)))
         status = tn_mesh_triangulate(mesh, error);
     return status;
 }

@@ -67,6 +67,8 @@
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
 
 /* The field: where the command keeps it. */
+#define OPTION_MAX_BOXES(FIELD)                                                                                        \
+    NUMBER("max-boxes", 0, "N", FIELD, 1, 100000000, "the most boxes of a design, with their images (default 100000)")
 #define OPTION_THREADS(FIELD)                                                                                          \
     NUMBER("threads", 0, "N", FIELD, 1, 1024,                                                                          \
            "how many threads work (default: all processors); changes nothing but the time")

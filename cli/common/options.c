@@ -10,6 +10,8 @@
 const tn_option tn_common_options[] = {
     CHOICE("diagnostics", 0, "FORM", diagnostics, "text|json",
            "how errors and warnings are written on standard error: text (default) or json"),
+    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24,
+           "the most memory that the command may take, in megabytes (default: half of what is free)"),
     FLAG("help", 'h', help, "show this help"),
 };
 const size_t tn_common_option_count = OPTION_COUNT(tn_common_options);

@@ -65,6 +65,7 @@ typedef struct tn_settings {
     bool help;
     int diagnostics; /* 0 text, 1 json */
     bool werror;
+    tn_option_number memory_limit; /* megabytes */
 } tn_settings;
 
 typedef struct tn_command {
@@ -76,6 +77,7 @@ typedef struct tn_command {
     const tn_option *options;
     size_t option_count;
     size_t settings_size; /* of the command's struct, which begins with tn_settings */
+    const char *ask_less; /* what to do where memory does not suffice: "take fewer steps"; NULL: nothing is known */
     const char *operands; /* what an operand is called in errors */
     size_t operands_min, operands_max;
     int (*run)(const struct tn_command *command, const tn_settings *settings);

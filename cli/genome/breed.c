@@ -111,17 +111,18 @@ static const tn_option options[] = {
 
 const tn_command tn_command_breed = {
     .name = "breed",
-    .summary = "breed sentences of a grammar by choosing parents yourself",
+    .summary = "breed sentences, choosing the parents yourself",
     .usage = "STUDY.study [-o DIR] [--resume]",
-    .description = "As evolve, but the parents of each generation are chosen by you: a sheet shows every individual "
-                   "with its number, and the "
-                   "numbers typed are those that have children. 3*2 counts twice as much as 3. What was chosen is "
-                   "stored with the run, so that it "
-                   "can be replayed and gone on with. A population of 12 to 24 suits a sheet.",
+    .description =
+        "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
+        "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3. Your "
+        "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "
+        "sheet.",
     .example = "$ tartan breed garden.study -o garden.run",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "make the population smaller",
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

@@ -107,23 +107,21 @@ static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, 
 
 const tn_command tn_command_evolve = {
     .name = "evolve",
-    .summary = "breed sentences of a grammar towards what a study wants",
+    .summary = "breed sentences of a grammar towards a goal",
     .usage = "STUDY.study [-o DIR] [--resume] [--generations N]",
-    .description = "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and "
-                   "breeds the next generation "
-                   "from the best, as often as the study says. The same study and seed give the same run on every "
-                   "machine and with any number of "
-                   "threads.\n\n"
-                   "The folder DIR gets run.sqlite (the whole genealogy), best/ (the best sentences as files, with "
-                   "pictures of their surfaces, rules or derivations), "
-                   "stats.csv and fitness.svg. Each generation is stored when it is done: an interrupted or killed run "
-                   "goes on with --resume and "
-                   "ends with the same bytes as one that was not. With --resume and a larger --generations a finished "
-                   "run is extended.",
+    .description =
+        "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and breeds "
+        "the next generation from the best, as often as the study says. The same study and seed give the same run "
+        "on every machine and with any number of threads.\n\n"
+        "The folder DIR gets run.sqlite (the whole run), best/ (the best sentences as files, with pictures of "
+        "their surfaces, rules or derivations), stats.csv and fitness.svg. Each generation is stored when it is "
+        "done. --resume continues a run that was interrupted or killed, and the result has the same bytes as a "
+        "run without interruption. With --resume and a larger --generations a finished run is extended.",
     .example = "$ tartan evolve hello.study\n$ tartan evolve hello.study --resume --generations 200",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "make the population smaller",
     .operands = "one STUDY.study",
     .operands_min = 1,
     .operands_max = 1,

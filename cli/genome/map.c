@@ -176,6 +176,7 @@ static void read_genomes(mapping_run *run, const char *path)
         fail(run, &error);
         return;
     }
+    tn_file_state before = tn_file_state_of(fileno(in));
     char *text = NULL;
     size_t capacity = 0;
     uint64_t line = 0;
@@ -186,9 +187,11 @@ static void read_genomes(mapping_run *run, const char *path)
         if (length == 0 || text[0] != '#')
             read_genome(run, path, line, text, (size_t)length);
     }
+    tn_error error;
     if (ferror(in) && !run->stop) {
-        tn_error error;
         tn_cannot_read(path, errno, &error);
+        fail(run, &error);
+    } else if (!run->stop && tn_file_state_same(&before, fileno(in), path, &error) != TN_OK) {
         fail(run, &error);
     }
     free(text);
@@ -371,14 +374,12 @@ const tn_command tn_command_map = {
     .usage = "GRAMMAR.bnf --genome \"212 187 632 ...\"\nGRAMMAR.bnf --genomes FILE\nGRAMMAR.bnf --random N [--seed S]\n"
              "GRAMMAR.bnf --invert \"SENTENCE\"",
     .description =
-        "Reads a genome codon by codon to choose, from the start symbol on, a production for each non-terminal, and "
-        "writes the "
-        "sentence with the number of codons used, wraps, nodes and depth. A genome that gives no sentence is no error: "
-        "it is "
-        "reported as not valid, with the reason. Codons are whole numbers from 0 to 18446744073709551615.\n\n"
+        "Maps a genome to a sentence. From the start symbol on, each codon chooses a production for a non- "
+        "terminal. The output has the sentence and the number of codons used, wraps, nodes and depth. A genome "
+        "without a sentence is not an error: it is reported as not valid, with the reason. Codons are whole "
+        "numbers from 0 to 18446744073709551615.\n\n"
         "JSON: one object a line with valid, reason, phenotype, used_codons, nodes, depth, wraps; for the genr8 "
-        "dialect also "
-        "max_id, repaired_phenotype, repaired_used_codons and repaired_ids.",
+        "dialect also max_id, repaired_phenotype, repaired_used_codons and repaired_ids.",
     .example = "$ tartan map genr8-example --genome \"212 187 632 832 800 517 338 39\" --trace",
     .options = options,
     .option_count = OPTION_COUNT(options),

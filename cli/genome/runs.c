@@ -183,10 +183,10 @@ const tn_command tn_command_runs = {
     .name = "runs",
     .summary = "show, compare and replay runs of evolution",
     .usage = "show DIR\ncompare DIR...\nreplay DIR INDIVIDUAL",
-    .description = "show lists a run's generations. compare puts several runs side by side: how far each came, and "
-                   "when. replay makes a run again, "
-                   "without scoring, up to the individual with that number, and writes its genome and its sentence: "
-                   "bit for bit what they were.",
+    .description =
+        "show lists a run's generations. compare puts several runs side by side: how far each came, and when. "
+        "replay makes a run again, without scoring, up to the individual with that number, and writes its genome "
+        "and its sentence.",
     .example = "$ tartan runs show hello.run\n$ tartan runs replay hello.run 4711",
     .options = options,
     .option_count = OPTION_COUNT(options),

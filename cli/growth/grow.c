@@ -127,7 +127,7 @@ static tn_status note_step(run_state *run, tn_error *error)
     }
     if (settings->sheet) {
         tn_camera camera = tn_grow_camera(settings);
-        tn_status status = tn_view_take(run->growth, &camera, &run->views[run->view_count], error);
+        tn_status status = tn_growth_view(run->growth, &camera, &run->views[run->view_count], error);
         if (status != TN_OK)
             return status;
         run->view_count++;
@@ -281,16 +281,6 @@ static bool read_until(run_state *run)
     return false;
 }
 
-/* Bytes that growing may take: by default three quarters of the machine's memory, rather than that the system ends the
- * program. */
-static uint64_t memory_limit(const tn_grow_settings *settings)
-{
-    long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
-    if (settings->memory_limit.given || pages <= 0 || size <= 0)
-        return settings->memory_limit.value << 20;
-    return (uint64_t)pages / 4 * 3 * (uint64_t)size;
-}
-
 static tn_status prepare(run_state *run, tn_error *error)
 {
     const tn_opened *opened = &run->job->opened;
@@ -303,14 +293,13 @@ static tn_status prepare(run_state *run, tn_error *error)
     }
     tn_status status = tn_growth_system_read(opened->module, &run->system, error);
     if (status == TN_OK)
-        status = tn_study_read(opened->module, opened->path, tn_openmesh_read, &run->study, error);
+        status = tn_study_read(opened->module, opened->path, &tn_openmesh_reader, &run->study, error);
     if (status != TN_OK)
         return status;
     run->study.options.explain = run->settings->explain;
     run->study.options.interpret = run->settings->engine == TN_GROW_VM;
     run->study.options.watch = tn_interrupt_waiting();
     run->study.options.threads = (int)run->settings->threads.value;
-    run->study.options.memory_limit = memory_limit(run->settings);
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
 }
 
@@ -366,8 +355,6 @@ static const tn_option options[] = {
          "how far from opposite joined branches may point, instead of what the file says"),
     TEXT("branch-length", 0, "L", said.branch_length, "longest join, in sides of the seed as scaled so far"),
     TEXT("edge-limit", 0, "N", said.edge_limit, "the most edges a surface may have"),
-    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24,
-           "the most memory that growing may take, in megabytes (default: three quarters of what there is)"),
     FLAG("fixed-centre", 0, said.fixed_centre, "scale about the start instead of the mean of the vertices"),
     FLAG("fixed-perimeter", 0, said.fixed_perimeter, "vertices of the outline stay"),
     FLAG("facing", 0, said.facing, "join branches only where each points towards the other"),
@@ -412,6 +399,7 @@ const tn_command tn_command_grow = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "take fewer steps with -n",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -29,7 +29,7 @@ typedef struct tn_grow_settings {
     int stats;  /* 0 not asked for, 1 table, 2 json */
     int up;     /* 0 z, 1 y */
     bool explain, each_step, sheet, triangulate, groups, lines, normals;
-    tn_option_number subdivide, smooth, decimate, memory_limit, threads;
+    tn_option_number subdivide, smooth, decimate, threads;
     tn_option_real azimuth, elevation;
     tn_option_number width, columns, dpi; /* of a picture */
 } tn_grow_settings;

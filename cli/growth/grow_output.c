@@ -175,7 +175,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
                                .caption = caption,
                                .columns = (uint32_t)settings->columns.value,
                                .dpi = (uint32_t)settings->dpi.value,
-                               .system = tn_growth_rules(growth)};
+                               .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(settings->output, format);
     if (count && tn_views_draw(views, count, &options, &to, &error) != TN_OK)
         tn_job_fail(job, &error);
@@ -193,9 +193,9 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
                                    tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
-                               .system = tn_growth_rules(growth)};
+                               .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(path, format);
-    tn_status status = tn_view_take(growth, &camera, &view, &error);
+    tn_status status = tn_growth_view(growth, &camera, &view, &error);
     if (status == TN_OK)
         note_depth(job, view);
     if (status == TN_OK)

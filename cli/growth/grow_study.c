@@ -71,7 +71,9 @@ static bool open_options(tn_job *job, const char *text, size_t size)
     tn_files_begin(&files, &dirs);
     tn_compile_options options = {.resolver = tn_files_resolver(&files), .warnings_are_errors = job->settings->werror};
     if (status == TN_OK)
-        tn_job_status(job, tn_open_text(TN_NOTATION(study), "<options>", text, size, &options, &job->opened));
+        tn_job_status(job,
+                      tn_open_text(TN_NOTATION(study), &(tn_input){.text = text, .size = size, .name = "<options>"},
+                                   &options, &job->opened));
     else
         tn_job_fail(job, &error);
     tn_files_clear(&files);

@@ -187,7 +187,7 @@ static const tn_option options[] = {
 
 const tn_command tn_command_house = {
     .name = "house",
-    .summary = "stand a plan up as a house",
+    .summary = "build a house from a plan",
     .usage = "FILE HOUSE [-o FILE]... [--form NAME]",
     .description = "Stands a plan up in a form (docs/houses.md): storeys, rooms with their functions, walls with their "
                    "openings, decks, roofs, "

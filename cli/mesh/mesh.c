@@ -6,122 +6,13 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "compiler/notation.h"
-#include "runtime/mesh/openmesh.h"
-
-/* ---- the surface */
-
-static tn_status no_surface(const tn_opened *opened, const char *name, tn_error *error)
-{
-    const tn_module *module = opened->module;
-    if (module->SURFACE_count == 0) {
-        tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface and no design of boxes", opened->path);
-        const tn_notation *notation = tn_notation_of_module(module);
-        const char *help = "a .field file defines a surface: `surface ball = x*x + y*y + z*z - 1`";
-        bool field = notation && strcmp(notation->name, "field") == 0;
-        tn_error_help(error, "%s", field ? help : tn_opened_help(opened, help).text);
-        return TN_INVALID;
-    }
-    const char **names = calloc(module->SURFACE_count, sizeof *names);
-    if (!names)
-        return tn_fail_memory(error);
-    for (size_t i = 0; i < module->SURFACE_count; i++)
-        names[i] = tn_text(module, module->SURFACE_records[i].name);
-    const char *near = tn_nearest(name, names, module->SURFACE_count);
-    tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface `%.100s`", opened->path, name);
-    if (near) {
-        tn_error_help(error, "did you mean `%s`?", near);
-    } else {
-        char list[300];
-        tn_word_list(names, module->SURFACE_count, list, sizeof list);
-        tn_error_help(error, "it has %s", list);
-    }
-    free(names);
-    return TN_INVALID;
-}
-
-tn_status tn_open_field_of(tn_job *job, tn_open_field *open, tn_error *error)
-{
-    const tn_module *module = job->opened.module;
-    const char *name = tn_mesh_settings_of(job)->surface;
-    size_t surface = name ? 0 : module->SURFACE_count - 1;
-    while (name && surface < module->SURFACE_count &&
-           strcmp(tn_text(module, module->SURFACE_records[surface].name), name) != 0)
-        surface++;
-    if (surface >= module->SURFACE_count)
-        return no_surface(&job->opened, name, error);
-    tn_status status = tn_field_meshes_read(module, tn_openmesh_read, job->opened.path, &open->meshes, error);
-    if (status == TN_OK)
-        status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
-    return status;
-}
-
-void tn_open_field_close(tn_open_field *open)
-{
-    tn_field_clear(&open->field);
-    tn_field_meshes_clear(&open->meshes);
-}
-
-/* ---- what there is to say */
-
-static void warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
-static void warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
-{
-    char text[300];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    tn_diagnostic *d = tn_report_bare(tn_job_diagnostics(job), TN_WARNING, code, "%s", text);
-    tn_help(tn_job_diagnostics(job), d, "%s", help);
-}
-
-static void warn_of_cut(tn_job *job, const tn_contour *contour)
-{
-    static const char *const sides[] = {"low x", "high x", "low y", "high y", "low z", "high z"};
-    const char *cut[6];
-    char list[100];
-    size_t count = 0;
-    for (unsigned side = 0; side < 6; side++)
-        if (contour->cut >> side & 1)
-            cut[count++] = sides[side];
-    if (count == 0)
-        return;
-    tn_word_list(cut, count, list, sizeof list);
-    warn(job, W_FIELD_CUT, "take a larger box, if that is not meant", "the box cuts the form at %s", list);
-}
-
-static void warn_of_contour(tn_job *job, const tn_contour *c, const tn_mesh_measures *m)
-{
-    if (!c->inside)
-        warn(job, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside, at this grid");
-    else if (!c->outside)
-        warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
-             "all of the box is inside");
-    else
-        warn_of_cut(job, c);
-    if (c->no_values)
-        warn(job, W_FIELD_NO_VALUE, "what has no value is outside",
-             "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values, c->no_value[0],
-             c->no_value[1], c->no_value[2]);
-    if (c->jumps)
-        warn(job, W_FIELD_JUMPS, "there the mesh is a wall between samples; --jumps open leaves it out",
-             "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
-             c->jump[1], c->jump[2]);
-    if (m->small_parts)
-        warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
-             "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts, m->parts,
-             m->small_part[0], m->small_part[1], m->small_part[2]);
-}
 
 /* ---- writing */
 
 /* The formats of --format's words. */
-static const tn_out_format formats[] = {TN_OUT_NONE, TN_OUT_OBJ, TN_OUT_PLY, TN_OUT_STL,
-                                        TN_OUT_OFF,  TN_OUT_OM,  TN_OUT_GLB, TN_OUT_SCAD};
-#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad"
+static const tn_out_format formats[] = {TN_OUT_NONE, TN_OUT_OBJ, TN_OUT_PLY,  TN_OUT_STL, TN_OUT_OFF,
+                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_DXF};
+#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|dxf"
 
 static tn_out_format format_of(const tn_mesh_settings *s)
 {
@@ -142,7 +33,7 @@ static bool check_format(tn_job *job, tn_out_format *format)
     if (*format == TN_OUT_NONE) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say which mesh is to be written", s->output);
         tn_help(tn_job_diagnostics(job), d,
-                "end its name in .obj, .ply, .stl, .off, .om, .glb or .scad, or say --format");
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf, or say --format");
         return false;
     }
     bool normals = *format == TN_OUT_OBJ || *format == TN_OUT_PLY || *format == TN_OUT_GLB;
@@ -152,6 +43,11 @@ static bool check_format(tn_job *job, tn_out_format *format)
         tn_help(tn_job_diagnostics(job), d,
                 s->normals && !normals ? "only .obj, .ply and .glb hold normals of vertices"
                                        : "a .glb has y up always");
+        return false;
+    }
+    if (s->exact && *format != TN_OUT_STL) {
+        tn_diagnostic *d = tn_job_usage(job, "--exact does nothing for this kind of file");
+        tn_help(tn_job_diagnostics(job), d, "only an .stl tells vertices by their places");
         return false;
     }
     if (strcmp(s->output, "-") == 0 && s->stats) {
@@ -181,6 +77,8 @@ static bool check_use(tn_job *job)
         {s->threads.given, false, "threads"},
         {s->solid != NULL, true, "solid"},
         {s->cells, true, "cells"},
+        {s->exact, true, "exact"},
+        {s->max_boxes.given, true, "max-boxes"},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
         if (!uses[i].given || uses[i].solid == solid)
@@ -219,6 +117,30 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char 
         tn_job_fail(job, &error);
 }
 
+static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
+{
+    static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
+    const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_mesh_stats stats = {
+        .what = "surface",
+        .name = tn_text(open->field.module, open->field.record->name),
+        .unit = units[open->field.record->unit],
+        .mesh = &c->mesh,
+        .measures = m,
+        .closed = !s->open && s->jumps != 1,
+        .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
+        .count_count = 3};
+    tn_mesh_stats_write(stdout, s->stats == 2, &stats);
+}
+
+static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
+{
+    if (m->small_parts)
+        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
+                    "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
+                    m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
+}
+
 static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_format format, tn_error *error)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
@@ -236,9 +158,10 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     if (status == TN_OK)
         status = tn_mesh_measure(&contour.mesh, 2 * contour.spacing, &measures, error);
     if (status == TN_OK) {
-        warn_of_contour(job, &contour, &measures);
+        tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
+        warn_of_specks(job, &measures);
         if (s->stats || !s->output)
-            tn_mesh_stats_write(stdout, s->stats == 2, open, &contour, &measures, !s->open && s->jumps != 1);
+            write_stats(job, open, &contour, &measures);
         if (s->output) {
             char note[240];
             tn_mesh_note(job, open->field.record->name, note, sizeof note);
@@ -254,7 +177,7 @@ static void answer_field(tn_job *job, tn_out_format format)
 {
     tn_open_field open = {0};
     tn_error error;
-    tn_status status = tn_open_field_of(job, &open, &error);
+    tn_status status = tn_open_field_of(job, tn_mesh_settings_of(job)->surface, &open, &error);
     if (status == TN_OK && tn_mesh_settings_of(job)->points)
         tn_mesh_points(job, &open);
     else if (status == TN_OK)
@@ -282,12 +205,16 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS tn_mesh_settings
 
 static const tn_option options[] = {
-    TEXT("output", 'o', "FILE", output, "the mesh: .obj, .ply, .stl, .off, .om, .glb or .scad; - is standard output"),
+    TEXT("output", 'o', "FILE", output,
+         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf; - is standard output"),
     CHOICE("format", 'f', "FORMAT", format, FORMAT_WORDS, "what is written, where the name of FILE does not say it"),
     TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
     FLAG("cells", 0, cells,
          "of a design of boxes: each box closed by itself, as a group with its name, instead of one surface of all"),
+    FLAG("exact", 0, exact,
+         "of a design of boxes as .stl: leave vertices where they are, though some share a place; otherwise these move "
+         "into their own boxes by 0.00001 of the diagonal"),
     NUMBER("grid", 'n', "N", grid, 2, 8192,
            "samples on the longest side of the box (default: what the file says, or 50)"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json", "write what the mesh measures to standard output"),
@@ -306,6 +233,7 @@ static const tn_option options[] = {
     NUMBER("max-samples", 0, "N", max_samples, 8, 1ull << 36, "the most samples of a grid (default 2000000000)"),
     NUMBER("max-triangles", 0, "N", max_triangles, 1, UINT32_MAX / 3,
            "the most triangles of a mesh (default 100000000)"),
+    OPTION_MAX_BOXES(max_boxes),
     CHOICE("engine", 0, "ENGINE", engine, "tape|vm",
            "tape (the default) evaluates rows of samples and skips what is proven; vm interprets the code at every "
            "sample: the same mesh, more slowly"),
@@ -333,6 +261,7 @@ const tn_command tn_command_mesh = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer samples with --grid",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -4,8 +4,7 @@
 
 #include "cli/common/job.h"
 #include "cli/common/mesh_output.h"
-#include "runtime/field/contour.h"
-#include "runtime/field/meshes.h"
+#include "cli/mesh/surface.h"
 #include "runtime/geometry/measure.h"
 
 typedef struct tn_mesh_settings {
@@ -16,9 +15,9 @@ typedef struct tn_mesh_settings {
     int stats;  /* 0 not asked for, 1 table, 2 json */
     int up;     /* 0 z, 1 y */
     int jumps;  /* 0 closed, 1 open */
-    bool open, normals, cells;
+    bool open, normals, cells, exact;
     tn_out_changes changes;
-    tn_option_number grid, max_samples, max_triangles, threads;
+    tn_option_number grid, max_samples, max_triangles, max_boxes, threads;
 } tn_mesh_settings;
 
 /* Those of the job, which is one of `tartan mesh`. */
@@ -36,19 +35,23 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char 
 /* Meshes a design of boxes of the file that is open, and reports what fails. */
 void tn_job_mesh_solid(tn_job *job, tn_out_format format);
 
-/* A surface of the file that is open. Close it in any case. */
-typedef struct tn_open_field {
-    tn_field_meshes meshes;
-    tn_field field;
-} tn_open_field;
+/* What there is to say of a mesh. */
+typedef struct tn_mesh_stats {
+    const char *what, *name; /* "surface" or "solid", and what it is called */
+    const char *unit;        /* or "" */
+    const tn_mesh *mesh;
+    const tn_mesh_measures *measures;
+    bool closed; /* otherwise it has no volume */
+    struct {
+        const char *key;
+        uint64_t count;
+        bool json_only;
+    } counts[3]; /* what only surfaces, or only designs of boxes, have */
+    size_t count_count;
+} tn_mesh_stats;
 
-/* The surface of --surface, or the last of the file. */
-tn_status tn_open_field_of(tn_job *job, tn_open_field *open, tn_error *error);
-void tn_open_field_close(tn_open_field *open);
-
-/* Writes what the mesh measures to a stream: a table, or JSON. */
-void tn_mesh_stats_write(FILE *out, bool json, const tn_open_field *open, const tn_contour *contour,
-                         const tn_mesh_measures *measures, bool closed);
+/* Writes it to a stream: a table, or JSON. */
+void tn_mesh_stats_write(FILE *out, bool json, const tn_mesh_stats *stats);
 
 /* Does --points: f, its gradient and whether it is inside, for each line of a file. */
 void tn_mesh_points(tn_job *job, const tn_open_field *open);

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/mesh/mesh.h"
+#include "runtime/base/file_error.h"
 
 /* Three numbers and nothing else. The program's locale is C's. */
 static bool read_place(const char *line, double place[3])
@@ -24,20 +26,33 @@ static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double
     char line[1000];
     double place[3], gradient[3];
     const tn_field *field = &open->field;
+    const char *path = tn_mesh_settings_of(job)->points;
+    tn_file_state before = tn_file_state_of(fileno(in));
+    tn_error error;
     for (unsigned long number = 1; fgets(line, sizeof line, in); number++) {
+        if (tn_interrupt_check(&error) != TN_OK) {
+            tn_job_fail(job, &error);
+            return;
+        }
         if (line[strspn(line, " \t\r\n")] == '\0')
             continue;
         if (!read_place(line, place)) {
-            tn_error error;
-            tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %lu of %.200s is not three numbers", number,
-                    tn_mesh_settings_of(job)->points);
-            tn_error_help(&error, "write x, y and z with blanks between them");
+            if (tn_file_state_same(&before, fileno(in), path, &error) == TN_OK) {
+                tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %lu of %.200s is not three numbers", number, path);
+                tn_error_help(&error, "write x, y and z with blanks between them");
+            }
             tn_job_fail(job, &error);
             return;
         }
         double value = tn_tape_gradient(&field->samples, place, &field->distances, registers, gradient);
         printf("%.17g %.17g %.17g %.17g %s\n", value, gradient[0], gradient[1], gradient[2],
                value < 0 ? "inside" : "outside");
+    }
+    if (ferror(in)) {
+        tn_cannot_read(path, errno, &error);
+        tn_job_fail(job, &error);
+    } else if (tn_file_state_same(&before, fileno(in), path, &error) != TN_OK) {
+        tn_job_fail(job, &error);
     }
 }
 
@@ -49,7 +64,7 @@ void tn_mesh_points(tn_job *job, const tn_open_field *open)
     double *registers = calloc((size_t)open->field.samples.register_count * 4, sizeof *registers);
     tn_error error;
     if (!in) {
-        tn_fail(&error, TN_IO, E_CANNOT_READ, "cannot read %.200s: %s", path, strerror(errno));
+        tn_cannot_read(path, errno, &error);
         tn_job_fail(job, &error);
     } else if (!registers) {
         tn_fail_memory(&error);

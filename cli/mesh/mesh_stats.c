@@ -1,17 +1,18 @@
-/* Writes what a mesh of a field measures. */
+/* Writes what a mesh measures: as a table, or as JSON. */
 #include <inttypes.h>
+#include <math.h>
 
 #include "cli/mesh/mesh.h"
 
-static void write_json(FILE *out, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m,
-                       bool closed)
+static void write_json(FILE *out, const tn_mesh_stats *s)
 {
-    fprintf(out, "{\"surface\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"parts\": %u, ",
-            tn_text(open->field.module, open->field.record->name), c->mesh.vertex_count, c->mesh.face_count, m->parts);
-    if (closed)
+    const tn_mesh_measures *m = s->measures;
+    fprintf(out, "{\"%s\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"parts\": %u, ", s->what, s->name,
+            s->mesh->vertex_count, s->mesh->face_count, m->parts);
+    if (s->closed)
         fprintf(out, "\"euler\": %" PRId64 ", \"volume\": %.17g, ", m->euler, m->volume);
     fprintf(out, "\"area\": %.17g, ", m->area);
-    if (closed) {
+    if (s->closed) {
         fprintf(out, "\"centroid\": [%.17g, %.17g, %.17g], \"inertia\": [", m->centroid[0], m->centroid[1],
                 m->centroid[2]);
         for (int i = 0; i < 3; i++)
@@ -19,38 +20,56 @@ static void write_json(FILE *out, const tn_open_field *open, const tn_contour *c
                     m->inertia[i][2]);
         fputs("], ", out);
     }
-    fprintf(out, "\"bounds\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]], ", m->low[0], m->low[1], m->low[2],
+    fprintf(out, "\"bounds\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]]", m->low[0], m->low[1], m->low[2],
             m->high[0], m->high[1], m->high[2]);
-    fprintf(out, "\"jumps\": %" PRIu64 ", \"moved\": %" PRIu64 ", \"no_values\": %" PRIu64 "}\n", c->jumps, c->moved,
-            c->no_values);
+    for (size_t i = 0; i < s->count_count; i++)
+        fprintf(out, ", \"%s\": %" PRIu64, s->counts[i].key, s->counts[i].count);
+    fputs("}\n", out);
 }
 
-static void write_table(FILE *out, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m,
-                        bool closed)
+static double largest(const double p[3], double most)
 {
-    static const char *const units[TN_UNIT_COUNT] = {"", " mm", " cm", " m", " in", " ft"};
-    const char *unit = units[open->field.record->unit];
-    fprintf(out, "surface    %s\n", tn_text(open->field.module, open->field.record->name));
-    fprintf(out, "vertices   %zu\ntriangles  %zu\nparts      %u\n", c->mesh.vertex_count, c->mesh.face_count, m->parts);
-    if (closed)
-        fprintf(out, "Euler      %" PRId64 "\nvolume     %.12g%s%s\n", m->euler, m->volume, unit, *unit ? "^3" : "");
-    fprintf(out, "area       %.12g%s%s\n", m->area, unit, *unit ? "^2" : "");
-    if (closed) {
-        fprintf(out, "centroid   %.6g %.6g %.6g\n", m->centroid[0], m->centroid[1], m->centroid[2]);
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, fabs(p[k]));
+    return most;
+}
+
+/* What only rounding left, beside numbers as large as `scale`, is written as 0. */
+static void write_triple(FILE *out, const char *word, const double p[3], double scale)
+{
+    fputs(word, out);
+    for (int k = 0; k < 3; k++)
+        fprintf(out, " %.6g", fabs(p[k]) < 1e-12 * scale ? 0 : p[k]);
+    fputc('\n', out);
+}
+
+static void write_table(FILE *out, const tn_mesh_stats *s)
+{
+    const tn_mesh_measures *m = s->measures;
+    const char *space = *s->unit ? " " : "", *square = *s->unit ? "^2" : "", *cube = *s->unit ? "^3" : "";
+    fprintf(out, "%-9s  %s\n", s->what, s->name);
+    fprintf(out, "vertices   %zu\ntriangles  %zu\nparts      %u\n", s->mesh->vertex_count, s->mesh->face_count,
+            m->parts);
+    if (s->closed)
+        fprintf(out, "Euler      %" PRId64 "\nvolume     %.12g%s%s%s\n", m->euler, m->volume, space, s->unit, cube);
+    fprintf(out, "area       %.12g%s%s%s\n", m->area, space, s->unit, square);
+    if (s->closed) {
+        write_triple(out, "centroid  ", m->centroid, largest(m->low, largest(m->high, 0)));
         for (int i = 0; i < 3; i++)
-            fprintf(out, "%s %.6g %.6g %.6g\n", i ? "          " : "inertia   ", m->inertia[i][0], m->inertia[i][1],
-                    m->inertia[i][2]);
+            write_triple(out, i ? "          " : "inertia   ", m->inertia[i],
+                         largest(m->inertia[0], largest(m->inertia[1], largest(m->inertia[2], 0))));
     }
     fprintf(out, "bounds     %.6g %.6g %.6g to %.6g %.6g %.6g\n", m->low[0], m->low[1], m->low[2], m->high[0],
             m->high[1], m->high[2]);
-    fprintf(out, "jumps      %" PRIu64 "\nmoved      %" PRIu64 "\n", c->jumps, c->moved);
+    for (size_t i = 0; i < s->count_count; i++)
+        if (!s->counts[i].json_only)
+            fprintf(out, "%-9s  %" PRIu64 "\n", s->counts[i].key, s->counts[i].count);
 }
 
-void tn_mesh_stats_write(FILE *out, bool json, const tn_open_field *open, const tn_contour *contour,
-                         const tn_mesh_measures *measures, bool closed)
+void tn_mesh_stats_write(FILE *out, bool json, const tn_mesh_stats *stats)
 {
     if (json)
-        write_json(out, open, contour, measures, closed);
+        write_json(out, stats);
     else
-        write_table(out, open, contour, measures, closed);
+        write_table(out, stats);
 }

@@ -13,7 +13,7 @@ typedef struct place_settings {
     tn_settings common;
     tn_option_list outputs;
     const char *program;
-    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, memory_limit;
+    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit;
     int stats, engine;
     bool trace, header, keep_partial;
 } place_settings;
@@ -129,12 +129,6 @@ static void write_all(placing *p)
 
 /* ---- the run */
 
-static bool stop(void *context)
-{
-    (void)context;
-    return tn_interrupted();
-}
-
 static void report(void *context, const tn_place_event *event)
 {
     const placing *p = context;
@@ -149,11 +143,10 @@ static tn_place_options options_of(placing *p)
                               .step_limit = s->step_limit.value,
                               .frame_limit = s->frame_limit.value,
                               .lookahead_limit = s->lookahead_limit.value,
-                              .memory_limit = s->memory_limit.value << 20,
                               .keep_steps = s->program != NULL,
-                              .watch = s->trace,
+                              .keep_filled = s->trace,
                               .interpret = s->engine == 1,
-                              .stop = stop,
+                              .watch = tn_interrupt_waiting(),
                               .report = s->trace ? report : NULL,
                               .context = p};
 }
@@ -211,7 +204,6 @@ static const tn_option options[] = {
     NUMBER("frame-limit", 0, "N", frame_limit, 1, UINT32_MAX, "the most ( that are open at a time (default 1000000)"),
     NUMBER("lookahead-limit", 0, "N", lookahead_limit, 1, UINT64_MAX,
            "the most steps of one lookahead, and of symbols expanded without a step (default 1000000)"),
-    NUMBER("memory-limit", 0, "MB", memory_limit, 1, 1u << 24, "the most memory of the filled cells (default 4096)"),
     OPTION_WERROR,
 };
 
@@ -230,6 +222,7 @@ const tn_command tn_command_place = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "make the bounds smaller",
     .operands = "at least one FILE.pcfg",
     .operands_min = 1,
     .operands_max = SIZE_MAX,

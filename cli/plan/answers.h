@@ -33,4 +33,7 @@ void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_o
 /* The last line of `tartan test`. */
 void tn_test_counts_write(const tn_test_counts *counts, FILE *out);
 
+/* The same as JSON; coverage and solids: what stands between the brackets of arrays, or NULL. */
+void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out);
+
 #endif

@@ -159,8 +159,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS best_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     WISH("least", wanted, "the plans with the least MEASURE first"),
     WISH("most", wanted, "the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
@@ -168,10 +167,7 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     OPTION_PLAN_FORMAT,
     OPTION_PLAN_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_best = {

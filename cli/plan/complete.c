@@ -121,19 +121,15 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS complete_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
     OPTION_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_complete = {
     .name = "complete",
-    .summary = "count what completes an open plan, and which values may stand where",
+    .summary = "count the plans that complete an open plan",
     .usage = "FILE PATTERN [--library NAME] [--json]",
     .description = "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
                    "any tray, `...` "

@@ -318,8 +318,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS count_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     FLAG("json", 0, count.json, "write JSON, every count as a string of digits"),
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
@@ -327,10 +326,7 @@ static const tn_option options[] = {
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_count = {
@@ -339,11 +335,11 @@ const tn_command tn_command_count = {
     .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]\nFILE "
              "--library HOUSES [--plan PLAN] [--json]",
     .description =
-        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in "
-        "all; for each pruning rule how many of the generated plans it prunes; for each requirement how many "
-        "of all plans of these lengths it keeps out; and for both how many they alone keep out, that is how "
-        "many more plans there would be without them. Counts are exact whatever their size: they are "
-        "computed over the library's automaton, and no plan is made. "
+        "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
+        "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
+        "these lengths that it keeps out. For both it counts how many more plans there would be without that "
+        "clause. Counts are exact, whatever their size. They are computed from the library's automaton, without "
+        "listing plans. "
         "Of a library of houses (docs/houses.md) it says how many plans there are and how many have a house, how many "
         "choices of section and functions, how many with openings, and how many houses. They are counted plan by "
         "plan; --plan counts those of one plan.",
@@ -351,6 +347,7 @@ const tn_command tn_command_count = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

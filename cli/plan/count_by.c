@@ -242,6 +242,14 @@ static void put_value(const paper *p, const char *what, const mpq_t nanometres, 
     free(text.data);
 }
 
+static void put_about(const paper *p, const char *what, const mpq_t converted, FILE *out)
+{
+    tn_buffer text = {0};
+    tn_amount_write_about(p->unit, converted, &text);
+    fprintf(out, "%-20s  %s\n", what, text.data ? text.data : "");
+    free(text.data);
+}
+
 static void write_statistics(const paper *p, FILE *out)
 {
     static const char *const quartiles[] = {"a quarter is at most", "half is at most", "3 quarters at most"};
@@ -256,11 +264,13 @@ static void write_statistics(const paper *p, FILE *out)
     tn_distribution_value(p->d, p->d->count - 1, value);
     put_value(p, "most", value, out);
     tn_distribution_moments(p->d, value, variance);
+    tn_amount_convert(p->unit, value);
+    put_about(p, "mean", value, out);
     tn_buffer deviation = {0};
     tn_amount_write_root(p->unit, variance, &deviation);
-    tn_amount_convert(p->unit, value);
-    fprintf(out, "%-20s  %.6g %s\n%-20s  %.6s %s\n\n", "mean", mpq_get_d(value), tn_amount_unit_name(p->unit),
-            "standard deviation", deviation.data ? deviation.data : "", tn_amount_unit_name(p->unit));
+    if (deviation.data && tn_decimal_read(deviation.data, strlen(deviation.data), value))
+        put_about(p, "standard deviation", value, out);
+    fputc('\n', out);
     free(deviation.data);
     mpq_clears(value, variance, NULL);
 }
@@ -292,8 +302,9 @@ static void write_rows(const paper *p, FILE *out)
     tn_buffer heading = {0};
     if (p->binned) {
         put_bound(p, p->step, &heading);
-        fprintf(out, "%zu values, in bins of %s %s\n", p->d->count, heading.data ? heading.data : "",
-                tn_amount_unit_name(p->unit));
+        const char *unit = tn_amount_unit_name(p->unit);
+        fprintf(out, "%zu values, in bins of %s%s%s\n", p->d->count, heading.data ? heading.data : "", *unit ? " " : "",
+                unit);
     }
     free(heading.data);
     fprintf(out, "%24s  %24s  %7s  %7s\n", p->binned ? "from, to below" : "value", "plans", "share", "so far");

@@ -191,26 +191,25 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", compare.output,
          "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", compare.title, "the picture's title"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_diff = {
     .name = "diff",
-    .summary = "say what an edit does to a library",
+    .summary = "compare a library before and after an edit",
     .usage = "OLD NEW [--library NAME] [--json] [-o SHEET.svg]",
     .description =
-        "Compares the plans of a library before and after an edit: how many it removes, adds and keeps, exactly, for "
-        "each number of trays and in all; the first of each and some at random; and which clauses are responsible. "
-        "Clauses are matched by their names. For each that is not the same, `removes` says how many of the removed "
-        "plans it keeps out now, and `adds` how many of the added ones it kept out before; several clauses may keep "
-        "out one plan. The two libraries must be of the same trays.",
+        "Compares the plans of a library before and after an edit. It counts exactly how many plans the edit "
+        "removes, adds and keeps, for each number of trays and in all. It shows the first plans of each kind and "
+        "some at random, and the clauses that are responsible. Clauses are compared by their names. For each "
+        "clause that is not the same, `removes` counts the removed plans that it keeps out now, and `adds` counts "
+        "the added plans that it kept out before. Several clauses may keep out the same plan. Both libraries must "
+        "have the same trays.",
     .example = "$ tartan diff before.plan after.plan\n$ tartan diff before.plan after.plan --sample 12 -o edit.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "two files, OLD and NEW",
     .operands_min = 2,
     .operands_max = 2,

@@ -6,6 +6,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
+#include "cli/solid/solid.h"
 #include "driver/open/digits.h"
 #include "runtime/base/array.h"
 #include "runtime/base/picture.h"
@@ -20,6 +21,11 @@ typedef struct draw_settings {
     const char *output, *title, *paper;
     tn_option_list rules;
     tn_option_number sample, scale, columns, dpi, max_plans;
+    /* of forms */
+    const char *solid;
+    bool sheet, before, exploded;
+    tn_option_real azimuth, elevation;
+    tn_option_number width, max_boxes;
 } draw_settings;
 
 static const draw_settings *settings_of(const tn_job *job)
@@ -229,7 +235,7 @@ static void draw_file(tn_job *job, const char *path)
     tn_schema *schema = NULL;
     uint32_t index, library = UINT32_MAX;
     tn_error error;
-    if (!tn_job_open(job, job->settings->operands.items[0]))
+    if (!job->opened.module && !tn_job_open(job, job->settings->operands.items[0]))
         return;
     tn_status status = tn_schema_choose(&job->opened, settings_of(job)->plans.library, &index, &library);
     tn_job_status(job, status);
@@ -317,6 +323,74 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+/* ---- forms */
+
+/* Options that say something about plans only, or about forms only. */
+static bool check_use(tn_job *job, bool form)
+{
+    const draw_settings *s = settings_of(job);
+    const struct {
+        bool given, form;
+        const char *name;
+    } uses[] = {
+        {s->plans.library != NULL, false, "library"},
+        {s->paper != NULL, false, "paper"},
+        {s->scale.given, false, "scale"},
+        {s->max_plans.given, false, "max-plans"},
+        {s->solid != NULL, true, "solid"},
+        {s->sheet, true, "sheet"},
+        {s->before, true, "before"},
+        {s->exploded, true, "exploded"},
+        {s->azimuth.given, true, "azimuth"},
+        {s->elevation.given, true, "elevation"},
+        {s->width.given, true, "width"},
+        {s->max_boxes.given, true, "max-boxes"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || uses[i].form == form)
+            continue;
+        tn_diagnostic *d =
+            tn_job_usage(job, "--%s does nothing for %s", uses[i].name, form ? "a design of boxes" : "plans and rules");
+        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
+                form ? "plans (.plan)" : "designs of boxes (.solid)");
+        return false;
+    }
+    if (s->sheet + s->before + s->exploded > 1) {
+        tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
+        return false;
+    }
+    return true;
+}
+
+static void draw_form(tn_job *job)
+{
+    const draw_settings *s = settings_of(job);
+    tn_solid_drawing drawing = {.views = s->sheet      ? TN_SOLID_SHEET
+                                         : s->before   ? TN_SOLID_BEFORE
+                                         : s->exploded ? TN_SOLID_EXPLODED
+                                                       : TN_SOLID_VIEW,
+                                .camera = tn_camera_default(),
+                                .title = s->title,
+                                .columns = (uint32_t)s->columns.value,
+                                .dpi = (uint32_t)s->dpi.value,
+                                .most = (uint32_t)s->max_boxes.value};
+    if (s->azimuth.given)
+        drawing.camera.azimuth = s->azimuth.value;
+    if (s->elevation.given)
+        drawing.camera.elevation = s->elevation.value;
+    if (s->width.given)
+        drawing.camera.width = (double)s->width.value;
+    if (check_use(job, true))
+        tn_job_draw_solid(job, s->solid, &drawing, s->output);
+}
+
+static bool opens_form(tn_job *job)
+{
+    const draw_settings *settings = settings_of(job);
+    return settings->common.operands.count == 1 && settings->rules.count == 0 && !is_sampled(settings) &&
+           tn_job_open(job, settings->common.operands.items[0]) && job->opened.module->SOLID_count > 0;
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -325,7 +399,11 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (!check_options(&job))
         return tn_job_end(&job);
-    if (settings->rules.count) {
+    if (opens_form(&job)) {
+        draw_form(&job);
+    } else if (job.exit_code != TN_EXIT_DONE || !check_use(&job, false)) {
+        return tn_job_end(&job);
+    } else if (settings->rules.count) {
         draw_rules(&job);
     } else {
         const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
@@ -341,8 +419,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
@@ -354,31 +431,39 @@ static const tn_option options[] = {
     NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
+    FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
+    FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),
+    FLAG("exploded", 0, exploded, "of a design of boxes: its boxes moved apart"),
+    REAL("azimuth", 0, "DEGREES", azimuth, "where a form is seen from, about the vertical (default -60)"),
+    REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
+    NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture of a form (default 480)"),
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans on a sheet, to scale",
-    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg",
+    .summary = "draw plans, rules or a design of boxes",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
+             "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg",
     .description =
-        "Draws plans (from a file, standard input, or sampled from the library) on one sheet: each to scale, with its "
-        "zones, marks and "
-        "dimensions as the roles in the schema say, its rank or line below it, and a legend in the schema's own words. "
-        "A schema whose fields have no roles is drawn as tables. A PDF takes as many pages as it needs; SVG and PNG "
-        "are one sheet. With --rule, rules are drawn instead, in the manner of the LaHave paper: boxes with the sign "
-        "of "
-        "each part, `and` side by side, `or` one above the other, trays as the symbols of what they hold.",
+        "Draws plans on one sheet: from a file, from standard input, or sampled from the library. Each plan is "
+        "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
+        "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
+        "pages as it needs; SVG and PNG are one sheet.\n\n"
+        "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
+        "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
+        "their zones.\n\n"
+        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer of them",
     .operands = "a rule file and a file of plans",
     .operands_min = 1,
     .operands_max = 2,

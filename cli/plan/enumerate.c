@@ -230,8 +230,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS enumerate_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
@@ -241,27 +240,23 @@ static const tn_option options[] = {
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_enumerate = {
     .name = "enumerate",
-    .summary = "write every plan of a library, once",
+    .summary = "write all plans of a library",
     .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]",
     .description =
-        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. Any "
-        "stretch of ranks "
-        "can be asked for, and ranks may have any number of digits. A database (-o FILE.sqlite) is written in batches "
-        "that survive a crash; --resume goes on where one ended. Anything else that is interrupted keeps the plans "
-        "written, and a note says "
-        "from which rank to go on.",
+        "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. "
+        "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
+        "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
+        "the plans written so far are kept, and a note says from which rank to continue.",
     .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "one FILE",
     .operands_min = 1,
     .operands_max = 1,

@@ -21,7 +21,7 @@ typedef struct explain_settings {
     tn_option_list rules;
     bool full, json;
     const char *output;
-    tn_option_number nearest, dpi;
+    tn_option_number nearest, dpi, max_boxes;
 } explain_settings;
 
 static const explain_settings *settings_of(const tn_job *job)
@@ -301,6 +301,24 @@ static void explain(tn_job *job)
     tn_chosen_rules_clear(&e.rules);
 }
 
+/* How the boxes of a design were squashed, step by step. */
+static void draw_solid(tn_job *job)
+{
+    const explain_settings *settings = settings_of(job);
+    tn_canvas_format format;
+    tn_error error;
+    const tn_solid_drawing drawing = {.views = TN_SOLID_HISTORY,
+                                      .camera = tn_camera_default(),
+                                      .dpi = (uint32_t)settings->dpi.value,
+                                      .most = (uint32_t)settings->max_boxes.value};
+    if (settings->json)
+        tn_job_usage(job, "either a picture (-o) or --json, not both");
+    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    else
+        tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
+}
+
 static void explain_plan_or_house(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
@@ -319,8 +337,11 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     bool alone = common->operands.count == 1 && !settings_of(&job)->plan_file; /* a design of boxes needs no plan */
     bool open = alone && tn_job_open(&job, common->operands.items[0]);
-    if (open && job.opened.module->SOLID_count)
-        tn_job_explain_solid(&job, settings_of(&job)->solid, settings_of(&job)->json);
+    if (open && job.opened.module->SOLID_count && settings_of(&job)->output)
+        draw_solid(&job);
+    else if (open && job.opened.module->SOLID_count)
+        tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
+                             settings_of(&job)->json);
     else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
         explain_plan_or_house(&job);
     return tn_job_end(&job);
@@ -341,25 +362,25 @@ static const tn_option options[] = {
     OPTION_INPUT_FORMAT,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
 };
 
 const tn_command tn_command_explain = {
     .name = "explain",
-    .summary = "say why a plan is kept or dropped, and by which trays",
-    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME]",
+    .summary = "explain why a library keeps or drops a plan",
+    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o "
+             "STEPS.svg]",
     .description =
-        "Says which clauses of a library drop a plan, and for each how its parts come out: + where a part matches, "
-        "with "
-        "its trays, - where it does not, with what comes closest; what is counted, and what lies between for a "
-        "distance. "
-        "(A distance asks for some source that is far from every destination: one is enough.) Of a rule that does not "
-        "match, the largest part that does is shown. For a plan that is dropped, the nearest plans that are kept "
-        "follow: a changed field counts 1, a tray added or left out as many as it has fields. With --rule, or where "
-        "the "
-        "file has no library, rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes. "
-        "HOUSE is a house line (docs/houses.md): which clauses of a library of houses drop it, and whether its plan "
-        "is one of the library's; the tiles may be left out. "
-        "Of a design of boxes it says how they were squashed, pair by pair.",
+        "Says which clauses of a library drop a plan, and shows for each clause how its parts come out. + marks a "
+        "part that matches, with its trays. - marks a part that does not match, with what comes closest. For a "
+        "rule that does not match, the largest part that does is shown. A distance needs only one source that is "
+        "far from every destination, so one is shown.\n\n"
+        "For a dropped plan, the nearest plans that the library keeps follow. A changed field costs 1; a tray "
+        "that is added or left out costs as much as it has fields. With --rule, or if the file has no library, "
+        "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
+        "HOUSE is a house line (docs/houses.md): explain says which clauses of a library of houses drop it, and "
+        "whether its plan is one of the library's. The tiles may be left out.\n\n"
+        "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

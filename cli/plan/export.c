@@ -5,6 +5,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 #include "runtime/plan/match/lower.h"
+#include "runtime/plan/match/parts.h"
 #include "runtime/plan/text/export_prolog.h"
 #include "runtime/plan/text/export_regex.h"
 
@@ -31,6 +32,20 @@ typedef struct exporting {
 
 /* ---- patterns */
 
+/* A rule alone has no lengths that would bound its sums. */
+static void help_comparison(const exporting *e, uint32_t function, tn_error *error)
+{
+    tn_parts parts;
+    bool compares = false;
+    if (tn_parts_read(e->module, function, &parts, NULL) == TN_OK)
+        for (uint32_t i = 0; i < parts.count; i++)
+            compares |= parts.parts[i].kind == TN_PART_COMPARISON;
+    if (compares)
+        tn_error_help(error, "a pattern is made of a rule without a library, whose sums may only rise: "
+                             "`quantity(a) <= 3`, `sum(width) < 12m`");
+    tn_parts_clear(&parts);
+}
+
 static tn_status export_regex(exporting *e, tn_error *error)
 {
     uint32_t function = e->module->RULE_records[e->rule].holds;
@@ -42,6 +57,8 @@ static tn_status export_regex(exporting *e, tn_error *error)
         status = tn_lowering_new(classes, (uint32_t)settings_of(e->job)->plans.max_states.value, &lowering, error);
     if (status == TN_OK)
         status = tn_lower(lowering, function, &dfa, error);
+    if (status == TN_LIMIT)
+        help_comparison(e, function, error);
     tn_buffer pattern = {0};
     if (status == TN_OK)
         status = tn_export_regex(dfa, &pattern, error);
@@ -122,8 +139,7 @@ static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     OPTION_OUTPUT,
     OPTION_MAX_STATES,
 };
@@ -133,12 +149,11 @@ const tn_command tn_command_export = {
     .summary = "write rules in other notations",
     .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME",
     .description =
-        "Writes rules for other engines. --prolog: a program of ISO Prolog that stands alone, in which a plan is a "
-        "list "
-        "of terms tray(V1, ..., Vn) of the values that a plan line has. --regex: an expression that matches exactly "
-        "the "
-        "plans that the rule matches, written with a letter for each tray; the legend says which letter is which. It "
-        "is made from the minimal automaton, and refused where it would pass 2,000 characters or 62 letters.",
+        "Writes rules for other programs. --prolog writes a complete program in ISO Prolog, in which a plan is a "
+        "list of terms tray(V1, ..., Vn) with the values of a plan line. --regex writes a regular expression with "
+        "a letter for each tray, which matches exactly the plans that the rule matches; a legend says which "
+        "letter is which. It is made from the minimal automaton, and refused if it would need more than 2,000 "
+        "characters or 62 letters.",
     .example =
         "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
     .options = options,

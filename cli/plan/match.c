@@ -196,15 +196,14 @@ static const tn_option options[] = {
 
 const tn_command tn_command_match = {
     .name = "match",
-    .summary = "say which rules each plan matches",
+    .summary = "print which rules match each plan",
     .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits]",
-    .description = "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; standard input where no file or - is "
-                   "given) and writes a line "
-                   "for each: the rules it matches, of those that the file itself holds, in their order. The exit code "
-                   "is 0 whether or "
-                   "not a rule matches. "
-                   "Where the file has rules about houses, or --rule names one, house lines are read instead "
-                   "(docs/houses.md), and their tiles may be left out.",
+    .description =
+        "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; from standard input if no file or - is "
+        "given). For each plan it writes a line with the rules that match, of those that the file itself holds, "
+        "in their order. The exit code is 0 whether or not a rule matches.\n\n"
+        "If the file has rules about houses, or --rule names one, house lines are read instead (docs/houses.md). "
+        "Their tiles may be left out.",
     .example = "$ tartan match lahave plans.txt --rule narrow-pair --format bits",
     .options = options,
     .option_count = OPTION_COUNT(options),

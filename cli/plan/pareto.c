@@ -1,4 +1,4 @@
-/* tartan pareto: what can be had by two or three measures at once. */
+/* tartan pareto: lists the best trade-offs of two or three measures. */
 #include <jansson.h>
 #include <stdlib.h>
 
@@ -142,21 +142,17 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS pareto_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     WISH("least", wanted, "the less of MEASURE the better"),
     WISH("most", wanted, "the more of MEASURE the better"),
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
     OPTION_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_pareto = {
     .name = "pareto",
-    .summary = "show what can be had by two or three measures at once",
+    .summary = "find the best trade-offs of two or three measures",
     .usage = "FILE --least MEASURE --most MEASURE [--least MEASURE] [--json]",
     .description =
         "Lists the front of the library: the values that no plan betters in one measure without losing in another, "

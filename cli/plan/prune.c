@@ -184,8 +184,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS prune_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     TEXT("dropped", 'd', "FILE", dropped,
          "write the plans that are dropped to FILE, each with the clauses that drop it"),
     CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),
@@ -201,13 +200,12 @@ static const tn_option options[] = {
 
 const tn_command tn_command_prune = {
     .name = "prune",
-    .summary = "filter plans through a library",
+    .summary = "keep the plans that a library keeps",
     .usage = "FILE [PLANS] [--library NAME] [--dropped FILE]",
     .description =
-        "Reads plans (standard input where no file or - is given) and writes those that the library keeps. The others "
-        "are dropped: by "
-        "a pruning rule that matches, a requirement or total that is not met, or their number of trays. --dropped says "
-        "which of these dropped each.",
+        "Reads plans (from standard input if no file or - is given) and writes those that the library keeps. It "
+        "drops a plan that a pruning rule matches, that does not meet a requirement or total, or that has too few "
+        "or too many trays. --dropped writes the reasons for each dropped plan.",
     .example = "$ tartan prune lahave-houses plans.txt --dropped why.txt",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -125,7 +125,7 @@ static const tn_option options[] = {OPTION_LIBRARY,    OPTION_WHERE,      OPTION
 
 const tn_command tn_command_rank = {
     .name = "rank",
-    .summary = "say which place a plan has in its library",
+    .summary = "print the number of a plan in its library",
     .usage = "FILE PLAN [--library NAME]",
     .description = "Writes the rank of a plan: how many plans of the library come before it, in the order of length "
                    "and then tray by tray. "
@@ -138,6 +138,7 @@ const tn_command tn_command_rank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a PLAN",
     .operands_min = 2,
     .operands_max = 2,

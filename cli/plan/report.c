@@ -96,8 +96,7 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
            "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     OPTION_MAX_STATES,
     OPTION_THREADS(plans.threads),
     OPTION_WERROR,
@@ -108,12 +107,10 @@ const tn_command tn_command_report = {
     .summary = "write a library as an HTML page",
     .usage = "FILE -o FOLDER",
     .description =
-        "Writes one page that needs no server and no network: the library's counts by length as a chart; every rule "
-        "with its picture, its text, how many plans it prunes or (required) keeps out and how many only it does, or "
-        "(neither) how many it matches, how it lies to the others, the plans that show it, and which of its parts the "
-        "tests notice; "
-        "what checking found; and a sheet of sampled plans, kept and dropped, with the reasons, which can be "
-        "filtered.",
+        "Writes one page that needs no server and no network. It shows the library's counts by length as a chart; "
+        "every rule with its picture, its text, its counts, how it relates to the other rules, the plans that "
+        "prove it, and which of its parts the tests notice; the warnings of checking; and a sample of plans, kept "
+        "and dropped, with the reasons. The sample can be filtered.",
     .example = "$ tartan report lahave-houses -o report",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -117,8 +117,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS sample_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
@@ -126,25 +125,23 @@ static const tn_option options[] = {
     OPTION_PLAN_FORMAT,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_sample = {
     .name = "sample",
-    .summary = "draw plans evenly from a library",
+    .summary = "choose random plans of a library",
     .usage = "FILE N [--seed S] [--length L]\nFILE --per-length N [--seed S]",
-    .description = "Draws N different plans of the library, every plan as likely as every other, and writes them in "
-                   "the order of their ranks. "
-                   "Nearly all plans of a library have its greatest number of trays, and so have samples: --length and "
-                   "--per-length "
-                   "draw from the others. The same file, seed and options give the same plans on every machine.",
+    .description =
+        "Draws N different plans of the library at random, each with the same probability, and writes them in the "
+        "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
+        "samples do too; --length and --per-length draw plans of other lengths. The same file, seed and options "
+        "give the same plans on every machine.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer plans",
     .operands = "a FILE and a number N",
     .operands_min = 1,
     .operands_max = 2,

@@ -1,7 +1,9 @@
 #include "cli/plan/sampled.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "runtime/base/array.h"
 
 static bool out_of_memory(tn_job *job)
@@ -37,6 +39,22 @@ static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
     return wanted;
 }
 
+/* A rank is drawn in limbs, marked as drawn, and given as an integer: said beforehand, as it is all at once. */
+static tn_status check_memory(const tn_library *library, uint32_t length, size_t count, tn_error *error)
+{
+    mpz_t kept;
+    char what[64];
+    mpz_init(kept);
+    tn_library_kept(library, length, kept);
+    uint64_t limbs = mpz_size(kept), bytes = sizeof(mpz_t) + 2 * sizeof(mp_limb_t) * limbs + 16 + 4 * sizeof(size_t);
+    mpz_clear(kept);
+    snprintf(what, sizeof what, "drawing %zu plans", count);
+    tn_status status = tn_watch_room(tn_interrupt_waiting(), bytes * count, what, error);
+    if (status == TN_LIMIT)
+        tn_error_help(error, "draw fewer plans, or raise the limit with --memory-limit");
+    return status;
+}
+
 typedef struct drawing {
     tn_job *job;
     const tn_library *library;
@@ -51,6 +69,10 @@ static bool draw(const drawing *d, uint32_t length, size_t wanted)
     tn_sampled *sampled = d->sampled;
     size_t count = at_most(library, length, wanted), found = 0;
     tn_error error;
+    if (check_memory(library, length, count, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
     if (!grow(sampled, count))
         return out_of_memory(job);
     if (tn_library_sample(library, d->seed, length, count, sampled->ranks + sampled->count, &found, &error) != TN_OK) {

@@ -12,6 +12,7 @@ typedef struct test_settings {
     tn_settings common;
     tn_plan_settings plans;
     bool coverage, json;
+    tn_option_number max_boxes;
 } test_settings;
 
 static const test_settings *settings_of(const tn_job *job)
@@ -34,14 +35,13 @@ void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
     fputc('\n', out);
 }
 
-static void write_json(const test_report *report, FILE *out)
+void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out)
 {
-    const tn_test_counts *counts = &report->counts;
     fprintf(out, "{\"passed\":%zu,\"failed\":%zu,\"todo\":%zu", counts->passed, counts->failed, counts->todo);
-    if (report->files.size)
-        fprintf(out, ",\"coverage\":[%s]", report->files.data);
-    if (report->solids.size)
-        fprintf(out, ",\"solids\":[%s]", report->solids.data);
+    if (coverage)
+        fprintf(out, ",\"coverage\":[%s]", coverage);
+    if (solids)
+        fprintf(out, ",\"solids\":[%s]", solids);
     fputs("}\n", out);
 }
 
@@ -51,7 +51,8 @@ static void write_report(tn_job *job, const test_report *report)
     if (!tn_job_output(job, NULL, &output))
         return;
     if (settings_of(job)->json) {
-        write_json(report, output.stream);
+        tn_test_counts_json(&report->counts, report->files.size ? report->files.data : NULL,
+                            report->solids.size ? report->solids.data : NULL, output.stream);
     } else {
         if (report->solids.size)
             fwrite(report->solids.data, 1, report->solids.size, output.stream);
@@ -92,7 +93,7 @@ static void write_coverage(tn_job *job, test_report *report)
 static void test_solids(tn_job *job, test_report *report)
 {
     tn_solid_tally tally = {0};
-    char *text = tn_job_test_solids(job, settings_of(job)->json, &tally);
+    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
     tn_error error;
     report->counts.passed += tally.passed;
     report->counts.failed += tally.failed;
@@ -120,7 +121,8 @@ static int run(const tn_command *command, const tn_settings *common)
             test_solids(&job, &report);
             continue;
         }
-        tn_job_status(&job, tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, &report.counts));
+        tn_job_status(&job,
+                      tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, NULL, &report.counts));
         if (settings->coverage && job.opened.compilation.program)
             write_coverage(&job, &report);
     }
@@ -139,6 +141,7 @@ static const tn_option options[] = {
     FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
     OPTION_LIBRARY,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_WERROR,
 };
 
@@ -147,15 +150,15 @@ const tn_command tn_command_test = {
     .summary = "run the test blocks of rule files",
     .usage = "FILE...",
     .description =
-        "Runs every test block of the files, each case by the interpreter and by the automata. A failure "
-        "shows the plan, what "
-        "was expected of it, the rule with its place, and how the rule's parts came out. A case marked "
-        "`todo` is expected to fail; once it passes, that is a failure. The last line says how many passed "
-        "and failed; the exit code is 1 where one failed. With --coverage, for each part of each rule and clause: how "
-        "many of the plans that the library generates (without a library: of all plans of up to 4 trays) "
-        "would be decided otherwise if it never matched, counted exactly, and whether a test case would "
-        "notice. Of designs of boxes it prints what they measure and holds them to their requirements. Tests of files "
-        "that are only used (`use`) do not run.",
+        "Runs every test block of the files, each case by the interpreter and by the automata. A failure shows "
+        "the plan, what was expected of it, the rule with its place, and how the rule's parts came out. A case "
+        "marked `todo` is expected to fail; when it passes, that is a failure too. The last line says how many "
+        "passed and failed, and the exit code is 1 if one failed. Tests of files that are only used (`use`) do "
+        "not run.\n\n"
+        "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
+        "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
+        "are those that the library generates or, without a library, all plans of up to 4 trays.\n\n"
+        "For designs of boxes it prints what they measure, and checks their requirements.",
     .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),

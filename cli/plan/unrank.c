@@ -80,18 +80,14 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS unrank_settings
 static const tn_option options[] = {
-    OPTION_LIBRARY,
-    OPTION_WHERE,
+    OPTIONS_LIBRARY,
     FLAG("json", 0, json, "write the plan as a JSON object"),
-    OPTION_TRAYS,
-    OPTION_MAX_LENGTH,
-    OPTION_MAX_STATES,
-    OPTION_THREADS(plans.threads),
+    OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_unrank = {
     .name = "unrank",
-    .summary = "write the plan that has a place in its library",
+    .summary = "print the plan of a number",
     .usage = "FILE RANK [--library NAME]\nFILE '#P:V' [--library HOUSES]",
     .description =
         "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank. "
@@ -101,6 +97,7 @@ const tn_command tn_command_unrank = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
     .operands = "a FILE and a RANK",
     .operands_min = 2,
     .operands_max = 2,

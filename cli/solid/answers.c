@@ -3,14 +3,14 @@
 
 #include "cli/solid/solid.h"
 
-char *tn_job_test_solids(tn_job *job, bool json, tn_solid_tally *tally)
+char *tn_job_test_solids(tn_job *job, uint32_t most, bool json, tn_solid_tally *tally)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     tn_error error;
     if (out) {
-        tn_job_status(job, tn_solid_tests_run(&job->opened, json, out, tally));
+        tn_job_status(job, tn_solid_tests_run(&job->opened, most, json, out, tally));
         if (fclose(out) == 0)
             return text;
         free(text);
@@ -20,7 +20,7 @@ char *tn_job_test_solids(tn_job *job, bool json, tn_solid_tally *tally)
     return NULL;
 }
 
-void tn_job_explain_solid(tn_job *job, const char *name, bool json)
+void tn_job_explain_solid(tn_job *job, const char *name, uint32_t most, bool json)
 {
     tn_output output;
     uint32_t solid;
@@ -28,6 +28,6 @@ void tn_job_explain_solid(tn_job *job, const char *name, bool json)
     tn_job_status(job, status);
     if (status != TN_OK || !tn_job_output(job, NULL, &output))
         return;
-    tn_job_status(job, tn_solid_explain(&job->opened, solid, json, output.stream));
+    tn_job_status(job, tn_solid_explain(&job->opened, solid, most, json, output.stream));
     tn_job_commit(job, &output);
 }

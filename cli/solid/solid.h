@@ -1,4 +1,4 @@
-/* What the commands do with designs of boxes. */
+/* What the commands do with designs of boxes; `most` as in driver/solid/solid.h. */
 #ifndef TARTAN_CLI_SOLID_SOLID_H
 #define TARTAN_CLI_SOLID_SOLID_H
 
@@ -6,10 +6,13 @@
 #include "driver/solid/solid.h"
 
 /* Prints how boxes of the design of this name (NULL: the only one) were squashed, as `tartan explain` does. */
-void tn_job_explain_solid(tn_job *job, const char *name, bool json);
+void tn_job_explain_solid(tn_job *job, const char *name, uint32_t most, bool json);
+
+/* Draws the design of this name (NULL: the only one) to a file. */
+void tn_job_draw_solid(tn_job *job, const char *name, const tn_solid_drawing *drawing, const char *output);
 
 /* Measures the designs of the file that is open and tests their requirements. The measures come out as text that the
  * caller frees; NULL where out of memory, which is reported. */
-char *tn_job_test_solids(tn_job *job, bool json, tn_solid_tally *tally);
+char *tn_job_test_solids(tn_job *job, uint32_t most, bool json, tn_solid_tally *tally);
 
 #endif

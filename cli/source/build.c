@@ -72,9 +72,9 @@ const tn_command tn_command_build = {
     .summary = "compile a rule file to a module",
     .usage = "FILE.plan [-o FILE.tnb]\nFILE.pcfg... [-o FILE.tnb]",
     .description =
-        "Compiles the rule file and all that it uses to one module of bytecode, which every other command takes in the "
-        "rule file's place. Without -o the module is named after the rule file and written to the current folder. "
-        "Connection grammars (.pcfg) are one grammar together, in the order given.",
+        "Compiles the rule file and all files that it uses to one module of bytecode. Every other command takes a "
+        "module in place of a rule file. Without -o the module is named after the rule file and written to the "
+        "current folder. Several connection grammars (.pcfg) are one grammar, in the order given.",
     .example = "$ tartan build houses.plan -o houses.tnb\n$ tartan count houses.tnb",
     .options = options,
     .option_count = OPTION_COUNT(options),

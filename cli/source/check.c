@@ -16,6 +16,7 @@ typedef struct check_settings {
     const char *output; /* of the relations */
     bool with_tests, with_counts;
     const char *before; /* the file before an edit, to compare with */
+    tn_option_number max_boxes;
 } check_settings;
 
 static const check_settings *settings_of(const tn_job *job)
@@ -30,14 +31,38 @@ static void report_grammar(tn_job *job)
         tn_job_fail(job, &error);
 }
 
+static void write_tested(tn_job *job, const tn_test_counts *counts, const char *solids)
+{
+    tn_output output;
+    tn_job_show(job);
+    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
+        return;
+    if (settings_of(job)->json) {
+        tn_test_counts_json(counts, NULL, solids, output.stream);
+    } else {
+        fputs(solids ? solids : "", output.stream);
+        tn_test_counts_write(counts, output.stream);
+    }
+    tn_job_commit(job, &output);
+}
+
+static void test_solids(tn_job *job)
+{
+    tn_solid_tally tally = {0};
+    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
+    if (text)
+        write_tested(job, &(tn_test_counts){.passed = tally.passed, .failed = tally.failed}, text);
+    free(text);
+}
+
 /* What a person who placed boxes may not have meant; with --test also what the designs require. */
 static void report_solids(tn_job *job)
 {
-    tn_solid_tally tally = {0};
-    if (!settings_of(job)->no_analysis)
-        tn_job_status(job, tn_solid_report(&job->opened));
-    if (settings_of(job)->with_tests)
-        free(tn_job_test_solids(job, false, &tally));
+    const check_settings *settings = settings_of(job);
+    if (!settings->no_analysis)
+        tn_job_status(job, tn_solid_report(&job->opened, (uint32_t)settings->max_boxes.value));
+    if (settings->with_tests)
+        test_solids(job);
 }
 
 static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
@@ -74,13 +99,9 @@ static void analyse(tn_job *job, const tn_library *library)
 static void run_tests(tn_job *job)
 {
     tn_test_counts counts = {0};
-    tn_output output;
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, &counts));
+    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, NULL, &counts));
     tn_job_show(job);
-    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
-        return;
-    tn_test_counts_write(&counts, output.stream);
-    tn_job_commit(job, &output);
+    write_tested(job, &counts, NULL);
 }
 
 /* The file before an edit is open at the same time, with diagnostics of its own. */
@@ -145,11 +166,13 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "--library is about --count and --diff: give one of them too");
     else if (settings->relations && (settings->with_tests || settings->with_counts || settings->before))
         tn_job_usage(job, "--relations is asked alone, without --test, --count and --diff");
-    else if (!settings->relations && (settings->examples || settings->json || settings->output))
-        tn_job_usage(job, "%s is about --relations: give that too",
-                     settings->examples ? "--examples"
-                     : settings->json   ? "--json"
-                                        : "--output");
+    else if (!settings->relations && (settings->examples || settings->output))
+        tn_job_usage(job, "%s is about --relations: give that too", settings->examples ? "--examples" : "--output");
+    else if (settings->json && !settings->relations &&
+             (!settings->with_tests || settings->with_counts || settings->before))
+        tn_job_usage(job, "--json is about --relations, or --test alone: give one of them");
+    else if (settings->json && settings->with_tests && settings->common.operands.count > 1)
+        tn_job_usage(job, "--test --json takes one FILE; `tartan test --json` takes several");
     else
         return true;
     return false;
@@ -222,7 +245,7 @@ static const tn_option options[] = {
     FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
     FLAG("relations", 0, relations, "print how the plans that each two rules match lie to one another"),
     FLAG("examples", 0, examples, "with --relations: the shortest plan that both match, that only one does"),
-    FLAG("json", 0, json, "with --relations: write JSON"),
+    FLAG("json", 0, json, "with --relations or --test: write JSON"),
     TEXT("output", 'o', "FILE", output, "with --relations: write to FILE"),
     FLAG("figures", 0, figures,
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
@@ -232,29 +255,28 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
+    OPTION_MAX_BOXES(max_boxes),
     OPTION_THREADS(plans.threads),
 };
 
 const tn_command tn_command_check = {
     .name = "check",
-    .summary = "say what is wrong with rule files",
-    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE [--test] [--count] [--diff OLD] [--library "
+    .summary = "check rule files for errors and warnings",
+    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE --test --json\nFILE [--test] [--count] [--diff OLD] "
+             "[--library "
              "NAME]\nFILE --relations [--examples] [--json]",
     .description =
-        "Compiles each rule file and all that it uses, and shows every error and warning with its place and a "
-        "suggestion. Then says what the file's rules and libraries mean where that is surely not meant: a rule that "
-        "matches no plan or every plan, or just what another one does; a pruning rule or requirement that changes "
-        "nothing; a library without a plan, with the clauses that contradict one another; a distance that only holds "
-        "where there is no destination. This is decided on the rules' automata, for plans of any length, and shown by "
-        "the shortest plan. A module (.tnb) is checked as it is for loading. "
-        "Of a grammar (.bnf) it also warns where sentences tend to grow without end, and of a design of boxes (.solid) "
-        "where "
-        "boxes are squashed, clipped away or apart. "
-        "Connection grammars (.pcfg) are one grammar together, in the order given. "
-        "With --test, --count or --diff the file's other questions are answered in the same run: what checking, "
-        "testing, "
-        "counting and comparing have in common is worked out once, so that after an edit this is faster than one "
-        "command after another. The answers are those of the other commands.",
+        "Compiles each rule file and all files that it uses, and shows every error and warning with its place and "
+        "a suggested fix.\n\n"
+        "Then it warns about rules that are probably wrong: a rule that matches no plan, every plan, or only what "
+        "another rule matches; a pruning rule or requirement that changes nothing; a library without a plan, with "
+        "the clauses that contradict each other; a distance that only holds where there is no destination. This "
+        "is decided on the rules' automata, for plans of any length, and the shortest plan is shown as proof. A "
+        "module (.tnb) is checked for loading. A grammar (.bnf) gets a warning if its sentences tend to grow "
+        "without end, and a design of boxes (.solid) if boxes are squashed, clipped away or apart. Several "
+        "connection grammars (.pcfg) are one grammar, in the order given.\n\n"
+        "With --test, --count or --diff the answers of these commands are given too. That is faster than one "
+        "command after another, because they share most of their work.",
     .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples\n$ tartan check "
                "houses.plan --test --count "
                "--diff old.plan",

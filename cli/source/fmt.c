@@ -142,18 +142,17 @@ static const tn_option options[] = {
 
 const tn_command tn_command_fmt = {
     .name = "fmt",
-    .summary = "lay rule files out in the canonical way",
+    .summary = "format rule files",
     .usage = "FILE...",
     .description =
-        "Lays out each rule file ("
+        "Formats rule files ("
 #define FIRST_NOTATION(ID, EXTENSION, ...) EXTENSION
 #define NOTATION(ID, EXTENSION, ...) ", " EXTENSION
 #define VARIANT(...)
 #include "compiler/notations.def"
-        ") in its notation's one canonical way, in place: written "
-        "beside the file, then renamed over it. Comments, parentheses and the spelling of lengths stay as they are, "
-        "and so does, up to one, an empty line between two things. What the file means is never changed, and a file "
-        "with an error of syntax is not touched. For - standard input is laid out on standard output.",
+        ") in place. A file is written beside the old one and then renamed over it. Comments, parentheses and the "
+        "spelling of lengths stay, and so does an empty line between two items. The meaning of a file never changes, "
+        "and a file with a syntax error is not touched. For - standard input is formatted to standard output.",
     .example = "$ tartan fmt houses.plan\n$ tartan fmt --check *.plan *.study\n"
                "$ tartan fmt --notation hemls - <square.hemls",
     .options = options,

@@ -20,19 +20,20 @@ static int run(const tn_command *command, const tn_settings *settings)
 
 const tn_command tn_command_lsp = {
     .name = "lsp",
-    .summary = "answer an editor's questions (language server)",
+    .summary = "run the language server for editors",
     .usage = "",
     .description =
-        "Speaks the Language Server Protocol on standard input and output. Editors start it: for VS Code there is an "
+        "Runs a language server, which speaks the Language Server Protocol on standard input and output. Editors start "
+        "it; for VS Code there is an "
         "extension in editors/vscode. For every notation ("
 #define FIRST_NOTATION(ID, EXTENSION, ...) EXTENSION
 #define NOTATION(ID, EXTENSION, ...) ", " EXTENSION
 #define VARIANT(...)
 #include "compiler/notations.def"
-        ") it shows what is wrong as you "
-        "type, lists a file's contents and lays it out. For .plan files it also says in the background what rules "
-        "mean where that is hardly meant, completes fields, values and rules, says what a name means, what its rule "
-        "prunes and how it lies to others, finds and renames names, and offers the fixes that diagnostics suggest.",
+        ") it shows errors as you type, outlines a file and formats it. For .plan files it also warns in the "
+        "background about rules that are probably wrong, completes fields, values and rules, explains names, counts "
+        "what rules prune, relates rules to each other, finds and renames names, and offers the fixes that messages "
+        "suggest.",
     .example = "$ tartan lsp 2>lsp.log",
     .settings_size = sizeof(tn_settings),
     .operands = "no operands",

@@ -188,7 +188,7 @@ static void merge_pieces(tn_bnf_reader *reader, tn_bnf_item *first)
     first->next = end;
 }
 
-/* `{ } [ ]` set off by blanks, in a file that does not say its dialect, are surely meant as groups. */
+/* `{ } [ ]` set off by blanks, in a file that does not say its dialect, are almost certainly meant as groups. */
 static bool holds_lone_brace(tn_bnf_text text)
 {
     for (size_t i = 0; i < text.length; i++) {
@@ -259,7 +259,7 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     return true;
 }
 
-/* Text that was surely meant as something else. Quoted, it is text without a doubt. */
+/* Warns about text that looks like something else. In quotes it is certainly text. */
 static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, bool begins_line)
 {
     if (item->kind != TN_BNF_PLAIN)

@@ -5,6 +5,7 @@
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
 #include "compiler/common/resolver.h"
+#include "runtime/base/watch.h"
 
 /* What a command line asks beyond what a .plan file says. */
 typedef struct tn_questions {
@@ -22,7 +23,8 @@ typedef struct tn_compile_options {
      */
     const tn_input *more;
     size_t more_count;
-    bool partial; /* the text may be only a part of what it belongs to: an editor looks at one */
+    tn_watch *watch; /* or NULL: compiling is given up (TN_STOPPED) between two texts once this says so */
+    bool partial;    /* the text may be only a part of what it belongs to: an editor looks at one */
 } tn_compile_options;
 
 typedef struct tn_compilation {

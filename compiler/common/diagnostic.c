@@ -108,7 +108,7 @@ tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32
 tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
                                const char *input_text, size_t input_size)
 {
-    if (error->status == TN_STOPPED) {
+    if (error->status == TN_STOPPED) { /* why is said in the end, once */
         list->stopped = true;
         clear_item(&list->scratch);
         list->scratch = (tn_diagnostic){.severity = TN_NOTE};

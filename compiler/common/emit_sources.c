@@ -41,3 +41,21 @@ const char *tn_emit_path(tn_arena *arena, const tn_sources *sources, uint32_t fi
     memcpy(resolved + folder - skip, path, name + 1);
     return resolved;
 }
+
+tn_builder *tn_compilation_begin(const tn_compilation *compilation, const tn_imports *imports, tn_error *error)
+{
+    tn_builder *builder = tn_builder_new();
+    if (builder)
+        tn_emit_sources(builder, imports, &compilation->sources);
+    else
+        tn_fail_memory(error);
+    return builder;
+}
+
+tn_status tn_compilation_finish(tn_compilation *compilation, tn_builder *builder, tn_status status, tn_error *error)
+{
+    if (status == TN_OK)
+        status = tn_builder_finish(builder, &compilation->module, &compilation->module_size, error);
+    tn_builder_free(builder);
+    return status;
+}

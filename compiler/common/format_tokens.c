@@ -90,6 +90,13 @@ static bool at_and(const tn_format *format, size_t i)
     return tn_format_is(format, i, "and");
 }
 
+/* A plus or a minus between two numbers: a sign has no blank after it. */
+static bool at_term(const tn_format *format, size_t i)
+{
+    bool minus = tn_format_is(format, i, "-") && i + 1 < format->count && format->gap_before(format, i + 1) > 0;
+    return tn_format_is(format, i, "+") || minus;
+}
+
 static bool at_comma(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, ",");
@@ -246,6 +253,8 @@ void tn_format_expression(tn_format *format, size_t first, size_t last, size_t t
         tn_format_fill(format, first, last, at_or, false, column, tail);
     else if (can_split(format, first, last, at_and))
         tn_format_fill(format, first, last, at_and, false, column, tail);
+    else if (can_split(format, first, last, at_term))
+        tn_format_fill(format, first, last, at_term, false, column, tail);
     else
         put_sequence(format, first, last, tail);
 }

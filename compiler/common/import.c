@@ -14,6 +14,7 @@ typedef struct tn_importer {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
     const tn_resolver *resolver;
+    tn_watch *watch;
     const char *extension; /* of what is used where a `use` does not say */
     tn_parse_unit *parse;
     tn_unit *all[TN_FILES_MAX];   /* in the order they were met */
@@ -169,6 +170,8 @@ static tn_unit *new_unit(tn_importer *importer, const tn_input *input, uint32_t 
 static tn_status load(tn_importer *importer, const tn_input *input, uint32_t file, const char *extension,
                       tn_unit **result)
 {
+    if (tn_watch_stopped(importer->watch))
+        return TN_STOPPED;
     tn_unit *unit = new_unit(importer, input, file, extension);
     if (!unit)
         return TN_MEMORY;
@@ -203,6 +206,7 @@ tn_status tn_import_all(tn_compilation *compilation, const tn_compile_options *o
     *state = (tn_importer){.arena = compilation->arena,
                            .diagnostics = &compilation->diagnostics,
                            .resolver = &options->resolver,
+                           .watch = options->watch,
                            .extension = extension,
                            .parse = parse,
                            .imports = imports};

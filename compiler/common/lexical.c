@@ -61,8 +61,11 @@ size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size,
     if (used > 0)
         return used;
     *broken = true;
-    if (error.status == TN_OK)
+    if (error.status == TN_OK) {
+        tn_diagnostic *d = tn_report(diagnostics, E_LENGTH_NOT_EXACT, span, "`%.*s` is no length", (int)size, text);
+        tn_help(diagnostics, d, "a fraction of an inch follows directly or after one blank: `6-1/2\"`, `5'6 1/2\"`");
         return 0;
+    }
     tn_diagnostic *d = tn_report(diagnostics, (tn_code)error.code, span, "%s", error.message);
     if (error.help[0])
         tn_help(diagnostics, d, "%s", error.help);
@@ -91,6 +94,10 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
     } table[] = {
         {"\xe2\x80\x98", "feet are written with a straight mark: `12'`"},
         {"&", "write `and`"},
+        {"^", "a power is written as a product: `width * width`"},
+        {"$", "leave it out: money is a plain number, and the text after the name can say its unit"},
+        {"\xe2\x82\xac",
+         "leave it out: money is a plain number, and the text after the name can say its unit"}, /* the euro sign */
         {";", "nothing has to be written at the end of a line"},
         {"//", "a comment starts with `#`"},
         {"/*", "a comment starts with `#`"},

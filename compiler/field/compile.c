@@ -32,17 +32,13 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *un
 static tn_status emit(tn_compilation *c, const tn_compile_options *options, const tn_imports *imports,
                       const tn_checked_fields *checked, tn_error *error)
 {
-    tn_builder *builder = tn_builder_new();
+    tn_builder *builder = tn_compilation_begin(c, imports, error);
     if (!builder)
-        return tn_fail_memory(error);
-    tn_emit_sources(builder, imports, &c->sources);
+        return TN_MEMORY;
     tn_status status = tn_emit_field(builder, c->arena, &c->diagnostics, checked, error);
     if (status == TN_OK && options->warnings_are_errors && c->diagnostics.warning_count > 0)
         status = TN_INVALID;
-    if (status == TN_OK)
-        status = tn_builder_finish(builder, &c->module, &c->module_size, error);
-    tn_builder_free(builder);
-    return status;
+    return tn_compilation_finish(c, builder, status, error);
 }
 
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)

@@ -27,14 +27,11 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         return tn_fail_memory(error);
     if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0) || !growth)
         return TN_INVALID;
-    tn_builder *builder = tn_builder_new();
+    tn_builder *builder = tn_compilation_begin(c, &imports, error);
     if (!builder)
-        return tn_fail_memory(error);
-    tn_emit_sources(builder, &imports, &c->sources);
+        return TN_MEMORY;
     tn_emit_growth(builder, growth);
-    status = tn_builder_finish(builder, &c->module, &c->module_size, error);
-    tn_builder_free(builder);
-    return status;
+    return tn_compilation_finish(c, builder, TN_OK, error);
 }
 
 static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)

@@ -1,5 +1,5 @@
 /* From the rules of one or several .pcfg files to symbols that can be emitted: lines of one symbol are put together,
- * names found, terminals and probabilities read; and what is surely not meant is warned of. */
+ * names found, terminals and probabilities read; and warnings about what is probably wrong. */
 #ifndef TARTAN_COMPILER_PCFG_CHECK_H
 #define TARTAN_COMPILER_PCFG_CHECK_H
 
@@ -32,7 +32,7 @@ typedef struct tn_pcfg_grammar {
 /* Puts the rules together and checks them. Out of memory is the arena's to remember. */
 void tn_pcfg_check(tn_pcfg_grammar *grammar, const tn_pcfg_file *file);
 
-/* Warns of what is legal and surely not meant, in a grammar without errors (warn.c). */
+/* Warns about what is allowed but probably wrong, in a grammar without errors (warn.c). */
 void tn_pcfg_warn(const tn_pcfg_grammar *grammar);
 
 /* Adds the grammar's records and code; `name` is what it is called (emit.c). */

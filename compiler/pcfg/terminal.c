@@ -44,6 +44,16 @@ static tn_diagnostic *refuse(const reading *r, tn_code code, const char *text, s
     return tn_report(r->diagnostics, code, place_of(r, text, length), "%s", message);
 }
 
+/* What the operation takes, and an example. */
+static void help_with(const reading *r, tn_diagnostic *d, const operation *op)
+{
+    const char *takes = op->kind == TN_STEP_PART ? "the name of a part"
+                        : op->arguments == 0     ? "nothing"
+                        : op->arguments == 1     ? "one whole number"
+                                                 : "three whole numbers";
+    tn_help(r->diagnostics, d, "%s takes %s: '%s', for example", op->name, takes, op->example);
+}
+
 static void unknown_operation(const reading *r, size_t length)
 {
     const char *names[OPERATIONS], *text = r->item->text.text;
@@ -57,8 +67,8 @@ static void unknown_operation(const reading *r, size_t length)
         tn_suggest(r->diagnostics, d, "%s", near);
     else
         tn_help(r->diagnostics, d,
-                "there are ( ) Move Rotate SetColor Place FillRect FillRectNoCheck AssertFilled PlaceBoundingBox "
-                "PlaceBoundingSphere");
+                "the steps are (, ), Move, Rotate, SetColor, Place, FillRect, FillRectNoCheck, AssertFilled, "
+                "PlaceBoundingBox and PlaceBoundingSphere");
 }
 
 /* The operation that the terminal names, with its arguments; NULL where it is none. */
@@ -80,7 +90,7 @@ static const operation *find_operation(const reading *r, tn_pcfg_text *arguments
     if (!close || close + 1 != end || nested) {
         tn_diagnostic *d = refuse(r, E_PLACE_TERMINAL, text.text, text.length,
                                   "a step ends with its arguments in one pair of parentheses");
-        tn_help(r->diagnostics, d, "write '%s'", found->example);
+        help_with(r, d, found);
         return NULL;
     }
     *arguments = (tn_pcfg_text){open + 1, (size_t)(close - open - 1)};
@@ -123,7 +133,7 @@ static void read_number(const reading *r, const operation *op, tn_pcfg_text argu
     if (count == 0) {
         tn_diagnostic *d =
             refuse(r, E_PLACE_ARGUMENT, text.text, text.length ? text.length : 1, "this is no whole number");
-        tn_help(r->diagnostics, d, "write '%s'", op->example);
+        help_with(r, d, op);
         return;
     }
     if (!tn_integer_read(digits, count, &number) || number > largest(op)) {
@@ -143,7 +153,7 @@ static void read_numbers(const reading *r, const operation *op, tn_pcfg_text arg
     if (count != op->arguments) {
         tn_diagnostic *d = refuse(r, E_PLACE_TERMINAL, r->item->text.text, r->item->text.length,
                                   "a step with too few or too many arguments");
-        tn_help(r->diagnostics, d, "write '%s'", op->example);
+        help_with(r, d, op);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -155,7 +165,7 @@ static void read_numbers(const reading *r, const operation *op, tn_pcfg_text arg
     }
 }
 
-/* ---- what is surely not meant */
+/* ---- warnings */
 
 static void warn_of_size(const reading *r)
 {
@@ -183,12 +193,12 @@ static void settle_angle(const reading *r)
     tn_help(r->diagnostics, d, "write 0, 90, 180 or 270");
 }
 
-static void read_part(const reading *r, tn_pcfg_text name)
+static void read_part(const reading *r, const operation *op, tn_pcfg_text name)
 {
     if (name.length == 0) {
         tn_diagnostic *d =
             refuse(r, E_PLACE_TERMINAL, r->item->text.text, r->item->text.length, "a part without a name");
-        tn_help(r->diagnostics, d, "write 'Place(3001)'");
+        help_with(r, d, op);
         return;
     }
     char *text = tn_arena_copy(r->arena, name.text, name.length);
@@ -221,13 +231,13 @@ void tn_pcfg_read_terminal(tn_arena *arena, tn_diagnostics *diagnostics, tn_pcfg
         return;
     item->step.kind = op->kind;
     if (op->kind == TN_STEP_PART) {
-        read_part(&r, arguments);
+        read_part(&r, op, arguments);
     } else if (op->arguments > 0) {
         read_numbers(&r, op, arguments);
     } else if (trim(arguments).length > 0) {
         tn_diagnostic *d =
             refuse(&r, E_PLACE_TERMINAL, item->text.text, item->text.length, "a step with too many arguments");
-        tn_help(diagnostics, d, "write '%s'", op->example);
+        help_with(&r, d, op);
     }
     if (item->unknown)
         return;

@@ -4,7 +4,7 @@
 
 #include "compiler/pcfg/ast.h"
 
-/* Sets the item's step, or reports what is wrong and marks it as unknown. Warns of what is surely not meant. */
+/* Sets the item's step, or reports what is wrong and marks it as unknown. Warns about what is probably wrong. */
 void tn_pcfg_read_terminal(tn_arena *arena, tn_diagnostics *diagnostics, tn_pcfg_item *item);
 
 #endif

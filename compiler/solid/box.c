@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "compiler/solid/solid.h"
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 
 static tn_diagnostic *report(tn_solid_check *check, tn_code code, tn_span span, const char *message)
 {

@@ -245,7 +245,7 @@ static void count_boxes(tn_solid_check *check)
         tn_help(check->diagnostics, d, "write one: `box slab from (0, 0, 0) to (4, 1, 2);`");
     } else if (solid->box_count > TN_SOLID_BOXES_MAX) {
         tn_report(check->diagnostics, E_SOLID_TOO_MANY, solid->design->name.span,
-                  "this design has %u boxes; the limit is %u", solid->box_count, TN_SOLID_BOXES_MAX);
+                  "this design has %u boxes; a module holds %u", solid->box_count, TN_SOLID_BOXES_MAX);
     }
 }
 

@@ -33,15 +33,9 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *un
 
 static tn_status emit(tn_compilation *c, const tn_imports *imports, const tn_checked_solids *solids, tn_error *error)
 {
-    tn_builder *builder = tn_builder_new();
-    if (!builder)
-        return tn_fail_memory(error);
-    tn_emit_sources(builder, imports, &c->sources);
-    tn_status status = tn_emit_solids(builder, &c->sources, solids, error);
-    if (status == TN_OK)
-        status = tn_builder_finish(builder, &c->module, &c->module_size, error);
-    tn_builder_free(builder);
-    return status;
+    tn_builder *builder = tn_compilation_begin(c, imports, error);
+    return builder ? tn_compilation_finish(c, builder, tn_emit_solids(builder, &c->sources, solids, error), error)
+                   : TN_MEMORY;
 }
 
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)

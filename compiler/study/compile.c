@@ -80,16 +80,11 @@ static const tn_unit *find_rules(const tn_checked_study *study)
 static tn_status emit(tn_compilation *c, const tn_imports *imports, const tn_checked_growth *growth,
                       const tn_checked_study *study, tn_error *error)
 {
-    tn_builder *builder = tn_builder_new();
+    tn_builder *builder = tn_compilation_begin(c, imports, error);
     if (!builder)
-        return tn_fail_memory(error);
-    tn_emit_sources(builder, imports, &c->sources);
+        return TN_MEMORY;
     tn_emit_growth(builder, growth);
-    tn_status status = tn_emit_study(builder, c->arena, &c->sources, study, error);
-    if (status == TN_OK)
-        status = tn_builder_finish(builder, &c->module, &c->module_size, error);
-    tn_builder_free(builder);
-    return status;
+    return tn_compilation_finish(c, builder, tn_emit_study(builder, c->arena, &c->sources, study, error), error);
 }
 
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)

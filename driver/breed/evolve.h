@@ -9,12 +9,23 @@
 #ifndef TARTAN_DRIVER_BREED_EVOLVE_H
 #define TARTAN_DRIVER_BREED_EVOLVE_H
 
+#include "driver/breed/builder.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
 #include "driver/open/open.h"
 #include "runtime/genome/breeding/problem.h"
 #include "runtime/genome/settings.h"
 #include "runtime/genome/store/run_store.h"
+
+/* What is bred, where it has a form that can be drawn: a surface, or a design of boxes. Functions as tn_grower_draw and
+ * tn_grower_objective. */
+typedef struct tn_bred_forms {
+    const void *context; /* NULL: it has none */
+    const char *what;    /* "surface" or "form" */
+    tn_status (*draw)(const void *context, const char *const *sentences, const char *const *labels, size_t count,
+                      const char *title, const char *path, tn_error *error);
+    const char *(*objective)(const void *context, size_t i);
+} tn_bred_forms;
 
 /* What is evolved. Zero it to begin with; clear it in any case. */
 typedef struct tn_evolution_job {
@@ -28,6 +39,8 @@ typedef struct tn_evolution_job {
     tn_problem *problem;
     tn_learner *learner;
     tn_grower *grower;
+    tn_design_scorer *designs;
+    tn_bred_forms forms;
     tn_genome *seeds;
     size_t seed_count;
     char *seeds_text;      /* the file that they are from, or NULL */
@@ -91,7 +104,7 @@ tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, 
  * said at every resuming. */
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
 
-/* Is there nothing left to wish for (`stop`)? */
+/* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);
 
 /* Writes best/, stats.csv and fitness.svg. */

@@ -17,6 +17,7 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     tn_problem_free(job->problem);
     tn_learner_free(job->learner);
     tn_grower_free(job->grower);
+    tn_design_scorer_free(job->designs);
     tn_grammar_free(job->grammar);
     for (size_t i = 0; i < job->seed_count; i++)
         tn_genome_clear(&job->seeds[i]);
@@ -181,7 +182,17 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     tn_status status = find_data(job, TN_SET_GROW, path, error);
     if (status == TN_OK)
         status = tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error);
+    job->forms = (tn_bred_forms){job->grower, "surface", tn_grower_draw, tn_grower_objective};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
+}
+
+static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    tn_status status = find_data(job, TN_SET_BUILD, path, error);
+    if (status == TN_OK)
+        status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), &job->designs, error);
+    job->forms = (tn_bred_forms){job->designs, "form", tn_design_scorer_draw, tn_design_scorer_objective};
+    return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 
 static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
@@ -196,8 +207,8 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
 {
     const tn_evolution_study *s = &job->study;
     tn_status status = TN_OK;
-    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written;
-    job->extension = learns ? "plan" : grows ? "hemls" : "txt";
+    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written, builds = s->of[TN_SET_BUILD].written;
+    job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : "txt";
     if (options->only_replay) {
         job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = never_evaluate};
         return TN_OK;
@@ -206,12 +217,15 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
         status = make_learner(job, path, error);
     else if (grows)
         status = make_grower(job, path, error);
+    else if (builds)
+        status = make_designs(job, path, error);
     else if (s->of[TN_SET_FIT].written)
         status = make_fit(job, path, error);
     else
         status = tn_problem_match(s->of[TN_SET_MATCH].text, &job->problem, error);
     if (status == TN_OK)
         job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
+                         : job->designs ? tn_design_scorer_evaluator(job->designs)
                          : job->learner ? tn_learner_evaluator(job->learner)
                                         : tn_problem_evaluator(job->problem);
     return status;

@@ -78,8 +78,9 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
     if (status == TN_OK)
         status = write_sentence(sentence, individual, error);
     const char *const text[] = {individual->sentence};
-    if (status == TN_OK && run->job->grower)
-        status = tn_grower_draw(run->job->grower, text, NULL, 1, sentence, picture, error);
+    const tn_bred_forms *forms = &run->job->forms;
+    if (status == TN_OK && forms->context)
+        status = forms->draw(forms->context, text, NULL, 1, sentence, picture, error);
     else if (status == TN_OK && run->job->learner)
         status = tn_learner_draw(run->job->learner, individual->sentence, picture, error);
     else if (status == TN_OK)
@@ -105,7 +106,7 @@ static const char *objective_name(const tn_run *run, size_t i)
         return "score";
     if (run->job->learner)
         return i ? "length" : "errors";
-    return tn_grower_objective(run->job->grower, i);
+    return run->job->forms.objective(run->job->forms.context, i);
 }
 
 /* scores.csv, beside the files: a line for each. */

@@ -12,6 +12,7 @@
 #include "driver/breed/inputs.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/numeric/numeric.h"
 
 char *tn_run_database(const char *dir)
 {
@@ -33,14 +34,16 @@ void tn_run_clear(tn_run *run)
 
 static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
 {
-    char seed[24], objectives[24];
+    char seed[24], objectives[24], arithmetic[24];
     const tn_evolution_job *job = run->job;
     const char *slash = strrchr(texts->study_path, '/');
     snprintf(seed, sizeof seed, "%" PRIu64, job->settings.seed);
     snprintf(objectives, sizeof objectives, "%zu", job->evaluator.objectives);
-    const char *const keys[] = {"format", "identity",     "seed",    "objectives", "study_path",
-                                "study",  "grammar_path", "grammar", "inputs",     "seeds"};
+    snprintf(arithmetic, sizeof arithmetic, "%d", TN_NUMERIC_VERSION);
+    const char *const keys[] = {"format", "arithmetic",   "identity", "seed",   "objectives", "study_path",
+                                "study",  "grammar_path", "grammar",  "inputs", "seeds"};
     const char *const values[] = {"1",
+                                  arithmetic,
                                   job->identity,
                                   seed,
                                   objectives,
@@ -57,6 +60,24 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
 static void start_anew(tn_error *error)
 {
     tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+}
+
+/* Scores, and what is grown again of a genome, hang on the last digits of elementary functions. Runs from before these
+ * had versions were made with the first. */
+static tn_status same_arithmetic(const tn_run *run, tn_error *error)
+{
+    char *stored;
+    tn_status status = tn_run_store_get_meta(run->store, "arithmetic", &stored, error);
+    int was = stored ? atoi(stored) : 1;
+    free(stored);
+    if (status != TN_OK || was == TN_NUMERIC_VERSION)
+        return status;
+    tn_fail(error, TN_INVALID, E_RUN_DIFFERS,
+            "the run in %.200s was made with arithmetic %d, and this Tartan has arithmetic %d: sines and exponentials "
+            "differ in their last digits",
+            run->dir, was, TN_NUMERIC_VERSION);
+    tn_error_help(error, "go on with the Tartan that began it, or start another run with -o DIR");
+    return TN_INVALID;
 }
 
 /* The identity has a setting a line: the first that differs is named. */
@@ -157,7 +178,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     if (run->generations == 0 || !evaluator->adjust) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing and learning"
+        tn_error_help(error, run->generations ? "targets and weights belong to growing, building and learning"
                                               : "change the study itself");
         return TN_INVALID;
     }
@@ -310,6 +331,8 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
         return begin_new(run, path, options, texts, error);
     status = tn_run_store_open(path, options->durable, false, &run->store, error);
     if (status == TN_OK)
+        status = same_arithmetic(run, error);
+    if (status == TN_OK)
         status = same_study(run, error);
     if (status == TN_OK)
         status = same_grammar(run, texts->grammar_text, error);
@@ -439,6 +462,8 @@ tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evol
     tn_status status =
         path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
     free(path);
+    if (status == TN_OK)
+        status = same_arithmetic(run, error);
     if (status == TN_OK)
         status = compile_stored(run, opened, error);
     if (status == TN_OK)

@@ -1,4 +1,4 @@
-/* A generation on a sheet: of surfaces where they are grown, else of its sentences. */
+/* A generation on a sheet: of surfaces or designs where what is bred has a form, else of its sentences. */
 #include "driver/breed/evolve_sheet.h"
 
 #include <stdio.h>
@@ -9,8 +9,8 @@
 
 #define LABEL_BYTES 64u
 
-/* Surfaces are drawn as they are, in the members' order; those without a score come last and are not drawn. */
-static tn_status draw_surfaces(tn_run *run, size_t scored, const char *path, tn_error *error)
+/* Forms are drawn as they are, in the members' order; those without a score come last and are not drawn. */
+static tn_status draw_forms(tn_run *run, size_t scored, const char *path, tn_error *error)
 {
     size_t count;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
@@ -24,9 +24,9 @@ static tn_status draw_surfaces(tn_run *run, size_t scored, const char *path, tn_
     }
     snprintf(title, sizeof title, "generation %u", run->generations ? run->generations - 1 : 0);
     if (scored < count)
-        snprintf(title + strlen(title), 40, "; %zu more have no surface", count - scored);
+        snprintf(title + strlen(title), 40, "; %zu more have no %s", count - scored, run->job->forms.what);
     if (status == TN_OK)
-        status = tn_grower_draw(run->job->grower, sentences, labels, scored, title, path, error);
+        status = run->job->forms.draw(run->job->forms.context, sentences, labels, scored, title, path, error);
     free(sentences);
     free(labels);
     free(text);
@@ -45,8 +45,8 @@ static size_t count_scored(const tn_run *run)
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
 {
     snprintf(path, size, "%s/sheet-%04u.svg", run->dir, run->generations ? run->generations - 1 : 0);
-    size_t count, scored = run->job->grower ? count_scored(run) : 0;
+    size_t count, scored = run->job->forms.context ? count_scored(run) : 0;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
-    return scored ? draw_surfaces(run, scored, path, error)
+    return scored ? draw_forms(run, scored, path, error)
                   : tn_sentences_draw(members, count, run->job->grammar->name, path, error);
 }

@@ -39,7 +39,7 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
         return tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.100s cannot be used: %.300s", path,
                        tn_first_error(&g->opened));
     }
-    tn_status status = tn_study_read(g->opened.module, path, tn_openmesh_read, &g->study, error);
+    tn_status status = tn_study_read(g->opened.module, path, &tn_openmesh_reader, &g->study, error);
     for (uint32_t goal = 0; status == TN_OK && goal < TN_FITNESS_TERM_COUNT + g->study.goal.named_count; goal++)
         if (goal >= TN_FITNESS_TERM_COUNT || g->study.goal.wanted[goal])
             g->goals[g->goal_count++] = goal;
@@ -106,7 +106,8 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
     const tn_study *study = &g->study;
     *r = (rules){0};
     tn_status status =
-        tn_open_text(TN_NOTATION(hemls), "the sentence", sentence, size, &(tn_compile_options){0}, &r->opened);
+        tn_open_text(TN_NOTATION(hemls), &(tn_input){.text = sentence, .size = size, .name = "the sentence"},
+                     &(tn_compile_options){0}, &r->opened);
     if (status != TN_OK)
         return tn_open_error(&r->opened, status, error);
     status = tn_growth_system_read(r->opened.module, &r->system, error);
@@ -168,8 +169,7 @@ static bool find_goal(const tn_grower *g, const char *name, uint32_t *goal)
     return false;
 }
 
-/* Reads "target 3 weight 2", in any order. */
-static bool read_wish(const char *text, double *target, double *weight)
+bool tn_wish_read(const char *text, double *target, double *weight)
 {
     while (text[strspn(text, " ")]) {
         char what[16];
@@ -205,7 +205,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
            weight = !found    ? 0
                     : is_term ? wants->weight[goal]
                               : named->weight;
-    if (!found || !change[length] || !read_wish(change + length, &target, &weight)) {
+    if (!found || !change[length] || !tn_wish_read(change + length, &target, &weight)) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
         tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
                       name_of(g, g->goals[0]));
@@ -224,16 +224,18 @@ tn_evaluator tn_grower_evaluator(tn_grower *grower)
                           .adjust = adjust};
 }
 
-const char *tn_grower_objective(const tn_grower *g, size_t i)
+const char *tn_grower_objective(const void *grower, size_t i)
 {
+    const tn_grower *g = grower;
     return name_of(g, g->goals[i]);
 }
 
 /* ---- pictures */
 
-tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const char *const *labels, size_t count,
+tn_status tn_grower_draw(const void *grower, const char *const *sentences, const char *const *labels, size_t count,
                          const char *title, const char *path, tn_error *error)
 {
+    const tn_grower *g = grower;
     tn_canvas_format format;
     tn_view **views = calloc(count + 1, sizeof *views);
     tn_camera camera = tn_camera_default();
@@ -246,7 +248,7 @@ tn_status tn_grower_draw(const tn_grower *g, const char *const *sentences, const
         rules compiled;
         status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
         if (status == TN_OK)
-            status = tn_view_take(growth, &camera, &views[drawn++], error);
+            status = tn_growth_view(growth, &camera, &views[drawn++], error);
         rules_clear(&compiled);
     }
     tn_view_options options = {.title = title, .labels = labels};

@@ -18,11 +18,11 @@ void tn_grower_free(tn_grower *grower);
 tn_evaluator tn_grower_evaluator(tn_grower *grower);
 
 /* What objective `i` is, where each is one: a term, or the name of an expression. */
-const char *tn_grower_objective(const tn_grower *grower, size_t i);
+const char *tn_grower_objective(const void *grower, size_t i);
 
 /* Grows sentences that could be scored, and draws them side by side in their order, each over its label (`labels` may
  * be NULL). */
-tn_status tn_grower_draw(const tn_grower *grower, const char *const *sentences, const char *const *labels, size_t count,
+tn_status tn_grower_draw(const void *grower, const char *const *sentences, const char *const *labels, size_t count,
                          const char *title, const char *path, tn_error *error);
 
 /* Adds what its scores depend on to the text (inputs.h): the study, its rules and meshes. */

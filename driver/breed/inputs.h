@@ -20,4 +20,7 @@ tn_status tn_inputs_add_sources(char **inputs, const char *kind, const tn_module
 /* The name in the first line that is not in both, without its hash; empty where both are the same. */
 void tn_inputs_difference(const char *before, const char *now, char *name, size_t size);
 
+/* Reads a change of a goal, " target 3 weight 2", in any order; false where it says anything else. */
+bool tn_wish_read(const char *text, double *target, double *weight);
+
 #endif

@@ -84,7 +84,7 @@ static tn_status read_examples(tn_learner *l, const tn_schema *schema, const cha
 static tn_status open_rule(tn_files *files, const char *name, const char *text, size_t size, tn_opened *opened)
 {
     tn_compile_options options = {.resolver = tn_files_resolver(files)};
-    return tn_open_text(TN_NOTATION(plan), name, text, size, &options, opened);
+    return tn_open_text(TN_NOTATION(plan), &(tn_input){.text = text, .size = size, .name = name}, &options, opened);
 }
 
 /* Compiles a rule that only serves to have the schema. */

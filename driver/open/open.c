@@ -73,12 +73,11 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     return status;
 }
 
-tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
-                       const tn_compile_options *options, tn_opened *opened)
+tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
+                       tn_opened *opened)
 {
-    tn_input input = {.text = text, .size = size, .name = name};
-    start(name, opened);
-    return compile(notation, &input, options, opened);
+    start(input->name, opened);
+    return compile(notation, input, options, opened);
 }
 
 /* A module brings its sources along: findings then show the same lines as when it was compiled. */

@@ -36,9 +36,9 @@ bool tn_path_joins(const char *path);
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
-/* Compiles a text that is no file's, and makes its module ready to run. `name` is what diagnostics call it. */
-tn_status tn_open_text(const tn_notation *notation, const char *name, const char *text, size_t size,
-                       const tn_compile_options *options, tn_opened *opened);
+/* Compiles a text that the caller has, and makes its module ready to run. */
+tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
+                       tn_opened *opened);
 
 /* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
  * holds nothing of another kind than plan rules. */

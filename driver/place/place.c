@@ -73,7 +73,7 @@ static void find_obstacle(const tn_place_rules *rules, const tn_place_options *o
     tn_place_fault found;
     tn_placed_model model;
     tn_error error;
-    again.watch = true;
+    again.keep_filled = true;
     again.report = NULL;
     if (tn_place_derive(rules, &again, &model, &found, &error) == TN_INVALID)
         fault->obstacle = found.obstacle;
@@ -109,7 +109,7 @@ tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const t
         warn_of_forced(opened, rules, model);
     if (status == TN_OK || status == TN_STOPPED)
         return status;
-    if (status == TN_INVALID && fault.obstacle.known && !options->watch)
+    if (status == TN_INVALID && fault.obstacle.known && !options->keep_filled)
         find_obstacle(rules, options, &fault);
     if (fault.has_step)
         report_fault(opened, rules, model, &fault, &error);

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "compiler/plan/syntax/program.h"
+#include "runtime/module/code.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/text.h"
 
 /* One finding being reported. */
@@ -261,12 +263,36 @@ static tn_status tell_vacuous(const teller *t)
     return note_plan(t, d, NULL, t->finding->plans, "the shortest plan where it holds");
 }
 
+/* The field of which the specifier lets in no value at all; NULL where it is the schema's `forbid`s that leave none. */
+static const char *contradicted(const teller *t)
+{
+    tn_instruction code = tn_code_read(t->module->code, t->finding->offset);
+    for (uint32_t f = 0; code.opcode == TN_OP_TRAY && f < t->schema->field_count; f++) {
+        bool any = false;
+        for (uint32_t v = 0; v < t->schema->fields[f].value_count; v++) {
+            uint32_t bit = t->schema->value_start[f] + v;
+            any |= tn_spec_word(t->module, (uint32_t)code.first, bit / 64) >> bit % 64 & 1;
+        }
+        if (!any)
+            return tn_text(t->module, t->schema->fields[f].name);
+    }
+    return NULL;
+}
+
 static tn_status tell_no_tray(const teller *t)
 {
     tn_span span;
     if (!tn_code_span(t->opened, t->finding->offset, &span) || is_allowed(t, W_NO_LEGAL_TRAY, span))
         return TN_OK;
     const char *schema = tn_text(t->module, t->schema->record->name);
+    const char *field = contradicted(t);
+    if (field) {
+        tn_diagnostic *d =
+            tn_report(list_of(t), W_NO_LEGAL_TRAY, span,
+                      "no tray is like this: all items have to hold, and those about `%s` exclude each other", field);
+        tn_help(list_of(t), d, "alternatives are joined by `or`: `tray(%s a or b)`", field);
+        return TN_OK;
+    }
     tn_diagnostic *d =
         tn_report(list_of(t), W_NO_LEGAL_TRAY, span, "no legal tray is like this: schema `%s` forbids them", schema);
     tn_span place = {t->schema->record->file, t->schema->record->begin, t->schema->record->end};
@@ -312,10 +338,29 @@ static bool is_concerned(const tn_module *module, uint32_t schema)
     for (size_t r = 0; r < module->RULE_count; r++)
         if (module->RULE_records[r].schema == schema && !(module->RULE_records[r].flags & TN_IMPORTED))
             return true;
+    for (size_t m = 0; m < module->MEASURE_count; m++)
+        if (module->MEASURE_records[m].schema == schema && !(module->MEASURE_records[m].flags & TN_IMPORTED))
+            return true;
     for (size_t l = 0; l < module->LIBRARY_count; l++)
         if (module->LIBRARY_records[l].schema == schema && !(module->LIBRARY_records[l].flags & TN_IMPORTED))
             return true;
     return false;
+}
+
+/* The sums of the schema can be made: no tray that they count divides by zero, and their numbers have a step. */
+static tn_status check_sums(const tn_schema *schema, tn_error *error)
+{
+    const tn_module *module = schema->module;
+    for (uint32_t i = 0; i < module->SUM_count; i++) {
+        tn_sum *sum;
+        if (&module->SCHEMA_records[module->SUM_records[i].schema] != schema->record)
+            continue;
+        tn_status status = tn_sum_new(schema, i, &sum, error);
+        if (status != TN_OK)
+            return status;
+        tn_sum_free(sum);
+    }
+    return TN_OK;
 }
 
 static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan_analysis_options *options,
@@ -326,6 +371,9 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan
     if (status != TN_OK)
         return status;
     analyses->count++;
+    status = check_sums(analyses->schemas[at], error);
+    if (status != TN_OK)
+        return status;
     status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
         teller t = {opened, opened->module, analyses->schemas[at], tn_plan_analysis_get(analyses->items[at], i)};

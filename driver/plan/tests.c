@@ -1,3 +1,4 @@
+/* Runs test blocks by both engines, and says why cases fail. */
 #include "driver/plan/tests.h"
 
 #include "driver/plan/value_tests.h"
@@ -5,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/syntax/program.h"
 #include "driver/house/tests.h"
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
@@ -261,15 +261,16 @@ static void note_why(const block *b, const tn_test_case *test, tn_diagnostic *di
 }
 
 /* A case marked `todo` that comes out: the mark has served. */
-static void report_done(const block *b, const tn_test_case *test)
+static const char *report_done(const block *b, const tn_test_case *test)
 {
     tn_diagnostics *list = &b->opened->compilation.diagnostics;
     tn_diagnostic *d =
         tn_report(list, E_TEST_FAILED, test->span, "this test of `%s` is marked `todo` and passes", b->tests->subject);
     tn_help(list, d, "take `todo` away: it is done");
+    return d->message;
 }
 
-static void report_failure(const block *b, const tn_test_case *test)
+static const char *report_failure(const block *b, const tn_test_case *test)
 {
     tn_diagnostics *list = &b->opened->compilation.diagnostics;
     tn_buffer sentence = {0}, plan = {0};
@@ -284,50 +285,61 @@ static void report_failure(const block *b, const tn_test_case *test)
     note_why(b, test, diagnostic);
     free(sentence.data);
     free(plan.data);
+    return diagnostic->message;
 }
 
-static void count_case(const block *b, const tn_test_case *test, bool good, tn_test_counts *counts)
+/* Counts a case, and tells whoever looks on. message: why it failed, where that is reported already. */
+static void count_case(const block *b, const tn_test_case *test, bool good, const char *message,
+                       const tn_test_watcher *watcher, tn_test_counts *counts)
 {
-    counts->passed += good && !test->todo;
-    counts->todo += !good && test->todo;
-    counts->failed += good == test->todo;
-    if (good && test->todo)
-        report_done(b, test);
+    tn_test_outcome outcome =
+        good ? (test->todo ? TN_TEST_DONE : TN_TEST_PASSED) : (test->todo ? TN_TEST_TODO : TN_TEST_FAILED);
+    counts->passed += outcome == TN_TEST_PASSED;
+    counts->todo += outcome == TN_TEST_TODO;
+    counts->failed += outcome == TN_TEST_FAILED || outcome == TN_TEST_DONE;
+    if (outcome == TN_TEST_DONE)
+        message = report_done(b, test);
+    if (watcher)
+        watcher->seen(watcher->context, b->tests, test, outcome, message);
 }
 
-static tn_status run_block(block *b, uint32_t max_states, tn_test_counts *counts, tn_error *error)
+static tn_status run_block(block *b, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts,
+                           tn_error *error)
 {
     tn_status status = block_new(b, max_states, error);
     for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
         const tn_test_case *test = &b->tests->cases[i];
-        status = match(b, test, error);
+        status = tn_watch_check(b->module->watch, error);
+        if (status == TN_OK)
+            status = match(b, test, error);
         if (status != TN_OK)
             break;
         bool good = comes_out(b, test);
-        count_case(b, test, good, counts);
-        if (!good && !test->todo)
-            report_failure(b, test);
+        count_case(b, test, good, good || test->todo ? NULL : report_failure(b, test), watcher, counts);
     }
     block_free(b);
     return status;
 }
 
 /* A measure's cases: each plan's value, found by the interpreter. */
-static tn_status run_values(block *b, tn_test_counts *counts, tn_error *error)
+static tn_status run_values(block *b, const tn_test_watcher *watcher, tn_test_counts *counts, tn_error *error)
 {
     tn_value_tests values = {0};
     tn_status status = tn_value_tests_new(&values, b->opened, b->tests, error);
     for (size_t i = 0; status == TN_OK && i < b->tests->case_count; i++) {
         bool good;
-        status = tn_value_test(&values, i, &good, error);
+        const char *message;
+        status = tn_watch_check(b->module->watch, error);
         if (status == TN_OK)
-            count_case(b, &b->tests->cases[i], good, counts);
+            status = tn_value_test(&values, i, &good, &message, error);
+        if (status == TN_OK)
+            count_case(b, &b->tests->cases[i], good, message, watcher, counts);
     }
     tn_value_tests_clear(&values);
     return status;
 }
 
-tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *counts)
+tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
     if (!opened->compiled) {
@@ -357,8 +369,8 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *c
             tn_finding_error(opened, &error);
             return status;
         }
-        tn_status status =
-            b.tests->is_measure ? run_values(&b, counts, &error) : run_block(&b, max_states, counts, &error);
+        tn_status status = b.tests->is_measure ? run_values(&b, watcher, counts, &error)
+                                               : run_block(&b, max_states, watcher, counts, &error);
         if (status != TN_OK) {
             tn_finding_error(opened, &error);
             return status;

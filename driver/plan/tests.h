@@ -2,16 +2,32 @@
 #ifndef TARTAN_DRIVER_PLAN_TESTS_H
 #define TARTAN_DRIVER_PLAN_TESTS_H
 
+#include "compiler/plan/syntax/program.h"
 #include "driver/open/findings.h"
 
 typedef struct tn_test_counts {
     size_t passed, failed, todo; /* todo: failed as they are expected to */
 } tn_test_counts;
 
+/* What became of a case. */
+typedef enum tn_test_outcome {
+    TN_TEST_PASSED,
+    TN_TEST_FAILED,
+    TN_TEST_TODO, /* failed, as its mark `todo` expects */
+    TN_TEST_DONE, /* passed in spite of its mark, which counts as failed */
+} tn_test_outcome;
+
+/* Whoever looks on: called for each case in order. message: why it failed; NULL where it did not. */
+typedef struct tn_test_watcher {
+    void (*seen)(void *context, const tn_test_block *block, const tn_test_case *test, tn_test_outcome outcome,
+                 const char *message);
+    void *context;
+} tn_test_watcher;
+
 /* Runs the blocks of the file itself (not of those it uses). Failures become diagnostics (E0590) with the plan, what
  * was expected of it, the rule, and how its parts came out. A case marked `todo` is expected to fail, and fails where
  * it comes out after all. TN_INVALID where a case failed or there is none (a module holds no tests), TN_INTERNAL where
- * the two engines disagree. max_states as in tn_rules_options. */
-tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, tn_test_counts *counts);
+ * the two engines disagree. max_states as in tn_rules_options; watcher may be NULL. */
+tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts);
 
 #endif

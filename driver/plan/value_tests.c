@@ -27,7 +27,7 @@ void tn_value_tests_clear(tn_value_tests *values)
     *values = (tn_value_tests){0};
 }
 
-static void report(const tn_value_tests *values, const tn_test_case *test, const mpq_t value, const mpq_t wanted)
+static const char *report(const tn_value_tests *values, const tn_test_case *test, const mpq_t value, const mpq_t wanted)
 {
     const tn_measure_record *measure = &values->opened->module->MEASURE_records[values->tests->index];
     uint32_t power = values->opened->module->SUM_records[measure->sum].power;
@@ -47,10 +47,12 @@ static void report(const tn_value_tests *values, const tn_test_case *test, const
     free(is.data);
     free(should.data);
     free(plan.data);
+    return d->message;
 }
 
-tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, tn_error *error)
+tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, const char **message, tn_error *error)
 {
+    *message = NULL;
     const tn_test_case *test = &values->tests->cases[i];
     const tn_module *module = values->opened->module;
     for (size_t k = 0; k < test->length; k++)
@@ -64,7 +66,7 @@ tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, tn_error *
         mpq_set_str(wanted, test->value, 10);
         *good = mpq_equal(value, wanted);
         if (!*good && !test->todo)
-            report(values, test, value, wanted);
+            *message = report(values, test, value, wanted);
     }
     mpq_clears(value, wanted, NULL);
     return status;

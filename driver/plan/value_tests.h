@@ -18,7 +18,8 @@ typedef struct tn_value_tests {
 tn_status tn_value_tests_new(tn_value_tests *values, tn_opened *opened, const tn_test_block *tests, tn_error *error);
 void tn_value_tests_clear(tn_value_tests *values);
 
-/* Does case i come out? One that does not, and is not marked `todo`, is reported. */
-tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, tn_error *error);
+/* Does case i come out? One that does not, and is not marked `todo`, is reported; *message is then what was said, and
+ * else NULL. */
+tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, const char **message, tn_error *error);
 
 #endif

@@ -82,11 +82,11 @@ static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
     return good && tn_report_html(r, "</div>\n");
 }
 
-/* What checking found to say about the rules: what is hardly meant, and what could not be analysed. */
+/* The warnings of checking, and notes on what could not be analysed. */
 static bool put_findings(const tn_reporting *r)
 {
     tn_diagnostics *found = &r->opened->compilation.diagnostics;
-    bool good = tn_report_html(r, "<h2 id=\"findings\">What is hardly meant</h2>\n"), any = false;
+    bool good = tn_report_html(r, "<h2 id=\"findings\">Warnings</h2>\n"), any = false;
     tn_diagnostics_sort(found);
     for (size_t i = 0; good && i < found->count; i++) {
         const tn_diagnostic *item = &found->items[i];
@@ -95,7 +95,7 @@ static bool put_findings(const tn_reporting *r)
         good = put_finding(r, item);
         any = true;
     }
-    return good && (any || tn_report_html(r, "<p class=\"quiet\">Nothing: `tartan check` has no warning.</p>\n"));
+    return good && (any || tn_report_html(r, "<p class=\"quiet\">`tartan check` has no warnings.</p>\n"));
 }
 
 /* ---- the page */
@@ -107,7 +107,7 @@ static bool put_head(const tn_reporting *r)
            tn_report_text(r, name) && tn_report_html(r, "</title>\n") && tn_report_html(r, tn_report_head) &&
            tn_report_html(r, "<h1>") && tn_report_text(r, name) && tn_report_html(r, "</h1>\n<p>") &&
            tn_report_text(r, doc) &&
-           tn_report_html(r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Findings</a> <a "
+           tn_report_html(r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "
                              "href=\"#rules\">Rules</a> <a href=\"#plans\">Plans</a></nav>\n");
 }
 

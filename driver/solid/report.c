@@ -50,6 +50,11 @@ static void warn_squashed(const reporting *r, const tn_squash *s)
                 s->after, fabs(s->after - s->before));
     if (s->box == s->by)
         tn_help(list, d, "it crosses the plane of symmetry: end it there, at %c = 0", "xyz"[s->axis]);
+    else if (s->whole && r->built->written.boxes[s->by].rigid)
+        tn_help(list, d, "it lies inside `%.100s`, which is rigid: let it stick out, or leave it out", by.text);
+    else if (r->built->written.boxes[s->by].rigid)
+        tn_help(list, d, "`%.100s` is rigid, so that this box gives way: end it at %c = %.15g", by.text, "xyz"[s->axis],
+                s -> after);
     else
         tn_help(list, d,
                 "boxes that overlap are squashed: end one where the other begins, or make one of them `rigid`");
@@ -111,12 +116,12 @@ static tn_status warn_detached(const reporting *r, tn_error *error)
     return status;
 }
 
-static tn_status report_design(tn_opened *opened, uint32_t solid)
+static tn_status report_design(tn_opened *opened, uint32_t solid, uint32_t most)
 {
     tn_built built;
     tn_error error;
     reporting r = {opened, opened->module, solid, &built};
-    tn_status status = tn_built_make(opened->module, solid, &built, &error);
+    tn_status status = tn_built_make(opened->module, solid, most, &built, &error);
     bool empty = status == TN_INVALID;
     for (size_t i = 0; i < built.history.count && (status == TN_OK || empty); i++)
         warn_squashed(&r, &built.history.items[i]);
@@ -132,13 +137,13 @@ static tn_status report_design(tn_opened *opened, uint32_t solid)
     return status;
 }
 
-tn_status tn_solid_report(tn_opened *opened)
+tn_status tn_solid_report(tn_opened *opened, uint32_t most)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < opened->module->SOLID_count; i++) {
         if (opened->module->SOLID_records[i].flags & TN_SOLID_IMPORTED)
             continue;
-        tn_status one = report_design(opened, i);
+        tn_status one = report_design(opened, i, most);
         status = status == TN_OK ? one : status;
     }
     return status;

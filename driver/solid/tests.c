@@ -8,7 +8,7 @@
 typedef struct testing {
     tn_opened *opened;
     const tn_module *module;
-    uint32_t solid;
+    uint32_t solid, most;
     bool json;
     FILE *out;
     double values[TN_SOLID_MEASURED_COUNT];
@@ -103,7 +103,7 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     const tn_solid_record *record = &t->module->SOLID_records[t->solid];
     tn_built built;
     tn_error error;
-    tn_status status = tn_built_make(t->module, t->solid, &built, &error);
+    tn_status status = tn_built_make(t->module, t->solid, t->most, &built, &error);
     if (status == TN_OK)
         status = tn_built_measure(&built, asked_of(t->module, record), t->values, &error);
     tn_built_clear(&built);
@@ -119,14 +119,14 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     return status;
 }
 
-tn_status tn_solid_tests_run(tn_opened *opened, bool json, FILE *out, tn_solid_tally *tally)
+tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally)
 {
     tn_status status = TN_OK;
     bool first = true;
     for (uint32_t i = 0; i < opened->module->SOLID_count; i++) {
         if (opened->module->SOLID_records[i].flags & TN_SOLID_IMPORTED)
             continue;
-        testing t = {.opened = opened, .module = opened->module, .solid = i, .json = json, .out = out};
+        testing t = {.opened = opened, .module = opened->module, .solid = i, .most = most, .json = json, .out = out};
         if (json && !first)
             fputc(',', out);
         first = false;

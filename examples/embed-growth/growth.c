@@ -53,13 +53,13 @@ static tartan_status save(tartan_growth *growth, const tartan_mesh *mesh, char *
 {
     void *bytes = NULL;
     size_t size = 0;
-    tartan_status status = tartan_mesh_write(mesh, TARTAN_OBJ, NULL, &bytes, &size, error);
+    tartan_status status = tartan_mesh_write(mesh, TARTAN_OBJ, NULL, NULL, &bytes, &size, error);
     if (status == TARTAN_OK)
         status = write_file(paths[0], bytes, size, error);
     tartan_bytes_free(bytes);
     bytes = NULL;
     if (status == TARTAN_OK)
-        status = tartan_growth_draw(growth, TARTAN_SVG, NULL, &bytes, &size, error);
+        status = tartan_growth_draw(growth, TARTAN_SVG, NULL, NULL, &bytes, &size, error);
     if (status == TARTAN_OK)
         status = write_file(paths[1], bytes, size, error);
     tartan_bytes_free(bytes);

@@ -14,12 +14,13 @@ extern "C" {
 typedef struct tartan_explanation tartan_explanation;
 
 /* Explains what rules say of a plan (names and count as in tartan_rules_new), or what the clauses of a library say
- * (name NULL: the only one of the file). A plan of more than 1,000 trays is TARTAN_LIMIT. */
+ * (name NULL: the only one of the file). A plan of more than 1,000 trays is TARTAN_LIMIT. `watch` may be NULL. */
 TARTAN_API tartan_status tartan_explain_rules(const tartan_module *module, const char *const *names, size_t count,
-                                              const uint32_t *trays, size_t length, tartan_explanation **explanation,
-                                              tartan_error *error);
+                                              const uint32_t *trays, size_t length, const tartan_watch *watch,
+                                              tartan_explanation **explanation, tartan_error *error);
 TARTAN_API tartan_status tartan_explain_library(const tartan_module *module, const char *name, const uint32_t *trays,
-                                                size_t length, tartan_explanation **explanation, tartan_error *error);
+                                                size_t length, const tartan_watch *watch,
+                                                tartan_explanation **explanation, tartan_error *error);
 TARTAN_API void tartan_explanation_free(tartan_explanation *explanation);
 
 /* Does the library keep the plan? false for rules by themselves. */

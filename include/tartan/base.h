@@ -69,6 +69,7 @@ typedef struct tartan_watch {
     size_t size;
     tartan_go_on *go_on; /* may be NULL */
     void *context;
+    uint64_t memory_limit; /* bytes that the process may hold; past them the work ends (TARTAN_LIMIT). 0: any number */
 } tartan_watch;
 TARTAN_SIZED(tartan_watch)
 

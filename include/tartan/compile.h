@@ -1,4 +1,5 @@
-/* Compiling rule files: .plan, .hemls, .study and .bnf. Only libtartan has this; libtartan-runtime loads modules. */
+/* Compiling rule files (.plan, .hemls, .study, .bnf, .pcfg, .field), and laying them out. Only libtartan has this;
+ * libtartan-runtime loads modules. */
 #ifndef TARTAN_COMPILE_H
 #define TARTAN_COMPILE_H
 
@@ -51,6 +52,7 @@ typedef struct tartan_compile_options {
     tartan_resolve *resolve; /* where all that is used comes from, and no file is opened; NULL: files, and `folders` */
     void *resolve_context;
     bool warnings_are_errors;
+    const tartan_watch *watch; /* or NULL: asked at each text that is compiled; TARTAN_STOPPED once it says so */
 } tartan_compile_options;
 TARTAN_SIZED(tartan_compile_options)
 
@@ -64,6 +66,13 @@ TARTAN_API tartan_status tartan_compile_file(const char *path, const tartan_comp
 TARTAN_API tartan_status tartan_compile_text(const char *path, const char *text, size_t size,
                                              const tartan_compile_options *options, tartan_module **module,
                                              tartan_error *error);
+
+/* Lays a rule file's text out the one way that `tartan fmt` does, with its comments; `path` says the notation. What is
+ * said goes to `report` (may be NULL). A text with errors of syntax is TARTAN_INVALID. Free the text with
+ * tartan_text_free. */
+TARTAN_API tartan_status tartan_format_text(const char *path, const char *text, size_t size, tartan_report *report,
+                                            void *report_context, char **formatted, size_t *formatted_size,
+                                            tartan_error *error);
 
 #ifdef __cplusplus
 }

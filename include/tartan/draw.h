@@ -25,11 +25,11 @@ typedef struct tartan_plans_drawing {
 TARTAN_SIZED(tartan_plans_drawing)
 
 /* Draws plans: `trays` holds them one after another, the i-th ending before trays[ends[i]]. At most 5,000, and a PNG of
- * at most 100 million pixels (TARTAN_LIMIT). `drawing` may be NULL. */
+ * at most 100 million pixels (TARTAN_LIMIT). `drawing` and `watch` may be NULL. */
 TARTAN_API tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends,
                                            size_t count, tartan_picture_format format,
-                                           const tartan_plans_drawing *drawing, void **bytes, size_t *size,
-                                           tartan_error *error);
+                                           const tartan_plans_drawing *drawing, const tartan_watch *watch, void **bytes,
+                                           size_t *size, tartan_error *error);
 
 typedef struct tartan_growth_drawing {
     size_t size;
@@ -43,15 +43,17 @@ typedef struct tartan_growth_drawing {
 } tartan_growth_drawing;
 TARTAN_SIZED(tartan_growth_drawing)
 
-/* Draws a surface as it stands: shaded, what is hidden left out. At most 2 million faces (TARTAN_LIMIT). `drawing` may
- * be NULL. */
+/* Draws a surface as it stands: shaded, what is hidden left out. At most 2 million faces (TARTAN_LIMIT). `drawing` and
+ * `watch` may be NULL. */
 TARTAN_API tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
-                                            const tartan_growth_drawing *drawing, void **bytes, size_t *size,
-                                            tartan_error *error);
+                                            const tartan_growth_drawing *drawing, const tartan_watch *watch,
+                                            void **bytes, size_t *size, tartan_error *error);
 
-/* Draws the derivation of the mapper's last tartan_map, which was to keep it; at most 4,000 nodes (TARTAN_LIMIT). */
-TARTAN_API tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format, void **bytes,
-                                                size_t *size, tartan_error *error);
+/* Draws the derivation of the mapper's last tartan_map, which was to keep it; at most 4,000 nodes (TARTAN_LIMIT).
+ * `watch` may be NULL. */
+TARTAN_API tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_format format,
+                                                const tartan_watch *watch, void **bytes, size_t *size,
+                                                tartan_error *error);
 
 #ifdef __cplusplus
 }

@@ -106,9 +106,10 @@ TARTAN_API tartan_status tartan_mapper_nodes(tartan_mapper *mapper, const tartan
 
 /* A genome that is mapped to the sentence (before repair), within max_depth (0: no limit). TARTAN_INVALID, with
  * error->column, where the grammar has no such sentence; TARTAN_LIMIT where finding out takes too much. Free the codons
- * with tartan_bytes_free. */
+ * with tartan_bytes_free. `watch` may be NULL; it is told how much of the sentence has been read. */
 TARTAN_API tartan_status tartan_invert(const tartan_grammar *grammar, const char *sentence, size_t size,
-                                       uint32_t max_depth, uint64_t **codons, size_t *count, tartan_error *error);
+                                       uint32_t max_depth, const tartan_watch *watch, uint64_t **codons, size_t *count,
+                                       tartan_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,19 +1,32 @@
-/* Tartan's C interface: compile rule files, match plans, open plan libraries, grow surfaces, map and breed genomes, and
- * draw all of these. Include this one header.
+/* Tartan's C interface: compile rule files, match plans, open plan libraries, grow surfaces, mesh fields, place parts,
+ * map and breed genomes, and draw. Include this one header; docs/c-interface.md is the guide.
  *
  *   base.h       versions, errors, progress and cancelling, memory
  *   module.h     compiled rule files
- *   compile.h    rule files into modules (libtartan only)
+ *   compile.h    rule files into modules, and their layout
+ *   source.h     rule files with their source: tests, coverage, reports
  *   plan.h       plans, rules that match them, libraries of them
  *   analysis.h   why a rule matches, what rules mean, how libraries differ
- *   growth.h     surfaces that grow, and meshes
+ *   mesh.h       meshes as arrays and as files
+ *   growth.h     surfaces that grow
+ *   field.h      implicit surfaces, meshed
+ *   place.h      models of parts, placed
  *   genome.h     grammars: genomes mapped to sentences and back
  *   evolution.h  sentences bred by a fitness of yours
+ *   run.h        runs of `tartan evolve`, read back
  *   draw.h       pictures in memory
  *
- * Two libraries have this interface. libtartan has all of it. libtartan-runtime has everything but compile.h: it loads
- * modules (.tnb) that `tartan build` or libtartan made. Link one of the two, by pkg-config (tartan, tartan-runtime) or
- * CMake (find_package(tartan): tartan::tartan, tartan::tartan-runtime).
+ * Libraries. libtartan has all of this, and links the others. A program that only runs modules (.tnb), which
+ * `tartan build` or libtartan made, links what it needs:
+ *
+ *   libtartan-runtime  base, module, plan, analysis, field, place, genome, evolution; mesh.h but files
+ *   libtartan-growth   growth
+ *   libtartan-mesh     mesh files, smoothing and so on
+ *   libtartan-draw     draw
+ *   libtartan-store    run
+ *
+ * compile.h and source.h are in libtartan alone. Each has a pkg-config file of its name (tartan, tartan-runtime) and is
+ * a target of the CMake package (find_package(tartan): tartan::tartan, tartan::tartan-runtime).
  *
  * Ownership. What a function hands out through a `**` argument is the caller's, to be freed with the _free function of
  * its type (texts: tartan_text_free; files in memory: tartan_bytes_free); where it fails, it leaves that as it was.
@@ -43,9 +56,14 @@
 #include "compile.h"
 #include "draw.h"
 #include "evolution.h"
+#include "field.h"
 #include "genome.h"
 #include "growth.h"
+#include "mesh.h"
 #include "module.h"
+#include "place.h"
 #include "plan.h"
+#include "run.h"
+#include "source.h"
 
 #endif

@@ -54,7 +54,7 @@ static void take_part(tn_crew *crew, unsigned thread)
         size_t to = crew->count - from < crew->chunk ? crew->count : from + crew->chunk;
         for (size_t item = from; item < to; item++) {
             tn_error error;
-            tn_status status = tn_watch_stopped(crew->watch) ? tn_fail_stopped(&error)
+            tn_status status = tn_watch_stopped(crew->watch) ? tn_fail_stopped(crew->watch, &error)
                                                              : crew->work(crew->context, thread, item, &error);
             if (status != TN_OK)
                 keep_failure(crew, item, status, &error);

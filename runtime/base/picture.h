@@ -4,7 +4,7 @@
 #ifndef TARTAN_BASE_PICTURE_H
 #define TARTAN_BASE_PICTURE_H
 
-#include "runtime/base/error.h"
+#include "runtime/base/watch.h"
 
 typedef enum tn_canvas_format { TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF } tn_canvas_format;
 
@@ -20,6 +20,7 @@ typedef struct tn_picture {
     unsigned number;         /* into a page: which of its pictures, so that no two ids are the same */
     char *element;           /* into memory or a page: what was drawn once it is committed, which the caller frees */
     size_t size;
+    tn_watch *watch; /* or NULL: drawing is given up (TN_STOPPED) once this says so */
 } tn_picture;
 
 /* The format that a picture will have; TN_CANVAS_SVG into a page. Errors as in tn_canvas_format_of. */

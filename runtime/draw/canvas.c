@@ -32,17 +32,22 @@ struct tn_canvas {
     char *lettering;
     size_t lettering_size;
     bool out_of_memory;
+    tn_watch *watch; /* or NULL */
 };
 
 static cairo_status_t write_stream(void *closure, const unsigned char *data, unsigned int length)
 {
     tn_canvas *canvas = closure;
+    if (tn_canvas_stopped(canvas))
+        return CAIRO_STATUS_WRITE_ERROR;
     return fwrite(data, 1, length, canvas->output.stream) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
 static cairo_status_t write_text(void *closure, const unsigned char *data, unsigned int length)
 {
     tn_canvas *canvas = closure;
+    if (tn_canvas_stopped(canvas))
+        return CAIRO_STATUS_WRITE_ERROR;
     if (!tn_array_reserve(&canvas->text, &canvas->text_room, canvas->text_size, length, 1)) {
         canvas->out_of_memory = true;
         return CAIRO_STATUS_NO_MEMORY;
@@ -155,9 +160,19 @@ tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, 
     if (status != TN_OK)
         return status;
     if (picture->path)
-        return tn_canvas_new(picture->path, format, options, canvas, error);
-    return picture->format == TN_CANVAS_BY_PATH ? new_element(picture, options, canvas, error)
-                                                : new_in_memory(picture, options, canvas, error);
+        status = tn_canvas_new(picture->path, format, options, canvas, error);
+    else if (picture->format == TN_CANVAS_BY_PATH)
+        status = new_element(picture, options, canvas, error);
+    else
+        status = new_in_memory(picture, options, canvas, error);
+    if (status == TN_OK)
+        (*canvas)->watch = picture->watch;
+    return status;
+}
+
+bool tn_canvas_stopped(const tn_canvas *canvas)
+{
+    return tn_watch_stopped(canvas->watch);
 }
 
 tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
@@ -277,6 +292,8 @@ static void discard_memory(tn_canvas *canvas)
 
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
 {
+    if (tn_canvas_stopped(canvas))
+        return tn_fail_stopped(canvas->watch, error);
     cairo_show_page(canvas->context);
     cairo_status_t drawn = cairo_status(canvas->context);
     if (drawn == CAIRO_STATUS_SUCCESS && canvas->format == TN_CANVAS_PNG)
@@ -284,6 +301,8 @@ tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
     cairo_surface_finish(canvas->surface);
     if (drawn == CAIRO_STATUS_SUCCESS)
         drawn = cairo_surface_status(canvas->surface);
+    if (tn_canvas_stopped(canvas))
+        return tn_fail_stopped(canvas->watch, error);
     /* A write error is left to the commit, which knows the reason. */
     if (drawn != CAIRO_STATUS_SUCCESS && drawn != CAIRO_STATUS_WRITE_ERROR)
         return cairo_failed(canvas, drawn, error);

@@ -40,6 +40,9 @@ cairo_t *tn_canvas_context(const tn_canvas *canvas);
 /* Ends the page and starts another of this size. Only PDF has pages: TN_INTERNAL for the others. */
 tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_error *error);
 
+/* Is the drawing given up? Then what is left need not be drawn: committing fails with TN_STOPPED. */
+bool tn_canvas_stopped(const tn_canvas *canvas);
+
 /* Writes the file. E0902 where that fails; the target is then as it was. */
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error);
 

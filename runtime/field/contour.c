@@ -25,9 +25,14 @@ static tn_status check_size(const tn_field_grid *grid, const tn_contour_options 
     return TN_LIMIT;
 }
 
-static bool make_room(tn_contouring *c)
+tn_status tn_contouring_begin(tn_contouring *c, const double *z, tn_error *error)
 {
     const uint32_t *n = c->grid->count;
+    tn_status status = check_size(c->grid, c->options, error);
+    if (status != TN_OK)
+        return status;
+    c->threads = c->options->threads ? c->options->threads : tn_crew_default();
+    c->crew = tn_crew_new(c->threads, c->field->module->watch);
     c->words = (n[0] + 63) / 64;
     c->signs = calloc((size_t)n[1] * n[2] * c->words, sizeof *c->signs);
     c->first = malloc((size_t)n[1] * n[2] * sizeof *c->first);
@@ -36,12 +41,27 @@ static bool make_room(tn_contouring *c)
     for (int axis = 0; axis < 3; axis++) {
         c->places[axis] = malloc(n[axis] * sizeof *c->places[axis]);
         for (uint32_t i = 0; c->places[axis] && i < n[axis]; i++)
-            c->places[axis][i] = tn_field_sample(c->grid, axis, i);
+            c->places[axis][i] = axis == 2 && z ? z[i] : tn_field_sample(c->grid, axis, i);
     }
-    return c->signs && c->first && c->layer_jumps && c->layer_moved && c->places[0] && c->places[1] && c->places[2];
+    bool room = c->crew && c->signs && c->first && c->layer_jumps && c->layer_moved && c->places[0] && c->places[1] &&
+                c->places[2];
+    return room ? TN_OK : tn_fail_memory(error);
 }
 
-static void count_vertices(const tn_contouring *c)
+void tn_contouring_free(tn_contouring *c)
+{
+    if (c->crew)
+        tn_crew_free(c->crew);
+    for (int axis = 0; axis < 3; axis++)
+        free(c->places[axis]);
+    free(c->signs);
+    free(c->first);
+    free(c->layer_jumps);
+    free(c->layer_moved);
+    free(c->jumping);
+}
+
+void tn_contouring_count(const tn_contouring *c)
 {
     for (uint32_t z = 0; z < c->grid->count[2]; z++) {
         c->out->jumps += c->layer_jumps[z];
@@ -83,12 +103,7 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
     for (int axis = 0; axis < 3; axis++)
         contour->spacing = fmax(contour->spacing, (grid->high[axis] - grid->low[axis]) / (grid->count[axis] - 1));
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};
-    c.threads = options->threads ? options->threads : tn_crew_default();
-    tn_status status = check_size(grid, options, error);
-    if (status != TN_OK)
-        return status;
-    c.crew = tn_crew_new(c.threads, field->module->watch);
-    status = c.crew && make_room(&c) ? TN_OK : tn_fail_memory(error);
+    tn_status status = tn_contouring_begin(&c, NULL, error);
     if (status == TN_OK)
         status = tn_contour_signs(&c, error);
     if (status == TN_OK)
@@ -96,17 +111,9 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
     if (status == TN_OK)
         status = tn_contour_cells(&c, error);
     if (status == TN_OK)
-        count_vertices(&c);
+        tn_contouring_count(&c);
     if (status == TN_OK && options->jumps_open)
         status = drop_unused(&contour->mesh, error);
-    if (c.crew)
-        tn_crew_free(c.crew);
-    for (int axis = 0; axis < 3; axis++)
-        free(c.places[axis]);
-    free(c.signs);
-    free(c.first);
-    free(c.layer_jumps);
-    free(c.layer_moved);
-    free(c.jumping);
+    tn_contouring_free(&c);
     return status;
 }

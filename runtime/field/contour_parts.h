@@ -16,6 +16,7 @@ typedef struct tn_contouring {
     tn_crew *crew;
     unsigned threads;
     double *places[3]; /* of the samples, [count] */
+    bool flat;         /* layers by themselves (slices.c): no edges along z, and the box is open there */
     uint64_t *signs;   /* a bit a sample, inside is 1: rows of `words` words, by z, then y */
     size_t words;
     uint32_t (*first)[3];  /* of each row: the first vertex on its x, y and z edges */
@@ -40,11 +41,25 @@ static inline uint64_t tn_crossing_x(const tn_contouring *c, const uint64_t *row
     return left >= 64 ? crossing : crossing & (((uint64_t)1 << left) - 1);
 }
 
+/* The edges of a row along an axis that cross the surface; `next`: the row at their other ends, NULL along x. */
+static inline uint64_t tn_crossing(const tn_contouring *c, const uint64_t *row, const uint64_t *next, size_t word)
+{
+    return next ? row[word] ^ next[word] : tn_crossing_x(c, row, word);
+}
+
+/* Room for signs and numbers, and the samples' places; z: those along z, or NULL for the grid's. TN_MEMORY. Free it
+ * with tn_contouring_free in any case. */
+tn_status tn_contouring_begin(tn_contouring *c, const double *z, tn_error *error);
+void tn_contouring_free(tn_contouring *c);
+
 /* The rows of samples' signs. */
 tn_status tn_contour_signs(tn_contouring *c, tn_error *error);
 
 /* Numbers the vertices and finds their places. */
 tn_status tn_contour_roots(tn_contouring *c, tn_error *error);
+
+/* Counts jumps and moved vertices in c->out. */
+void tn_contouring_count(const tn_contouring *c);
 
 /* The triangles. */
 tn_status tn_contour_cells(tn_contouring *c, tn_error *error);

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-tn_status tn_field_meshes_read(const tn_module *module, tn_mesh_reader *reader, const char *opened,
+tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *reader, const char *opened,
                                tn_field_meshes *meshes, tn_error *error)
 {
     *meshes = (tn_field_meshes){.items = calloc(module->DISTANCE_MESH_count + 1, sizeof *meshes->items)};

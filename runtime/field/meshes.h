@@ -12,7 +12,7 @@ typedef struct tn_field_meshes {
 
 /* Reads them all; opened: the path of the file or module, beside which they lie. TN_INVALID or TN_IO (E1412) where one
  * is missing or broken. Clear the meshes in any case. */
-tn_status tn_field_meshes_read(const tn_module *module, tn_mesh_reader *reader, const char *opened,
+tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *reader, const char *opened,
                                tn_field_meshes *meshes, tn_error *error);
 void tn_field_meshes_clear(tn_field_meshes *meshes);
 

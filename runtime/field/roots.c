@@ -136,12 +136,6 @@ static void flush(roots *r, batch *b, int axis, uint32_t layer, bool *inside_fir
 
 /* ---- edges */
 
-/* The crossing edges of a row along an axis: of words of samples, what is next to them. */
-static uint64_t crossing(const tn_contouring *c, const uint64_t *row, const uint64_t *next, size_t word)
-{
-    return next ? row[word] ^ next[word] : tn_crossing_x(c, row, word);
-}
-
 /* The row of samples at the other ends of edges along y or z; NULL along x, and where there is none. */
 static const uint64_t *next_row(const tn_contouring *c, int axis, uint32_t y, uint32_t z)
 {
@@ -150,7 +144,7 @@ static const uint64_t *next_row(const tn_contouring *c, int axis, uint32_t y, ui
 
 static bool has_edges(const tn_contouring *c, int axis, uint32_t y, uint32_t z)
 {
-    return axis == 0 || (axis == 1 ? y + 1 < c->grid->count[1] : z + 1 < c->grid->count[2]);
+    return axis == 0 || (axis == 1 ? y + 1 < c->grid->count[1] : !c->flat && z + 1 < c->grid->count[2]);
 }
 
 /* Adds the crossing edges of a row along an axis to the batch. */
@@ -160,7 +154,7 @@ static void add_edges(roots *r, batch *b, int axis, uint32_t y, uint32_t z, bool
     const uint64_t *row = tn_signs_at(c, y, z), *next = next_row(c, axis, y, z);
     uint32_t vertex = c->first[(size_t)z * c->grid->count[1] + y][axis];
     for (size_t word = 0; word < c->words; word++)
-        for (uint64_t bits = crossing(c, row, next, word); bits; bits &= bits - 1) {
+        for (uint64_t bits = tn_crossing(c, row, next, word); bits; bits &= bits - 1) {
             uint32_t bit = (uint32_t)__builtin_ctzll(bits), at[3] = {(uint32_t)(64 * word) + bit, y, z};
             uint32_t i = b->count++;
             for (int k = 0; k < 3; k++)
@@ -205,7 +199,7 @@ static tn_status number_vertices(tn_contouring *c, tn_error *error)
                     continue;
                 const uint64_t *row = tn_signs_at(c, y, z), *next = next_row(c, axis, y, z);
                 for (size_t word = 0; word < c->words; word++)
-                    count += (unsigned)__builtin_popcountll(crossing(c, row, next, word));
+                    count += (unsigned)__builtin_popcountll(tn_crossing(c, row, next, word));
                 if (count > UINT32_MAX - 1)
                     return tn_fail(error, TN_LIMIT, E_FIELD_TRIANGLES, "the mesh has more than %u vertices, the limit",
                                    UINT32_MAX - 1);

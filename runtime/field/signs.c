@@ -167,13 +167,13 @@ static void close_box(tn_contouring *c)
                 row[0] &= ~low;
                 row[last] &= ~high;
             }
-            if (y > 0 && z > 0 && y < n[1] - 1 && z < n[2] - 1)
+            bool low_z = z == 0 && !c->flat, high_z = z == n[2] - 1 && !c->flat;
+            if (y > 0 && y < n[1] - 1 && !low_z && !high_z)
                 continue;
             for (size_t i = 0; i < c->words; i++)
                 any |= row[i];
             if (any)
-                c->out->cut |=
-                    (y == 0 ? 4u : 0) | (y == n[1] - 1 ? 8u : 0) | (z == 0 ? 16u : 0) | (z == n[2] - 1 ? 32u : 0);
+                c->out->cut |= (y == 0 ? 4u : 0) | (y == n[1] - 1 ? 8u : 0) | (low_z ? 16u : 0) | (high_z ? 32u : 0);
             if (!c->options->open)
                 memset(row, 0, c->words * sizeof *row);
         }

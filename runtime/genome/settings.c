@@ -1,4 +1,5 @@
 #include "runtime/genome/settings.h"
+#include "runtime/base/number_text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,12 +87,10 @@ static void write_quoted(FILE *out, const char *text)
     fputc('"', out);
 }
 
-/* The shorter of two spellings that give the same number. */
 static void write_number(FILE *out, double number)
 {
-    char text[40];
-    snprintf(text, sizeof text, "%.15g", number);
-    fprintf(out, strtod(text, NULL) == number ? "%.15g" : "%.17g", number);
+    char text[TN_NUMBER_TEXT_SIZE];
+    fputs(tn_number_text(number, text), out);
 }
 
 void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *value)
@@ -181,10 +180,10 @@ static bool is_written(const findings *f, tn_setting setting)
     return f->study->of[setting].written > 0;
 }
 
-/* One of match, fit, grow, and keep with drop. */
+/* One of match, fit, grow, build, and keep with drop. */
 static void find_problem(findings *f)
 {
-    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_KEEP, TN_SET_DROP};
+    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_BUILD, TN_SET_KEEP, TN_SET_DROP};
     tn_setting first = TN_SETTING_COUNT;
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
         if (!is_written(f, starts[i]))
@@ -196,7 +195,8 @@ static void find_problem(findings *f)
     }
     if (first == TN_SETTING_COUNT)
         find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what is wanted",
-             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, or `keep \"PLANS\"` with "
+             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, or "
+             "`keep \"PLANS\"` with "
              "`drop \"PLANS\"`");
     if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
         find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,

@@ -18,10 +18,10 @@ static char *beside(const char *file, const char *name)
     return path;
 }
 
-static tn_status read_mesh(tn_mesh_reader *reader, const char *path, tn_boundary_mesh **result, tn_error *error)
+static tn_status read_mesh(const tn_mesh_reader *reader, const char *path, tn_boundary_mesh **result, tn_error *error)
 {
     tn_mesh mesh;
-    tn_status status = reader(path, &mesh, error);
+    tn_status status = reader->read(reader->context, path, &mesh, error);
     if (status != TN_OK)
         return status;
     status = tn_mesh_triangulate(&mesh, error);
@@ -31,7 +31,7 @@ static tn_status read_mesh(tn_mesh_reader *reader, const char *path, tn_boundary
     return status;
 }
 
-tn_status tn_boundary_mesh_find(tn_mesh_reader *reader, const char *opened, const char *source, const char *name,
+tn_status tn_boundary_mesh_find(const tn_mesh_reader *reader, const char *opened, const char *source, const char *name,
                                 const char *what, const char *rules, tn_boundary_mesh **result, tn_error *error)
 {
     char *near = beside(opened, name), *once = beside(source, name);

@@ -149,7 +149,7 @@ static tn_status paint_knot(void *user, uint32_t knot, tn_error *error)
     work *w = user;
     const tn_order *o = &w->order;
     if (tn_watch_stopped(w->scene->watch))
-        return tn_fail_stopped(error);
+        return tn_fail_stopped(w->scene->watch, error);
     const uint32_t *faces = o->members + o->knot_first[knot];
     uint32_t count = o->knot_first[knot + 1] - o->knot_first[knot];
     return count == 1 ? paint_face(w, faces[0], error) : cut_knot(w, faces, count, error);

@@ -46,6 +46,10 @@ tn_status tn_mesh_normals(const tn_mesh *mesh, double **normals, tn_error *error
 /* One vertex for all that lie at exactly the same place; faces that thereby lose an edge become smaller or go. */
 tn_status tn_mesh_weld(tn_mesh *mesh, tn_error *error);
 
+/* Moves each vertex whose place another has too into its own solid, against its normal, by this share of the diagonal.
+ * *moved: how many. */
+tn_status tn_mesh_pull_apart(tn_mesh *mesh, double share, size_t *moved, tn_error *error);
+
 /* The colour of a group: the same for a number wherever it is drawn. */
 void tn_group_colour(uint32_t group, unsigned char rgb[3]);
 

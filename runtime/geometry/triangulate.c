@@ -195,7 +195,7 @@ static tn_status cut_all(const tn_mesh *mesh, uint32_t largest, uint32_t *out, t
         uint32_t count = mesh->face_first[f + 1] - mesh->face_first[f];
         lay_out(&r, mesh, mesh->corners + mesh->face_first[f], count);
         if (!cut_face(&r, mesh->corners + mesh->face_first[f], out, mesh->watch))
-            status = tn_fail_stopped(error);
+            status = tn_fail_stopped(mesh->watch, error);
         out += 3 * (size_t)(count - 2);
     }
     clear_ring(&r);

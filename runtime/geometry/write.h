@@ -1,4 +1,5 @@
-/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, polyhedra for OpenSCAD, and lines as DXF. */
+/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, polyhedra for OpenSCAD, and
+ * lines or faces as DXF. */
 #ifndef TARTAN_GEOMETRY_WRITE_H
 #define TARTAN_GEOMETRY_WRITE_H
 
@@ -23,8 +24,9 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
  * for each group. */
 tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
-/* DXF, release 12: the mesh's lines as polylines, a layer for each group; where exactly two lines of a layer meet they
- * are one polyline, so that an outline is one closed line. Level ones are plane, others are in space. */
+/* DXF, release 12, a layer for each group. A mesh with lines: these as polylines; where exactly two lines of a layer
+ * meet they are one polyline, so that an outline is one closed line. Level ones are plane, others are in space. A mesh
+ * without lines: its faces, which are triangles, and of their edges those are seen at which it bends. */
 tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* OpenSCAD: a union of polyhedra, one for each group. The faces of a group follow one another, and its vertices are its

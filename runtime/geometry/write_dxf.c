@@ -1,9 +1,10 @@
 /* DXF, release 12: the oldest that every CAD program reads. Group codes and values in turn, a line each; the reference
- * is Autodesk's "DXF Reference", chapters on LAYER, POLYLINE, VERTEX and SEQEND. */
+ * is Autodesk's "DXF Reference", chapters on LAYER, POLYLINE, VERTEX, SEQEND and 3DFACE. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/geometry/crease.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 
@@ -126,9 +127,20 @@ static void write_point(tn_text_out *out, double x, double y, double z)
     write_number(out, "30", z);
 }
 
-static const char *layer_name(const tn_mesh *mesh, uint32_t layer)
+typedef struct layer_text {
+    char text[sizeof *((tn_mesh *)NULL)->group_names];
+} layer_text;
+
+/* Names of layers are of letters, digits, `$`, `-` and `_`. */
+static layer_text layer_name(const tn_mesh *mesh, uint32_t layer)
 {
-    return mesh->group_names ? mesh->group_names[layer] : "0";
+    layer_text name = {"0"};
+    if (mesh->group_names)
+        memcpy(name.text, mesh->group_names[layer], sizeof name.text);
+    for (char *c = name.text; *c; c++)
+        if (!(*c >= '0' && *c <= '9') && !((*c | 32) >= 'a' && (*c | 32) <= 'z') && *c != '$' && *c != '-')
+            *c = '_';
+    return name;
 }
 
 /* Colours of AutoCAD's index that are nearest to the first of tn_group_colour; layers have names, and repeat them. */
@@ -158,7 +170,7 @@ static void write_tables(tn_text_out *out, const tn_mesh *mesh)
     write_whole(out, "70", mesh->group_count ? mesh->group_count : 1);
     for (uint32_t layer = 0; layer == 0 || layer < mesh->group_count; layer++) {
         write_pair(out, "0", "LAYER");
-        write_pair(out, "2", layer_name(mesh, layer));
+        write_pair(out, "2", layer_name(mesh, layer).text);
         write_pair(out, "70", "0");
         write_whole(out, "62", layer_colour(layer));
         write_pair(out, "6", "CONTINUOUS");
@@ -189,25 +201,56 @@ static void write_polyline(tn_text_out *out, const joining *j, uint32_t count, b
         level = p[2] == height;
     }
     write_pair(out, "0", "POLYLINE");
-    write_pair(out, "8", layer_name(j->mesh, layer));
+    write_pair(out, "8", layer_name(j->mesh, layer).text);
     write_pair(out, "66", "1");
     write_whole(out, "70", (closed ? 1u : 0u) | (level ? 0u : 8u));
     write_point(out, 0, 0, level ? height : 0);
     for (uint32_t i = 0; i < count; i++) {
         placed(j->mesh, j->run[i], y_up, p);
         write_pair(out, "0", "VERTEX");
-        write_pair(out, "8", layer_name(j->mesh, layer));
+        write_pair(out, "8", layer_name(j->mesh, layer).text);
         write_point(out, p[0], p[1], p[2]);
         if (!level)
             write_pair(out, "70", "32");
         tn_text_flush(out, false);
     }
     write_pair(out, "0", "SEQEND");
-    write_pair(out, "8", layer_name(j->mesh, layer));
+    write_pair(out, "8", layer_name(j->mesh, layer).text);
     tn_text_flush(out, false);
 }
 
-static void write_all(tn_text_out *out, joining *j, const tn_mesh_style *style)
+/* A triangle; the bits say which of its edges are not drawn. */
+static void write_face(tn_text_out *out, const tn_mesh *mesh, uint32_t face, const bool *creases, bool y_up)
+{
+    static const char *const codes[4][3] = {
+        {"10", "20", "30"}, {"11", "21", "31"}, {"12", "22", "32"}, {"13", "23", "33"}};
+    const uint32_t *corners = mesh->corners + 3 * (size_t)face;
+    const bool *edges = creases + 3 * (size_t)face;
+    double p[3];
+    write_pair(out, "0", "3DFACE");
+    write_pair(out, "8", layer_name(mesh, mesh->face_group ? mesh->face_group[face] : 0).text);
+    for (int i = 0; i < 4; i++) { /* a triangle has its last corner twice */
+        placed(mesh, corners[i < 3 ? i : 2], y_up, p);
+        for (int k = 0; k < 3; k++)
+            write_number(out, codes[i][k], p[k]);
+    }
+    write_whole(out, "70", (edges[0] ? 0u : 1u) | (edges[1] ? 0u : 2u) | (edges[2] ? 0u : 8u));
+    tn_text_flush(out, false);
+}
+
+static void write_lines(tn_text_out *out, joining *j, bool y_up)
+{
+    for (uint32_t line = 0; line < j->mesh->line_count && !out->failed; line++) {
+        bool closed;
+        if (j->done[line])
+            continue;
+        uint32_t count = follow(j, line, &closed);
+        write_polyline(out, j, count, closed, layer_of(j->mesh, line), y_up);
+    }
+}
+
+/* creases: where there are faces to write; otherwise NULL. */
+static void write_all(tn_text_out *out, joining *j, const bool *creases, const tn_mesh_style *style)
 {
     for (size_t i = 0; i < style->note_count; i++)
         write_pair(out, "999", style->notes[i]);
@@ -220,13 +263,11 @@ static void write_all(tn_text_out *out, joining *j, const tn_mesh_style *style)
     write_tables(out, j->mesh);
     write_pair(out, "0", "SECTION");
     write_pair(out, "2", "ENTITIES");
-    for (uint32_t line = 0; line < j->mesh->line_count; line++) {
-        bool closed;
-        if (j->done[line])
-            continue;
-        uint32_t count = follow(j, line, &closed);
-        write_polyline(out, j, count, closed, layer_of(j->mesh, line), style->y_up);
-    }
+    if (creases)
+        for (uint32_t face = 0; face < j->mesh->face_count && !out->failed; face++)
+            write_face(out, j->mesh, face, creases, style->y_up);
+    else
+        write_lines(out, j, style->y_up);
     write_pair(out, "0", "ENDSEC");
     write_pair(out, "0", "EOF");
     tn_text_flush(out, true);
@@ -242,9 +283,13 @@ tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
         largest = fmax(largest, fabs(mesh->positions[i]));
     tn_text_begin(out, stream, largest);
+    bool *creases = NULL;
     tn_status status = begin_joining(mesh, &j, error);
+    if (status == TN_OK && !mesh->lines)
+        status = tn_mesh_creases(mesh, &creases, error);
     if (status == TN_OK)
-        write_all(out, &j, style);
+        write_all(out, &j, creases, style);
+    free(creases);
     clear_joining(&j);
     free(out);
     return status;

@@ -55,17 +55,17 @@ static void write_all(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style
         tn_text_flush(out, false);
     }
     tn_text_add(out, style->y_up ? "# up: y\n" : "# up: z\n");
-    for (size_t v = 0; v < mesh->vertex_count; v++)
+    for (size_t v = 0; v < mesh->vertex_count && !out->failed; v++)
         write_point(out, "v ", mesh->positions + 3 * v, style->y_up);
-    for (size_t v = 0; normals && v < mesh->vertex_count; v++)
+    for (size_t v = 0; normals && v < mesh->vertex_count && !out->failed; v++)
         write_point(out, "vn ", normals + 3 * v, style->y_up);
-    for (size_t f = 0; f < mesh->face_count; f++) {
+    for (size_t f = 0; f < mesh->face_count && !out->failed; f++) {
         if (mesh->face_group)
             write_group(out, mesh, mesh->face_group[f], "", &last);
         write_face(out, mesh, f, normals != NULL);
     }
     last = UINT32_MAX;
-    for (size_t l = 0; l < mesh->line_count; l++) {
+    for (size_t l = 0; l < mesh->line_count && !out->failed; l++) {
         if (mesh->line_group)
             write_group(out, mesh, mesh->line_group[l], "edges_", &last);
         tn_text_add(out, "l ");

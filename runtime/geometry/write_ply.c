@@ -7,6 +7,7 @@
 
 typedef struct byte_out {
     FILE *stream;
+    bool failed; /* the stream takes no more: what is left need not be written */
     size_t used;
     uint8_t bytes[1 << 16];
 } byte_out;
@@ -14,8 +15,7 @@ typedef struct byte_out {
 static uint8_t *room(byte_out *out, size_t size)
 {
     if (out->used + size > sizeof out->bytes) {
-        fwrite(out->bytes, 1, out->used,
-               out->stream); /* failing shows in the stream's state, which the caller looks at */
+        out->failed |= fwrite(out->bytes, 1, out->used, out->stream) != out->used; /* the caller looks at the stream */
         out->used = 0;
     }
     out->used += size;
@@ -78,18 +78,19 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     if (!out)
         return tn_fail_memory(error);
     out->stream = stream;
+    out->failed = false;
     out->used = 0;
     tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
     if (status == TN_OK) {
         write_header(mesh, style, stream, large);
-        for (size_t v = 0; v < mesh->vertex_count; v++) {
+        for (size_t v = 0; v < mesh->vertex_count && !out->failed; v++) {
             put_point(out, mesh->positions + 3 * v, style->y_up);
             if (normals)
                 put_point(out, normals + 3 * v, style->y_up);
         }
-        for (size_t f = 0; f < mesh->face_count; f++)
+        for (size_t f = 0; f < mesh->face_count && !out->failed; f++)
             write_face(out, mesh, f, large);
-        for (size_t l = 0; l < mesh->line_count; l++) {
+        for (size_t l = 0; l < mesh->line_count && !out->failed; l++) {
             tn_put_u32(room(out, 4), mesh->lines[2 * l]);
             tn_put_u32(room(out, 4), mesh->lines[2 * l + 1]);
             if (mesh->line_group)

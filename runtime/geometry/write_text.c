@@ -10,6 +10,7 @@ static const char pairs[] =
 void tn_text_begin(tn_text_out *out, FILE *stream, double largest)
 {
     out->stream = stream;
+    out->failed = false;
     out->used = 0;
     out->decimals = 12;
     out->scale = 1e12;
@@ -24,7 +25,7 @@ void tn_text_flush(tn_text_out *out, bool all)
 {
     if (!all && out->used + TN_TEXT_ROOM < sizeof out->bytes)
         return;
-    fwrite(out->bytes, 1, out->used, out->stream); /* failing shows in the stream's state, which the caller looks at */
+    out->failed |= fwrite(out->bytes, 1, out->used, out->stream) != out->used; /* the caller looks at the stream */
     out->used = 0;
 }
 

@@ -2,6 +2,7 @@
 #ifndef TARTAN_GEOMETRY_WRITE_TEXT_H
 #define TARTAN_GEOMETRY_WRITE_TEXT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "runtime/base/error.h"
@@ -10,6 +11,7 @@
 
 typedef struct tn_text_out {
     FILE *stream;
+    bool failed; /* the stream takes no more: what is left need not be written */
     size_t used;
     double scale; /* 10 to the power of the decimals */
     int decimals;

@@ -1,4 +1,4 @@
-/* What is surely not meant in a grown surface, though the map is right: faces whose outline crosses itself, and faces
+/* Faults of a grown surface, whose map is right all the same: faces whose outline crosses itself, and faces
  * turned over onto their neighbours. Growing prevents neither (docs/growth.md); whoever grows wants to know. */
 #ifndef TARTAN_GROWTH_FAULTS_H
 #define TARTAN_GROWTH_FAULTS_H

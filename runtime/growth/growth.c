@@ -4,9 +4,9 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "runtime/base/numeric.h"
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/pass/interpret.h"
+#include "runtime/numeric/numeric.h"
 
 #define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
 

@@ -23,7 +23,7 @@ void tn_growth_free(tn_growth *growth);
 tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
                           const tn_growth_options *options, tn_error *error);
 
-/* One derivation step. TN_LIMIT: more edges or memory than the options allow, an age beyond 32,767, or a coordinate
+/* One derivation step. TN_LIMIT: more edges than the options allow, or memory than the watch does, an age beyond 32,767, or a coordinate
  * that is no longer finite; the map is then unusable. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error);
 

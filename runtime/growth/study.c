@@ -45,7 +45,7 @@ static void read_settings(const tn_study_record *record, tn_study *study)
 }
 
 /* Beside what was opened, or where the study lay when it was compiled. */
-static tn_status find_mesh(const tn_module *module, tn_mesh_reader *reader, const char *opened, const char *name,
+static tn_status find_mesh(const tn_module *module, const tn_mesh_reader *reader, const char *opened, const char *name,
                            tn_boundary_mesh **result, tn_error *error)
 {
     uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
@@ -53,7 +53,7 @@ static tn_status find_mesh(const tn_module *module, tn_mesh_reader *reader, cons
     return tn_boundary_mesh_find(reader, opened, study, name, "boundary", "study", result, error);
 }
 
-static tn_status read_boundary(const tn_module *module, tn_mesh_reader *reader, const char *path, uint32_t index,
+static tn_status read_boundary(const tn_module *module, const tn_mesh_reader *reader, const char *path, uint32_t index,
                                tn_study *study, tn_error *error)
 {
     const tn_boundary_record *record = &module->BOUNDARY_records[index];
@@ -64,7 +64,7 @@ static tn_status read_boundary(const tn_module *module, tn_mesh_reader *reader, 
                               .a = {record->a_x, record->a_y, record->a_z},
                               .b = {record->b_x, record->b_y, record->b_z},
                               .radius = record->radius};
-    if (record->kind != TN_BOUNDARY_MESH)
+    if (record->kind != TN_BOUNDARY_MESH || !reader)
         return TN_OK;
     tn_status status = find_mesh(module, reader, path, tn_text(module, record->mesh), &study->meshes[index], error);
     boundary->mesh = study->meshes[index];
@@ -93,7 +93,7 @@ static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *
     return TN_OK;
 }
 
-tn_status tn_study_read(const tn_module *module, const char *path, tn_mesh_reader *reader, tn_study *study,
+tn_status tn_study_read(const tn_module *module, const char *path, const tn_mesh_reader *reader, tn_study *study,
                         tn_error *error)
 {
     *study =

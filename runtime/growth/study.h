@@ -21,11 +21,12 @@ typedef struct tn_study {
     tn_boundary_mesh **meshes; /* [boundary], NULL for other shapes */
 } tn_study;
 
-/* Reads it, and the boundary meshes from their files by `reader` (tn_openmesh_read of runtime/mesh). A mesh's path
+/* Reads it, and the boundary meshes from their files by `reader` (tn_openmesh_reader of runtime/mesh); NULL: without
+ * them, where only settings are asked for. A mesh's path
  * starts at the folder of `path`, the study or module that was opened; where there is none, at the folder in which the
  * study lay when it was compiled. Clear it in any case.
  */
-tn_status tn_study_read(const tn_module *module, const char *path, tn_mesh_reader *reader, tn_study *study,
+tn_status tn_study_read(const tn_module *module, const char *path, const tn_mesh_reader *reader, tn_study *study,
                         tn_error *error);
 void tn_study_clear(tn_study *study);
 

@@ -2,18 +2,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/solids.h"
 
 tn_status tn_rectangles_add(tn_rectangles *list, tn_rectangle rectangle, tn_error *error)
 {
-    if (list->count == list->room) {
-        size_t room = list->room ? 2 * list->room : 16;
-        tn_rectangle *items = realloc(list->items, room * sizeof *items);
-        if (!items)
-            return tn_fail_memory(error);
-        list->items = items;
-        list->room = room;
-    }
+    if (!tn_array_reserve_from(&list->items, &list->room, 16, list->count, 1, sizeof *list->items))
+        return tn_fail_memory(error);
     list->items[list->count++] = rectangle;
     return TN_OK;
 }

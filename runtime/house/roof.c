@@ -1,6 +1,7 @@
 /* Builds the roofs: which cell covers what, the decks below, and prisms under a flat, a sloped or a vaulted line. */
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/solids.h"
 
 enum { VAULT_STEPS = 16, PROFILE_MAX = VAULT_STEPS + 1 };
@@ -54,28 +55,18 @@ static tn_fraction height_at(const tn_profile *profile, tn_int128 y, int64_t bas
 
 static tn_status add_point(tn_solids *solids, tn_roof_point point, tn_error *error)
 {
-    if (solids->point_count == solids->point_room) {
-        size_t room = solids->point_room ? 2 * solids->point_room : 64;
-        tn_roof_point *points = realloc(solids->points, room * sizeof *points);
-        if (!points)
-            return tn_fail_memory(error);
-        solids->points = points;
-        solids->point_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->points, &solids->point_room, 64, solids->point_count, 1,
+                               sizeof *solids->points))
+        return tn_fail_memory(error);
     solids->points[solids->point_count++] = point;
     return TN_OK;
 }
 
 static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
 {
-    if (solids->prism_count == solids->prism_room) {
-        size_t room = solids->prism_room ? 2 * solids->prism_room : 32;
-        tn_prism *prisms = realloc(solids->prisms, room * sizeof *prisms);
-        if (!prisms)
-            return tn_fail_memory(error);
-        solids->prisms = prisms;
-        solids->prism_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->prisms, &solids->prism_room, 32, solids->prism_count, 1,
+                               sizeof *solids->prisms))
+        return tn_fail_memory(error);
     solids->prisms[solids->prism_count++] = prism;
     return TN_OK;
 }

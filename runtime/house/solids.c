@@ -1,5 +1,6 @@
 /* Builds the solids of a house: posts and walls with their openings, decks, roofs, and what stands in the rooms. */
 #include "runtime/house/solids.h"
+#include "runtime/base/array.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,14 +35,8 @@ const char *tn_solid_kind_text(tn_solid_kind kind)
 
 tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error)
 {
-    if (solids->box_count == solids->box_room) {
-        size_t room = solids->box_room ? 2 * solids->box_room : 64;
-        tn_solid *boxes = realloc(solids->boxes, room * sizeof *boxes);
-        if (!boxes)
-            return tn_fail_memory(error);
-        solids->boxes = boxes;
-        solids->box_room = room;
-    }
+    if (!tn_array_reserve_from(&solids->boxes, &solids->box_room, 64, solids->box_count, 1, sizeof *solids->boxes))
+        return tn_fail_memory(error);
     solids->boxes[solids->box_count++] = solid;
     return TN_OK;
 }

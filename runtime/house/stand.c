@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/house.h"
 
 const tn_shape_record *tn_house_shape(const tn_house *house, uint32_t zone, tn_choice_kind kind)
@@ -34,14 +35,8 @@ static bool meets(const tn_house *house, const tn_cell *cell, tn_cell_rule_kind 
 
 static tn_status add_cell(tn_house *house, const tn_cell *cell, tn_error *error)
 {
-    if (house->cell_count == house->cell_room) {
-        size_t room = house->cell_room ? 2 * house->cell_room : 32;
-        tn_cell *cells = realloc(house->cells, room * sizeof *cells);
-        if (!cells)
-            return tn_fail_memory(error);
-        house->cells = cells;
-        house->cell_room = room;
-    }
+    if (!tn_array_reserve_from(&house->cells, &house->cell_room, 32, house->cell_count, 1, sizeof *house->cells))
+        return tn_fail_memory(error);
     house->cells[house->cell_count++] = *cell;
     return TN_OK;
 }
@@ -104,14 +99,8 @@ static tn_status add_cells(tn_house *house, tn_error *error)
 
 static tn_status add_face(tn_house *house, tn_face face, tn_error *error)
 {
-    if (house->face_count == house->face_room) {
-        size_t room = house->face_room ? 2 * house->face_room : 64;
-        tn_face *faces = realloc(house->faces, room * sizeof *faces);
-        if (!faces)
-            return tn_fail_memory(error);
-        house->faces = faces;
-        house->face_room = room;
-    }
+    if (!tn_array_reserve_from(&house->faces, &house->face_room, 64, house->face_count, 1, sizeof *house->faces))
+        return tn_fail_memory(error);
     face.storey = house->cells[face.first].storey;
     face.relation = face.second == TN_NO_CELL        ? TN_FACE_OUTSIDE
                     : face.side == TN_HOUSE_ANY_SIDE ? TN_FACE_UNDER

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/house.h"
 
 /* What a tile must not stand in, beside its own items: posts, and what openings need clear. */
@@ -49,14 +50,8 @@ static bool overlap(const tn_box *a, const tn_box *b)
 
 static tn_status take(tn_room *room, tn_box box, tn_error *error)
 {
-    if (room->taken_count == room->taken_room) {
-        size_t size = room->taken_room ? 2 * room->taken_room : 16;
-        tn_box *taken = realloc(room->taken, size * sizeof *taken);
-        if (!taken)
-            return tn_fail_memory(error);
-        room->taken = taken;
-        room->taken_room = size;
-    }
+    if (!tn_array_reserve_from(&room->taken, &room->taken_room, 16, room->taken_count, 1, sizeof *room->taken))
+        return tn_fail_memory(error);
     room->taken[room->taken_count++] = box;
     return TN_OK;
 }
@@ -162,26 +157,11 @@ static bool place(const tn_placing *p, const tn_tile_box_record *box, tn_box *at
     return true;
 }
 
-/* Room for the items of one more variant. */
-static tn_status make_room(tn_variants *v, size_t items, tn_error *error)
+/* Room for the items of one more variant; for none too, so that there is an array. */
+static bool make_room(tn_variants *v, size_t items)
 {
-    if (v->count == v->room) {
-        size_t room = v->room ? 2 * v->room : 8;
-        tn_tile_variant *variants = realloc(v->variants, room * sizeof *variants);
-        if (!variants)
-            return tn_fail_memory(error);
-        v->variants = variants;
-        v->room = room;
-    }
-    if (v->item_count + items <= v->item_room)
-        return TN_OK;
-    size_t room = 2 * (v->item_count + items);
-    tn_standing_item *list = realloc(v->items, room * sizeof *list);
-    if (!list)
-        return tn_fail_memory(error);
-    v->items = list;
-    v->item_room = room;
-    return TN_OK;
+    return tn_array_reserve_from(&v->variants, &v->room, 8, v->count, 1, sizeof *v->variants) &&
+           tn_array_reserve_from(&v->items, &v->item_room, 8, v->item_count, items + 1, sizeof *v->items);
 }
 
 /* Puts the tile's items behind those that are there. False where something does not fit. */
@@ -257,9 +237,8 @@ static tn_status try_side(const tn_room *room, uint32_t tile, tn_house_side side
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         size_t count;
         placing.mirrored = mirrored;
-        tn_status status = make_room(v, record->box_count, error);
-        if (status != TN_OK)
-            return status;
+        if (!make_room(v, record->box_count))
+            return tn_fail_memory(error);
         if (!stands(&placing, v, &count) || !is_new(module, v, v->items + v->item_count, count))
             continue;
         v->variants[v->count++] = (tn_tile_variant){tile, side, mirrored, v->item_count, count};

@@ -9,6 +9,14 @@ tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error)
     return tn_part_absent(TN_WITH_MESH, "reading a mesh", error);
 }
 
+static tn_status read_mesh(void *context, const char *path, tn_mesh *mesh, tn_error *error)
+{
+    (void)context;
+    return tn_openmesh_read(path, mesh, error);
+}
+
+const tn_mesh_reader tn_openmesh_reader = {read_mesh, NULL};
+
 tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes,
                             size_t *size, tn_error *error)
 {

@@ -1,7 +1,11 @@
 /* OpenMesh behind its C face: files, smoothing, subdividing, decimating. */
 extern "C" {
+#include "runtime/base/file.h"
 #include "runtime/mesh/openmesh.h"
 }
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -20,7 +24,8 @@ extern "C" {
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
 
-namespace {
+namespace
+{
 
 struct traits : OpenMesh::DefaultTraits {
     typedef OpenMesh::Vec3d Point;
@@ -30,8 +35,9 @@ typedef OpenMesh::PolyMesh_ArrayKernelT<traits> poly_mesh;
 typedef OpenMesh::TriMesh_ArrayKernelT<traits> tri_mesh;
 
 /* OpenMesh reports on a stream of its own; while this lives, nobody sees it. */
-class silence {
-public:
+class silence
+{
+  public:
     silence()
     {
         omerr().disable();
@@ -53,7 +59,8 @@ template <class mesh_type> bool into(const tn_mesh *from, bool y_up, mesh_type &
     to.reserve(from->vertex_count, from->face_first[from->face_count], from->face_count);
     for (size_t v = 0; v < from->vertex_count; v++) {
         const double *p = from->positions + 3 * v;
-        vertices.push_back(to.add_vertex(y_up ? OpenMesh::Vec3d(p[0], p[2], -p[1]) : OpenMesh::Vec3d(p[0], p[1], p[2])));
+        vertices.push_back(
+            to.add_vertex(y_up ? OpenMesh::Vec3d(p[0], p[2], -p[1]) : OpenMesh::Vec3d(p[0], p[1], p[2])));
     }
     for (size_t f = 0; f < from->face_count; f++) {
         face.clear();
@@ -148,9 +155,18 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
     return guarded(error, [&] {
         poly_mesh m;
         OpenMesh::IO::Options options;
-        if (!OpenMesh::IO::read_mesh(m, path, options)) {
+        int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* for its state alone */
+        tn_file_state before = tn_file_state_of(file);
+        bool read = OpenMesh::IO::read_mesh(m, path, options);
+        tn_status same = tn_file_state_same(&before, file, path, error);
+        if (file >= 0)
+            close(file);
+        if (same != TN_OK)
+            return same;
+        if (!read) {
             tn_fail(error, TN_IO, E_CANNOT_READ, "cannot read a mesh from %s", path);
-            tn_error_help(error, "OBJ, PLY, STL, OFF and OM files can be read; see that it is there and is one of these");
+            tn_error_help(error,
+                          "OBJ, PLY, STL, OFF and OM files can be read; see that it is there and is one of these");
             return TN_IO;
         }
         tn_status status = out_of(m, mesh, error);
@@ -166,8 +182,8 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
     });
 }
 
-extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes, size_t *size,
-                                       tn_error *error)
+extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes,
+                                       size_t *size, tn_error *error)
 {
     static const char *const extensions[] = {".off", ".stl", ".om"};
     *bytes = nullptr;
@@ -201,7 +217,8 @@ extern "C" tn_status tn_openmesh_smooth(tn_mesh *mesh, unsigned iterations, tn_e
     return guarded(error, [&] {
         tri_mesh m;
         tn_mesh triangles = {};
-        tn_status status = tn_mesh_new(mesh->vertex_count, mesh->face_count, mesh->face_first[mesh->face_count], &triangles, error);
+        tn_status status =
+            tn_mesh_new(mesh->vertex_count, mesh->face_count, mesh->face_first[mesh->face_count], &triangles, error);
         if (status != TN_OK)
             return status;
         std::memcpy(triangles.positions, mesh->positions, 3 * mesh->vertex_count * sizeof *mesh->positions);
@@ -232,7 +249,8 @@ extern "C" tn_status tn_openmesh_subdivide(tn_mesh *mesh, unsigned rounds, tn_er
     return guarded(error, [&] {
         if (all_triangles(mesh))
             return subdivide<tri_mesh, OpenMesh::Subdivider::Uniform::LoopT<tri_mesh, double>>(mesh, rounds, error);
-        return subdivide<poly_mesh, OpenMesh::Subdivider::Uniform::CatmullClarkT<poly_mesh, double>>(mesh, rounds, error);
+        return subdivide<poly_mesh, OpenMesh::Subdivider::Uniform::CatmullClarkT<poly_mesh, double>>(mesh, rounds,
+                                                                                                     error);
     });
 }
 
@@ -256,3 +274,10 @@ extern "C" tn_status tn_openmesh_decimate(tn_mesh *mesh, size_t faces, tn_error 
         return replace(m, mesh, error);
     });
 }
+
+static tn_status read_mesh(void *, const char *path, tn_mesh *mesh, tn_error *error)
+{
+    return tn_openmesh_read(path, mesh, error);
+}
+
+const tn_mesh_reader tn_openmesh_reader = {read_mesh, nullptr};

@@ -5,11 +5,14 @@
 #ifndef TARTAN_MESH_OPENMESH_H
 #define TARTAN_MESH_OPENMESH_H
 
-#include "runtime/geometry/mesh.h"
+#include "runtime/geometry/boundary_file.h"
 
 /* Reads OBJ, PLY, STL, OFF or OM. OpenMesh splits vertices where faces meet otherwise than on a surface; they are
  * welded again. E0901 where the file cannot be read; TN_INVALID where it is no mesh. */
 tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error);
+
+/* The same for whoever takes a reader. */
+extern const tn_mesh_reader tn_openmesh_reader;
 
 typedef enum tn_openmesh_format { TN_OPENMESH_OFF, TN_OPENMESH_STL, TN_OPENMESH_OM } tn_openmesh_format;
 

@@ -220,7 +220,7 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 /* ---- solids */
 
 #define TN_SOLID_COORDINATE_MAX 1e9 /* of a box's faces and sizes */
-#define TN_SOLID_BOXES_MAX 100000u  /* of one design, as it is written */
+#define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
 
 /* Flags of a design. */
 #define TN_SOLID_SYMMETRY_X 1u

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 
 static const tn_interval unbounded = {-INFINITY, INFINITY, true};
 static const tn_interval none = {INFINITY, -INFINITY, true};

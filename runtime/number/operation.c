@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "runtime/base/any_width.h"
-#include "runtime/base/numeric.h"
 #include "runtime/number/noise.h"
+#include "runtime/numeric/numeric.h"
 
 /* The least violation of a condition that excludes its bound. */
 #define STRICT 1e-9
@@ -132,11 +132,73 @@ double tn_operation_slope(tn_opcode opcode, const double *operands, const double
         break;                                                                                                         \
     }
 
-/* A row of operations.def belongs to one of the two functions below, by its LOOP. */
+/* A row of operations.def belongs to one of the three functions below, by its LOOP. */
 #define IF_SIMPLE_SIMPLE(...) __VA_ARGS__
 #define IF_SIMPLE_CALL(...)
+#define IF_SIMPLE_ROW(...)
 #define IF_CALL_SIMPLE(...)
 #define IF_CALL_CALL(...) __VA_ARGS__
+#define IF_CALL_ROW(...)
+#define IF_ROW_SIMPLE(...)
+#define IF_ROW_CALL(...)
+#define IF_ROW_ROW(...) __VA_ARGS__
+
+/* Functions of one operand that numeric.h has for rows. */
+#define ROW_OF(NAME, FUNCTION)                                                                                         \
+    static void row_##NAME(const double *const *operands, double *restrict out)                                        \
+    {                                                                                                                  \
+        FUNCTION(operands[0], out, TN_ROW);                                                                            \
+    }
+ROW_OF(SINE, tn_sin_row)
+ROW_OF(COSINE, tn_cos_row)
+ROW_OF(EXPONENTIAL, tn_exp_row)
+ROW_OF(LOGARITHM, tn_log_row)
+ROW_OF(HYPERBOLIC_TANGENT, tn_tanh_row)
+
+static void row_TANGENT(const double *const *operands, double *restrict out)
+{
+    double cosines[TN_ROW];
+    tn_cos_row(operands[0], cosines, TN_ROW);
+    tn_sin_row(operands[0], out, TN_ROW);
+    for (size_t i = 0; i < TN_ROW; i++)
+        out[i] /= cosines[i];
+}
+
+static void row_ARC_TANGENT(const double *const *operands, double *restrict out)
+{
+    tn_atan2_row(operands[0], operands[1], out, TN_ROW);
+}
+
+static void row_POWER(const double *const *operands, double *restrict out)
+{
+    tn_pow_row(operands[0], operands[1], out, TN_ROW);
+    for (size_t i = 0; i < TN_ROW; i++) {
+        double a = operands[0][i], b = operands[1][i];
+        out[i] = a != a ? a : b != b ? b : out[i];
+    }
+}
+
+static void row_PROTECTED_LOGARITHM(const double *const *operands, double *restrict out)
+{
+    double sizes[TN_ROW];
+    for (size_t i = 0; i < TN_ROW; i++)
+        sizes[i] = __builtin_fabs(operands[0][i]);
+    tn_log_row(sizes, out, TN_ROW);
+    for (size_t i = 0; i < TN_ROW; i++)
+        out[i] = sizes[i] == 0 ? 0 : out[i];
+}
+
+static void compute_rows(tn_opcode opcode, const double *const *operands, double *restrict out)
+{
+    switch (opcode) {
+#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+    IF_ROW_##LOOP(case TN_OP_##NAME : row_##NAME(operands, out); break;)
+#include "runtime/module/operations.def"
+#undef OPERATION
+    default:
+        break;
+    }
+}
 
 /* Functions that are more than one operation, element by element. */
 static void compute_calls(tn_opcode opcode, const double *const *operands, double *restrict out)
@@ -147,6 +209,7 @@ static void compute_calls(tn_opcode opcode, const double *const *operands, doubl
 #include "runtime/module/operations.def"
 #undef OPERATION
     default:
+        compute_rows(opcode, operands, out);
         break;
     }
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 #include "runtime/number/operation.h"
 
@@ -97,14 +98,9 @@ static bool reserve(tn_number_rows *rows, size_t depth)
 {
     if (depth <= rows->capacity)
         return true;
-    double *stack = realloc(rows->stack, 2 * depth * TN_ROW * sizeof *stack);
-    if (!stack)
+    if (!tn_array_resize(&rows->stack, 2 * depth, TN_ROW * sizeof *rows->stack) ||
+        !tn_array_resize(&rows->operands, depth, sizeof *rows->operands))
         return false;
-    rows->stack = stack;
-    const double **operands = realloc(rows->operands, depth * sizeof *operands);
-    if (!operands)
-        return false;
-    rows->operands = operands;
     rows->capacity = depth;
     return true;
 }

@@ -11,6 +11,8 @@
 #ifndef TARTAN_NUMBER_TAPE_H
 #define TARTAN_NUMBER_TAPE_H
 
+#include <stdio.h>
+
 #include "runtime/base/error.h"
 #include "runtime/number/interval.h"
 #include "runtime/number/operation.h"
@@ -44,6 +46,9 @@ typedef struct tn_tape {
 tn_status tn_tape_new(const uint8_t *code, uint32_t offset, const unsigned *needs, uint32_t stage_count, tn_tape *tape,
                       tn_error *error);
 void tn_tape_clear(tn_tape *tape);
+
+/* Lists the tape that rows of samples along x are computed by. */
+tn_status tn_tape_list(const uint8_t *code, uint32_t offset, FILE *out, tn_error *error);
 
 typedef struct tn_tape_rows {
     double *memory;       /* owned: the coordinates' rows, then those of all registers */

@@ -17,10 +17,11 @@ struct tn_cells {
     cell_chunk **slots; /* open addressing; at most half full */
     size_t slot_count, chunk_count;
     cell_chunk *last;
-    uint64_t filled, memory_limit;
+    uint64_t filled;
+    tn_watch *watch;
 };
 
-tn_cells *tn_cells_new(uint64_t memory_limit)
+tn_cells *tn_cells_new(tn_watch *watch)
 {
     tn_cells *cells = calloc(1, sizeof *cells);
     cell_chunk **slots = calloc(FIRST_SLOTS, sizeof *slots);
@@ -31,7 +32,7 @@ tn_cells *tn_cells_new(uint64_t memory_limit)
     }
     cells->slots = slots;
     cells->slot_count = FIRST_SLOTS;
-    cells->memory_limit = memory_limit;
+    cells->watch = watch;
     return cells;
 }
 
@@ -92,12 +93,9 @@ static tn_status make_chunk(tn_cells *cells, const int32_t at[3], cell_chunk **m
     *made = find_chunk(cells, at);
     if (*made)
         return TN_OK;
-    if ((cells->chunk_count + 1) * sizeof **made > cells->memory_limit) {
-        tn_fail(error, TN_LIMIT, E_PLACE_MEMORY, "the filled cells take more memory than the limit of %llu bytes",
-                (unsigned long long)cells->memory_limit);
-        tn_error_help(error, "make the bounds smaller, or raise the limit with --memory-limit");
-        return TN_LIMIT;
-    }
+    tn_status status = tn_watch_check(cells->watch, error);
+    if (status != TN_OK)
+        return status;
     if (2 * (cells->chunk_count + 1) > cells->slot_count && !grow_slots(cells))
         return tn_fail_memory(error);
     cell_chunk *chunk = calloc(1, sizeof *chunk);

@@ -9,8 +9,8 @@
 
 typedef struct tn_cells tn_cells;
 
-/* memory_limit: bytes of the chunks together. NULL where out of memory. */
-tn_cells *tn_cells_new(uint64_t memory_limit);
+/* watch: who waits for the filling, borrowed, or NULL. NULL where out of memory. */
+tn_cells *tn_cells_new(tn_watch *watch);
 void tn_cells_free(tn_cells *cells);
 
 /* How many cells are filled. */
@@ -22,7 +22,7 @@ bool tn_cells_any(tn_cells *cells, const tn_cell_box *box);
 /* A filled cell of the box, the lowest by x, then y, then z; false where there is none. */
 bool tn_cells_first(tn_cells *cells, const tn_cell_box *box, int32_t cell[3]);
 
-/* Fills the box; cells that are filled stay so. TN_LIMIT (E1312) where the chunks pass the memory limit. */
+/* Fills the box; cells that are filled stay so. TN_STOPPED where the watch says so. */
 tn_status tn_cells_fill(tn_cells *cells, const tn_cell_box *box, tn_error *error);
 
 #endif

@@ -99,7 +99,7 @@ static tn_status add_part(derivation *d, const tn_frame *frame, const tn_step *s
 static tn_status keep_box(derivation *d, const tn_cell_box *box, uint32_t step)
 {
     filled_boxes *boxes = &d->boxes;
-    if (!d->options.watch)
+    if (!d->options.keep_filled)
         return TN_OK;
     if (!tn_array_reserve(&boxes->items, &boxes->capacity, boxes->count, 1, sizeof *boxes->items))
         return tn_fail_memory(d->error);
@@ -181,6 +181,13 @@ static tn_status keep_step(derivation *d, uint32_t index)
     return TN_OK;
 }
 
+/* Tells how many parts there are, and asks whether to go on. */
+static tn_status look_up(const derivation *d)
+{
+    tn_watch_tell(d->options.watch, (double)d->model->count, 0);
+    return tn_watch_check(d->options.watch, d->error);
+}
+
 static tn_status derive(derivation *d)
 {
     uint32_t index, alternative;
@@ -191,8 +198,8 @@ static tn_status derive(derivation *d)
     if (status == TN_OK)
         status = expand(d, 0, 0);
     while (status == TN_OK && (step = tn_pending_next(d, &d->pending, &index, &alternative)) != NULL) {
-        if (++done % ASK_EVERY == 0 && d->options.stop && d->options.stop(d->options.context))
-            return tn_fail(d->error, TN_STOPPED, TN_CODE_NONE, "interrupted");
+        if (++done % ASK_EVERY == 0 && (status = look_up(d)) != TN_OK)
+            return status;
         if (step->kind == TN_STEP_EXPAND) {
             status = expand(d, step->index, alternative);
             continue;
@@ -222,7 +229,6 @@ static tn_place_options filled(const tn_place_options *options)
     o.step_limit = or_default(o.step_limit, 1000000000);
     o.frame_limit = or_default(o.frame_limit, 1000000);
     o.lookahead_limit = or_default(o.lookahead_limit, 1000000);
-    o.memory_limit = or_default(o.memory_limit, UINT64_C(4) << 30);
     return o;
 }
 
@@ -232,7 +238,7 @@ tn_status tn_place_derive(const tn_place_rules *rules, const tn_place_options *o
     derivation d = {.rules = rules, .options = filled(options), .model = model, .fault = fault, .error = error};
     *model = (tn_placed_model){0};
     *fault = (tn_place_fault){0};
-    d.cells = tn_cells_new(d.options.memory_limit);
+    d.cells = tn_cells_new(d.options.watch);
     tn_status status = d.cells ? tn_traces_make(rules, &d.traces, error) : tn_fail_memory(error);
     if (status == TN_OK) {
         tn_mersenne_seed(&d.random, d.options.seed);

@@ -62,11 +62,10 @@ typedef struct tn_place_options {
     uint64_t step_limit;      /* 1,000,000,000 */
     uint64_t frame_limit;     /* 1,000,000 */
     uint64_t lookahead_limit; /* steps of one lookahead, and expansions without a step: 1,000,000 */
-    uint64_t memory_limit;    /* bytes of cells: 4 GiB */
     bool keep_steps;
-    bool watch;                  /* keep what was filled, to say what is in the way */
-    bool interpret;              /* run every lookahead step by step rather than as tests that were worked out once */
-    bool (*stop)(void *context); /* asked now and then; true ends the work with TN_STOPPED */
+    bool keep_filled; /* to say what is in the way */
+    bool interpret;   /* run every lookahead step by step rather than as tests that were worked out once */
+    tn_watch *watch;  /* borrowed, or NULL: the work gives up (TN_STOPPED) once this says so */
     void *context;
     void (*report)(void *context,
                    const tn_place_event *event); /* of every alternative; lookaheads are run step by step */

@@ -7,6 +7,7 @@
 #include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
 #include "runtime/solid/footprint.h"
+#include "runtime/solid/measure_parts.h"
 
 void tn_built_clear(tn_built *built)
 {
@@ -37,10 +38,26 @@ static tn_status make_cells(tn_built *built, tn_error *error)
     return status;
 }
 
-tn_status tn_built_make(const tn_module *module, uint32_t solid, tn_built *built, tn_error *error)
+static tn_status check_count(const tn_module *module, uint32_t solid, uint32_t most, tn_error *error)
+{
+    const tn_solid_record *record = &module->SOLID_records[solid];
+    const tn_design counted = {.flags = record->flags};
+    uint64_t boxes = (uint64_t)record->box_count * tn_design_images(&counted);
+    most = most ? most : TN_SOLID_BOXES_DEFAULT;
+    if (boxes <= most)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_SOLID_TOO_MANY, "`%.100s` has %llu boxes, images counted; the limit is %u",
+            tn_text(module, record->name), (unsigned long long)boxes, most);
+    tn_error_help(error, "--max-boxes %llu raises it", (unsigned long long)boxes);
+    return TN_LIMIT;
+}
+
+tn_status tn_built_make(const tn_module *module, uint32_t solid, uint32_t most, tn_built *built, tn_error *error)
 {
     *built = (tn_built){0};
-    tn_status status = tn_design_read(module, solid, &built->written, error);
+    tn_status status = check_count(module, solid, most, error);
+    if (status == TN_OK)
+        status = tn_design_read(module, solid, &built->written, error);
     if (status == TN_OK)
         status = tn_design_copy(&built->written, &built->built, error);
     if (status == TN_OK)
@@ -269,23 +286,42 @@ static tn_status measure_parts(const tn_built *built, double diagonal, tn_union 
     return TN_OK;
 }
 
-static tn_status measure_union(const tn_built *built, double diagonal, bool area, double *values, tn_error *error)
+#define ASKED(NAME) (mask >> TN_SOLID_##NAME##_MEASURED & 1)
+
+static tn_status measure_union(const tn_built *built, const bounds *b, uint64_t mask, double *values, tn_error *error)
 {
     tn_union u;
-    tn_status status = area ? tn_union_make(built->cells, built->cell_count, &u, error)
-                            : tn_union_contacts(built->cells, built->cell_count, &u, error);
-    if (status == TN_OK && area)
+    bool surface = ASKED(AREA) || ASKED(OVERHANG);
+    tn_status status = surface ? tn_union_make(built->cells, built->cell_count, &u, error)
+                               : tn_union_contacts(built->cells, built->cell_count, &u, error);
+    if (status == TN_OK && surface) {
         values[TN_SOLID_AREA_MEASURED] = area_of(&u.mesh);
+        values[TN_SOLID_OVERHANG_MEASURED] = tn_mesh_overhang(&u.mesh, b->low[1], 1e-9 * b->diagonal);
+    }
     if (status == TN_OK)
-        status = measure_parts(built, diagonal, &u, values, error);
+        status = measure_parts(built, b->diagonal, &u, values, error);
     tn_union_clear(&u);
+    return status;
+}
+
+static tn_status measure_plan(const tn_built *built, const bounds *b, uint64_t mask, double *values, tn_error *error)
+{
+    double *shadows = values + TN_SOLID_SHADOW_X_MEASURED, sloping;
+    tn_status status = TN_OK;
+    for (int axis = 0; axis < 3 && status == TN_OK; axis++)
+        if (mask >> (TN_SOLID_SHADOW_X_MEASURED + axis) & 1 || (axis == 1 && ASKED(SUPPORT)))
+            status = tn_built_shadow(built, axis, &shadows[axis], error);
+    if (status != TN_OK || !ASKED(SUPPORT))
+        return status;
+    status = tn_built_sloping(built, 1e-9 * b->diagonal, &sloping, error);
+    if (status == TN_OK)
+        values[TN_SOLID_SUPPORT_MEASURED] = shadows[1] > 0 ? fmax(0, 1 - sloping / shadows[1]) : 0;
     return status;
 }
 
 tn_status tn_built_measure(const tn_built *built, uint64_t mask, double values[TN_SOLID_MEASURED_COUNT],
                            tn_error *error)
 {
-#define ASKED(NAME) (mask >> TN_SOLID_##NAME##_MEASURED & 1)
     bounds b = find_bounds(built);
     tn_status status = TN_OK;
     for (int k = 0; k < 3; k++)
@@ -296,8 +332,9 @@ tn_status tn_built_measure(const tn_built *built, uint64_t mask, double values[T
         status = measure_footprint(built, &b, values, error);
     if (status == TN_OK && ASKED(INWARD))
         status = measure_inward(built, values, error);
-    if (status == TN_OK && (ASKED(AREA) || ASKED(PARTS) || ASKED(WEAKEST)))
-        status = measure_union(built, b.diagonal, ASKED(AREA), values, error);
+    if (status == TN_OK)
+        status = measure_plan(built, &b, mask, values, error);
+    if (status == TN_OK && (ASKED(AREA) || ASKED(OVERHANG) || ASKED(PARTS) || ASKED(WEAKEST)))
+        status = measure_union(built, &b, mask, values, error);
     return status;
-#undef ASKED
 }

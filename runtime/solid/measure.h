@@ -16,8 +16,11 @@ typedef struct tn_built {
     size_t cell_count;
 } tn_built;
 
-/* Of a SOLID record of a module. E_SOLID_EMPTY where nothing is left. */
-tn_status tn_built_make(const tn_module *module, uint32_t solid, tn_built *built, tn_error *error);
+#define TN_SOLID_BOXES_DEFAULT 100000u
+
+/* Of a SOLID record of a module. E_SOLID_EMPTY where nothing is left; TN_LIMIT for more boxes, images counted, than
+ * `most`, where 0 stands for the default. */
+tn_status tn_built_make(const tn_module *module, uint32_t solid, uint32_t most, tn_built *built, tn_error *error);
 void tn_built_clear(tn_built *built);
 
 /* The measures that the mask names (1 << tn_solid_measured); others stay as they were. */

@@ -3,7 +3,7 @@
 #define TARTAN_SOLID_MEASURED_H
 
 /* name, and what it takes to know it: BOXES (the mapping), CELLS (what clipping leaves), UNION (the boundary of all
- * cells) or PLAN (that boundary, seen from above) */
+ * cells) or PLAN (cells, seen along an axis) */
 #define TN_SOLID_MEASURES(X)                                                                                           \
     X(WIDTH, "width", CELLS)                                                                                           \
     X(HEIGHT, "height", CELLS)                                                                                         \
@@ -21,6 +21,11 @@
     X(WEAKEST, "weakest", UNION)                                                                                       \
     X(STABLE, "stable", CELLS)                                                                                         \
     X(FOOTPRINT, "footprint", CELLS)                                                                                   \
+    X(SUPPORT, "support", PLAN)                                                                                        \
+    X(OVERHANG, "overhang", UNION)                                                                                     \
+    X(SHADOW_X, "shadow-x", PLAN)                                                                                      \
+    X(SHADOW_Y, "shadow-y", PLAN)                                                                                      \
+    X(SHADOW_Z, "shadow-z", PLAN)                                                                                      \
     X(SQUASHED, "squashed", BOXES)                                                                                     \
     X(GHOSTS, "ghosts", CELLS)                                                                                         \
     X(VOIDS, "voids", BOXES)                                                                                           \

@@ -213,4 +213,40 @@ sed '/fitness/d' garden.study > nothing.study
 sed 's/garden/nothing/' bred.study > wants.study
 "$TARTAN" evolve wants.study > /dev/null 2>&1; [ $? -eq 1 ] || fail "a study that wants nothing is no error"
 
+# ---- designs of boxes bred by grammar for the goals of another
+cat > goals.solid <<'X'
+solid goals {
+  box any from (0, 0, 0) to (1, 1, 1);
+  require parts = 1, height in 6.5..7.5;
+  fitness wide = width target 8;
+  fitness light = volume target 40;
+}
+X
+cat > boxes.study <<'X'
+evolution {
+  grammar "boxes"
+  build "goals.solid"
+  population 60
+  generations 8
+  crossover subtree 0.8
+  seed 3
+}
+X
+"$TARTAN" evolve boxes.study -o boxes1 --threads 1 > /dev/null || fail "designs cannot be bred"
+"$TARTAN" evolve boxes.study -o boxes4 --threads 4 > /dev/null || fail "designs cannot be bred with four threads"
+cmp -s boxes1/run.sqlite boxes4/run.sqlite || fail "four threads breed other designs than one"
+"$TARTAN" evolve boxes.study -o boxes5 --generations 3 > /dev/null && "$TARTAN" evolve boxes.study -o boxes5 --resume > /dev/null || fail "breeding designs is not resumed"
+cmp -s boxes1/run.sqlite boxes5/run.sqlite || fail "resuming breeds other designs"
+"$TARTAN" runs replay boxes1 61 > /dev/null || fail "cannot replay designs"
+"$TARTAN" check boxes1/best/1.solid || fail "the best design is none"
+[ -z "$("$TARTAN" check boxes1/best/1.solid 2>&1)" ] || fail "bred designs have warnings"
+grep -q '<path' boxes1/best/1.svg || fail "the best design has no picture"
+sed 's/seed 3/selection nsga2/' boxes.study > fronts.study
+"$TARTAN" evolve fronts.study -o front --generations 2 > /dev/null || fail "goals are not weighed one by one"
+head -1 front/best/scores.csv | grep -qx 'file,individual,wide,light' || fail "the goals have no names: $(head -1 front/best/scores.csv)"
+"$TARTAN" evolve boxes.study -o boxes1 --resume --generations 8 --set 'light target 20 weight 2' > /dev/null 2>&1 || fail "a goal cannot be changed"
+"$TARTAN" evolve boxes.study -o boxes1 --resume --set 'lihgt target 20' > /dev/null 2>&1; [ $? -eq 1 ] || fail "a goal that is not there is no error"
+printf '1 2*3\n\n' | "$TARTAN" breed boxes.study -o chosen > /dev/null || fail "cannot choose designs"
+grep -q '<path' chosen/sheet-0001.svg || fail "no designs on the sheet"
+
 exit $failed

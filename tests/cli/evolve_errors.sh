@@ -27,7 +27,12 @@ study wrong '  grammar "genr8"; grow "wrong.growth.study"'
 printf 'rules "square"\nfitness sise target 3\n' >wrong.growth.study
 study hello '  grammar "words"; match "hi"; population 10; generations 2'
 printf 'rules "square"\n' >growth.study
-for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing; do
+study build '  grammar "boxes"; build "none.solid"'
+study goals '  grammar "boxes"; build "plain.solid"'
+printf 'solid plain { box all from (0, 0, 0) to (1, 1, 1); }\n' >plain.solid
+study designs '  grammar "boxes"; build "designs.solid"'
+printf 'solid one { box all from (0, 0, 0) to (1, 1, 1); }\nsolid two { box all from (0, 0, 0) to (1, 1, 1); }\n' >designs.solid
+for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing build goals designs; do
     golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
 done
 golden no_study "tartan evolve"

@@ -76,5 +76,5 @@ library paper { trays 1..4
 END
 "$TARTAN" sample "$scratch/lahave.plan" --library all --per-length 12 --seed 5 >"$scratch/random"
 # shellcheck disable=SC2046
-compare "$scratch/lahave.plan" paper "$scratch/random" $(names stdlib/lahave.plan)
+compare "$scratch/lahave.plan" paper "$scratch/random" $(names stdlib/lahave.plan | grep -vx few-machines)
 finish

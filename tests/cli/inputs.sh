@@ -59,4 +59,14 @@ changes grow 'grow its boundary meshes' "sed -i 's/ -1\$/ -2/' sheet.off"
 # The scores after it are those of the changed data: worse than a thousandth of them.
 python3 -c 'import sys; sys.exit(not float(sys.argv[1]) > 1)' "$best" || fail "a score of old data is still the best: $best"
 exits 2 "$TARTAN" evolve fit.study -o other.run --rescore
+# A run of other elementary functions is not gone on with, nor replayed; neither is one from before they had versions.
+rm -rf fit.run
+"$TARTAN" evolve fit.study -o fit.run >/dev/null
+for arithmetic in "update meta set value = '1' where key = 'arithmetic'" "delete from meta where key = 'arithmetic'"; do
+    python3 -c 'import sqlite3, sys; db = sqlite3.connect("fit.run/run.sqlite"); db.execute(sys.argv[1]); db.commit()' "$arithmetic"
+    exits 1 "$TARTAN" evolve fit.study -o fit.run --resume --generations 5
+    grep -q 'E1252.*was made with arithmetic 1, and this Tartan has arithmetic' err || fail "not said: $(head -n 1 err)"
+    exits 1 "$TARTAN" runs replay fit.run 1
+    grep -q 'E1252.*was made with arithmetic 1' err || fail "not said by replay: $(head -n 1 err)"
+done
 finish

@@ -52,9 +52,26 @@ exported() {
 exported $libraries >"$scratch/exported"
 cmp "$scratch/declared" "$scratch/exported" || fail "the header and the libraries differ: $(comm -3 "$scratch/declared" "$scratch/exported")"
 diff -u tests/cli/install/exported "$scratch/exported" || fail 'the libraries export other functions than tests/cli/install/exported says'
-exported libtartan-runtime.so >"$scratch/running"
-grep -vE '^tartan_(compile|growth|mesh|statistics)_|_draw$' "$scratch/exported" | cmp - "$scratch/running" ||
-    fail "libtartan-runtime lacks a function, or has one too many: it has all but compiling, growing, meshes and drawing"
+while read -r name; do
+    grep -q "\`$name\`" docs/c-interface.md || fail "docs/c-interface.md does not name $name"
+done <"$scratch/exported"
+grep -oE '`tartan_[a-z_]+`' docs/c-interface.md | tr -d '`' | grep -vE '^tartan_(status|error|watch)$' | sort -u | comm -23 - "$scratch/exported" >"$scratch/gone"
+[ ! -s "$scratch/gone" ] || fail "docs/c-interface.md names $(cat "$scratch/gone")"
+
+# Who has which: a program links the parts that it needs.
+has() { # LIBRARY PATTERN
+    exported "$1.so" >"$scratch/has"
+    grep -E "^tartan_($2)\$" "$scratch/exported" | cmp - "$scratch/has" ||
+        fail "$1 lacks a function, or has one too many: $(grep -E "^tartan_($2)\$" "$scratch/exported" | comm -3 - "$scratch/has")"
+}
+files='mesh_(read|write|smooth|subdivide|decimate)'
+has libtartan-growth '(growth|statistics)_[^d].*' # but drawing
+has libtartan-mesh "$files"
+has libtartan-draw '[a-z]*_draw'
+has libtartan-store 'run_.*'
+has libtartan '(compile|format|source|tests|coverage)_.*'
+exported libtartan-{growth,mesh,draw,store}.so libtartan.so >"$scratch/parts"
+exported libtartan-runtime.so | sort - "$scratch/parts" | cmp - "$scratch/exported" || fail 'libtartan-runtime lacks a function'
 
 # Each needs what it is for, and no more.
 needs() {
@@ -110,6 +127,12 @@ done
 grep -q '^corridor matches 8' "$scratch/out.shared" || fail 'the program did not match the plan'
 grep -qE '^[0-9]+ plans, three of them:$' "$scratch/out.shared" || fail 'the program did not count the library'
 
+# So does the program of the page.
+sed -n '/^```c$/,/^```$/p' docs/c-interface.md | sed '/^```/d' >"$scratch/count.c"
+"$CC" "${flags[@]}" -std=c99 -Wall -Wextra -Wpedantic "$scratch/count.c" "${by_pkg_config[@]}" -o "$scratch/count"
+[ "$("$scratch/count" "$scratch/narrow.plan" "$stdlib")" = "$(sed -n 's/ plans, three of them:/ plans/p' "$scratch/out.shared")" ] ||
+    fail 'the program of docs/c-interface.md counts otherwise'
+
 # The programs of the other examples: a surface with its mesh and picture, and a run that is saved and goes on.
 for name in growth evolution; do
     "$CC" "${flags[@]}" -std=c99 -Wall -Wextra -Wpedantic "examples/embed-$name/$name.c" "${by_pkg_config[@]}" -lm -o "$scratch/$name"
@@ -148,6 +171,69 @@ PROGRAM
 read -ra runtime <<<"$(pkg-config --cflags --libs tartan-runtime)"
 "$CC" "${flags[@]}" "$scratch/load.c" "${runtime[@]}" -o "$scratch/load"
 [ "$("$scratch/load" "$scratch/narrow.tnb")" = "$(grep plans, "$scratch/out.shared")" ] || fail 'the runtime counts otherwise'
+
+# Growing, writing a mesh and drawing need no compiler: the parts alone do it.
+"$prefix/bin/tartan" build examples/embed-growth/dome.study -o "$scratch/dome.tnb"
+cat >"$scratch/parts.c" <<'PROGRAM'
+#include <stdio.h>
+#include <tartan/tartan.h>
+
+int main(int argc, char **argv)
+{
+    tartan_error error;
+    tartan_module *module;
+    tartan_growth *growth;
+    tartan_mesh *mesh;
+    void *file, *picture;
+    size_t file_size, picture_size;
+    if (argc != 2 || tartan_module_load_file(argv[1], &module, &error) != TARTAN_OK ||
+        tartan_growth_new(module, NULL, &growth, &error) != TARTAN_OK ||
+        tartan_growth_grow(growth, 3, NULL, &error) != TARTAN_OK ||
+        tartan_growth_mesh(growth, NULL, &mesh, &error) != TARTAN_OK ||
+        tartan_mesh_write(mesh, TARTAN_STL, NULL, NULL, &file, &file_size, &error) != TARTAN_OK ||
+        tartan_growth_draw(growth, TARTAN_PNG, NULL, NULL, &picture, &picture_size, &error) != TARTAN_OK)
+        return 1;
+    printf("%zu %d\n", file_size, picture_size > 1000);
+    tartan_bytes_free(file);
+    tartan_bytes_free(picture);
+    tartan_mesh_free(mesh);
+    tartan_growth_free(growth);
+    tartan_module_free(module);
+    return 0;
+}
+PROGRAM
+read -ra parts_alone <<<"$(pkg-config --cflags --libs tartan-growth tartan-mesh tartan-draw)"
+[[ " ${parts_alone[*]} " != *' -ltartan '* ]] || fail 'the parts link the compiler'
+"$CC" "${flags[@]}" "$scratch/parts.c" "${parts_alone[@]}" -o "$scratch/parts_alone"
+[ "$("$scratch/parts_alone" "$scratch/dome.tnb")" = "$((84 + 50 * 2 * 64)) 1" ] || fail 'the parts alone do not grow the surface'
+
+# A run that the command made is read back.
+"$prefix/bin/tartan" evolve examples/rule-of-thumb/joists.study -o "$scratch/run" --generations 3 >/dev/null
+cat >"$scratch/run.c" <<'PROGRAM'
+#include <stdio.h>
+#include <tartan/tartan.h>
+
+int main(int argc, char **argv)
+{
+    tartan_error error;
+    tartan_run *run;
+    if (argc != 2 || tartan_run_open(argv[1], &run, &error) != TARTAN_OK)
+        return 1;
+    for (size_t i = 0; i < tartan_run_generations(run); i++) {
+        tartan_generation generation = tartan_generation_init();
+        if (tartan_run_generation(run, i, &generation, &error) != TARTAN_OK)
+            return 1;
+        printf("%u,%u,%llu\n", (unsigned)generation.number, (unsigned)generation.scored,
+               (unsigned long long)generation.evaluations);
+    }
+    tartan_run_free(run);
+    return 0;
+}
+PROGRAM
+read -ra store <<<"$(pkg-config --cflags --libs tartan-store)"
+"$CC" "${flags[@]}" "$scratch/run.c" "${store[@]}" -o "$scratch/read_run"
+"$scratch/read_run" "$scratch/run/run.sqlite" >"$scratch/generations"
+[ "$(cut -d, -f1 "$scratch/generations" | tr '\n' ' ')" = '0 1 2 3 ' ] || fail "the run has generations $(cat "$scratch/generations")"
 
 # The installed binary finds the stdlib by itself; what was installed goes again.
 "$prefix/bin/tartan" check "$scratch/narrow.plan"

@@ -54,6 +54,8 @@ golden wrong_output "tartan mesh $scratch/ball.field -o $scratch/ball.svg"
 golden wrong_normals "tartan mesh $scratch/ball.field -o $scratch/ball.stl --normals"
 golden points "printf '0 0 0\n3 0 0\n1,2,3\n' >$scratch/places && tartan mesh $scratch/ball.field --points $scratch/places"
 golden wrong_points "printf '0 0\n' >$scratch/places && tartan mesh $scratch/ball.field --points $scratch/places"
+golden tape "tartan disasm $scratch/odd.field --tape"
+golden no_tape "tartan disasm square --tape"
 golden werror "tartan mesh primitives --surface heart --grid 12 --werror --stats json"
 
 # A shell of a mesh that was written before; a module does as its file does.

@@ -88,7 +88,7 @@ for name_ in blocked bound touch frame nothing forced lookahead idle far; do
 done
 golden parts "tartan place $scratch/endless.pcfg --part-limit 100"
 golden steps "tartan place $scratch/endless.pcfg --step-limit 100"
-golden memory "tartan place $scratch/large.pcfg --memory-limit 4"
+golden memory "tartan place $scratch/large.pcfg --memory-limit 300"
 [ ! -e "$scratch/none.ldr" ] || rm "$scratch/none.ldr" # of `forced`, which is written
 golden keep_partial "tartan place $scratch/blocked.pcfg --keep-partial -o $scratch/partial.ldr; cat $scratch/partial.ldr"
 golden other_file "tartan place ../../../stdlib/square.hemls"

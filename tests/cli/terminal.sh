@@ -30,4 +30,33 @@ grep -qF "$escape" <<<"$(on_terminal NO_COLOR=1)" && fail 'colour although NO_CO
 grep -qF "$escape" <<<"$(on_terminal TERM=dumb)" && fail 'colour on a dumb terminal'
 grep -qF 'error[' <<<"$(on_terminal NO_COLOR=1)" || fail 'no error on a terminal'
 grep -qF "$escape" <<<"$(env -u NO_COLOR "$TARTAN" check "$scratch/bad.plan" 2>&1)" && fail 'colour in a pipe'
+
+# A pipe that nobody writes to is named after a second; what is written then is read whole.
+mkfifo "$scratch/pipe"
+echo 'rule x = tray(' >"$scratch/late"
+python3 - "$TARTAN" "$scratch/pipe" "$scratch/late" <<'PYTHON' || fail 'a pipe without a writer is not named, or not read'
+import os, pty, select, shutil, sys, time
+tartan, pipe, late = sys.argv[1:]
+pid, terminal = pty.fork()
+if pid == 0:
+    os.execv(tartan, [tartan, "check", pipe])
+text, fed, begun = b"", False, time.time()
+while time.time() < begun + 30:
+    if select.select([terminal], [], [], 0.1)[0]:
+        try:
+            part = os.read(terminal, 4096)
+        except OSError:
+            break
+        text += part
+    if not fed and b"waiting for somebody to write to the pipe" in text:
+        fed = time.time() - begun
+        shutil.copyfileobj(open(late, "rb"), open(pipe, "wb"))
+os.waitpid(pid, 0)
+sys.exit(0 if fed and fed > 0.9 and b"error[E0001]" in text.replace(b"\x1b[1;31m", b"") else 1)
+PYTHON
+# Where somebody writes, nothing is said, and all is read.
+{ sleep 0.3; cat "$scratch/bad.plan"; } >"$scratch/pipe" &
+"$TARTAN" check "$scratch/pipe" >"$scratch/out" 2>&1 || true
+grep -q 'error\[' "$scratch/out" || fail 'a pipe is not read'
+grep -q 'waiting' "$scratch/out" && fail 'a pipe is named without a terminal'
 finish

@@ -49,7 +49,7 @@ same "$TARTAN" check "$shapes" --relations
 same "$TARTAN" check "$files/sheds.plan" --library any-sheds --count
 same "$TARTAN" grow "$stdlib/square.hemls" -n 6 --explain
 same "$TARTAN" grow "$stdlib/ruffle.hemls" -n 5 -o - --format ply
-same "$TARTAN" mesh "$stdlib/shapes.field" -o - --format ply
+same "$TARTAN" mesh "$stdlib/primitives.field" --surface torus -o - --format ply
 
 # A file is read by all threads side by side, a pipe by one after another: the same answers, and the same lines are
 # complained about. Lines longer than what a thread takes at a time, and one past the limit, at its own place.

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/base/memory.h"
 #include "runtime/house/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
@@ -85,11 +86,14 @@ void fuzz_place(const tn_module *module)
     tn_placed_model models[2];
     tn_status found[2];
     for (int way = 0; way < 2; way++) {
+        tn_watch watch;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
         tn_place_options options = {.part_limit = 100,
                                     .step_limit = 1000,
                                     .frame_limit = 50,
                                     .lookahead_limit = 1000,
-                                    .memory_limit = 1 << 24,
+                                    .watch = &watch,
                                     .interpret = way == 1};
         tn_place_fault fault;
         found[way] = tn_place_derive(&rules, &options, &models[way], &fault, NULL);
@@ -132,7 +136,7 @@ void fuzz_solid(const tn_module *module)
         double values[TN_SOLID_MEASURED_COUNT] = {0};
         if (module->SOLID_records[i].box_count > BOXES)
             continue;
-        if (tn_built_make(module, i, &built, &error) == TN_OK)
+        if (tn_built_make(module, i, 0, &built, &error) == TN_OK)
             tn_built_measure(&built, UINT64_MAX, values, &error);
         tn_built_clear(&built);
     }

@@ -52,7 +52,7 @@ static inline void draw_view(const tn_growth *growth)
     tn_view *view;
     tn_view_options options = {.title = "fuzz"};
     tn_picture picture = {.format = TN_CANVAS_SVG};
-    if (tn_view_take(growth, &camera, &view, &error) == TN_OK)
+    if (tn_growth_view(growth, &camera, &view, &error) == TN_OK)
         tn_views_draw(&view, 1, &options, &picture, &error);
     else if (error.code != E_PART_ABSENT)
         abort();
@@ -128,7 +128,7 @@ static inline void grow_module(const tn_module *module)
     tn_error error;
     tn_status status = tn_growth_system_read(module, &system, &error);
     if (status == TN_OK)
-        status = tn_study_read(module, "fuzz.study", tn_openmesh_read, &study, &error);
+        status = tn_study_read(module, "fuzz.study", &tn_openmesh_reader, &study, &error);
     study.options.edge_limit = GROW_EDGES;
     study.options.threads = 1;
     study.options.explain = true;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/base/random.h"
 
 uint64_t test_draw(test_random *random, uint64_t below)

@@ -153,18 +153,15 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         return tn_fail_memory(error);
     if (c->diagnostics.error_count > 0)
         return TN_INVALID;
-    tn_builder *builder = tn_builder_new();
+    tn_builder *builder = tn_compilation_begin(c, &imports, error);
     if (!builder)
-        return tn_fail_memory(error);
-    tn_emit_sources(builder, &imports, &c->sources);
+        return TN_MEMORY;
     for (size_t i = 0; i < imports.count; i++) {
         const toy_lines *lines = imports.units[i]->tree;
         for (size_t l = 0; l < lines->count; l++)
             emit_counter(builder, &c->sources, &lines->items[l]);
     }
-    tn_status status = tn_builder_finish(builder, &c->module, &c->module_size, error);
-    tn_builder_free(builder);
-    return status;
+    return tn_compilation_finish(c, builder, TN_OK, error);
 }
 
 static bool made(const tn_module *module)

@@ -82,6 +82,40 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     note_call(check, rule, errors);
 }
 
+/* A constant, arithmetic of constants, values joined by `or` or after `not`. Names are looked up where it is used. */
+static bool is_let_value(const tn_ast_expr *value)
+{
+    switch (value->kind) {
+    case TN_EXPR_NUMBER:
+    case TN_EXPR_NAME:
+    case TN_EXPR_BROKEN:
+        return true;
+    case TN_EXPR_OR:
+    case TN_EXPR_NOT:
+    case TN_EXPR_PLUS:
+    case TN_EXPR_MINUS:
+    case TN_EXPR_TIMES:
+    case TN_EXPR_OVER:
+    case TN_EXPR_NEGATIVE:
+        for (TN_EACH(const tn_ast_expr, part, value->parts))
+            if (!is_let_value(part))
+                return false;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void tn_check_let(tn_check *check, const tn_ast_expr *value)
+{
+    if (is_let_value(value))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span,
+                                 "`let` names a constant or values of a field, and this is neither");
+    tn_help(check->diagnostics, d,
+            "write `let wide = 4.8m` or `let rooms = single or double`; a rule is named by `rule NAME = ...`");
+}
+
 void tn_check_settle(tn_check *check)
 {
     tn_checked *result = check->result;
@@ -108,9 +142,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {tn_check_forms,     find_schemas,       tn_check_settle,
-                                                tn_check_libraries, tn_check_asked,     tn_check_number_records,
-                                                tn_check_tests,     tn_check_allowances};
+    static void (*const steps[])(tn_check *) = {tn_check_forms,          find_schemas,   tn_check_settle,
+                                                tn_check_libraries,      tn_check_asked, tn_check_unused,
+                                                tn_check_number_records, tn_check_tests, tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

@@ -128,12 +128,13 @@ typedef struct tn_checked_rule {
     tn_ast_expr *written;                /* the body before anything was written out */
     bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
-    bool hidden;                  /* made of a call: it has no record of its own */
-    bool about_plan;              /* has a comparison that speaks of the whole plan */
-    bool failed;                  /* of a template: a call of it was wrong inside */
-    const tn_ast_expr *call;      /* what a hidden rule was made for first, or NULL */
-    struct tn_checked_rule *of;   /* the template that a hidden rule was made of */
-    tn_checked_sum *sum;          /* of a measure; NULL: already reported */
+    bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
+    bool hidden;                /* made of a call: it has no record of its own */
+    bool about_plan;            /* has a comparison that speaks of the whole plan */
+    bool failed;                /* of a template: a call of it was wrong inside */
+    const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
+    struct tn_checked_rule *of; /* the template that a hidden rule was made of */
+    tn_checked_sum *sum;        /* of a measure; NULL: already reported */
     struct tn_checked_form *form; /* whose houses it is about; NULL: it is about plans */
     uint32_t serial;              /* among all that is checked as rules are */
     uint32_t index, whole, holds; /* emitted: of its record and functions */
@@ -270,8 +271,9 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
 void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
 /* A value that the field does not have: E0303. */
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
-void tn_report_unit(tn_check *check, const tn_ast_word *number); /* E0008 */
-bool tn_word_is(const tn_ast_word *word, const char *text);      /* case does not count */
+/* E0008; schema: the one whose lengths are meant, or NULL. */
+void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *number);
+bool tn_word_is(const tn_ast_word *word, const char *text); /* case does not count */
 
 /* ---- spec.c */
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
@@ -329,6 +331,10 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: repor
 #define TN_PARAMETERS_MAX 16                                      /* of a rule */
 
 /* ---- check.c */
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
+/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
+void tn_check_let(tn_check *check, const tn_ast_expr *value);
 void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
 
 /* ---- warnings.c */
@@ -351,7 +357,8 @@ void tn_check_order(tn_check *check); /* orders the rules, callees first; report
 
 /* ---- library.c */
 void tn_check_libraries(tn_check *check);
-void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
+void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
+void tn_check_asked(tn_check *check);  /* adds what the command line asks to the library that it is about */
 
 /* ---- form.c */
 void tn_check_forms(tn_check *check);

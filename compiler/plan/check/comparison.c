@@ -163,6 +163,7 @@ static bool is_number(const tn_checked_schema *schema, const tn_ast_word *word)
 static const tn_ast_word *after_nots(const tn_ast_list *words, bool *negated)
 {
     const tn_ast_word *word = (const tn_ast_word *)words->first;
+    *negated = false;
     for (; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
         *negated = !*negated;
     return word;
@@ -201,15 +202,15 @@ static tn_ast_expr *test_of(tn_check *check, const tn_ast_alternative *alternati
                             : compared(check, span, sum, op == value ? TN_EQUAL : op->op, value, false);
     if (!negated || !test)
         return test;
-    tn_ast_expr *not = make(check, TN_EXPR_NOT, span);
-    if (not )
-        not ->parts = tn_ast_one(test);
-    return not ;
+    tn_ast_expr *opposite = make(check, TN_EXPR_NOT, span);
+    if (opposite)
+        opposite->parts = tn_ast_one(test);
+    return opposite;
 }
 
 static bool about_number(const tn_checked_schema *schema, const tn_ast_alternative *alternative)
 {
-    bool negated;
+    bool negated = false;
     return is_number(schema, after_nots(&alternative->words, &negated));
 }
 

@@ -13,7 +13,7 @@ int64_t tn_form_length(tn_check *check, const tn_ast_word *word)
     if (!word || word->broken)
         return -1;
     if (word->kind == TN_WORD_NUMBER && word->value != 0) {
-        tn_report_unit(check, word);
+        tn_report_unit(check, NULL, word);
         return -1;
     }
     if (word->value > TN_HOUSE_LENGTH_MAX) {

@@ -121,7 +121,7 @@ static bool read_named(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
         return misread(tray, name, "this field has no value here",
                        "write its value after its name, such as `width 8'`");
     if (word->kind == TN_WORD_NUMBER) {
-        tn_report_unit(tray->check, word);
+        tn_report_unit(tray->check, tray->schema, word);
         return false;
     }
     if (kind == TN_FIELD_CHOICE)
@@ -170,7 +170,7 @@ static bool read_word(tn_tray_reader *tray)
     if (word->kind == TN_WORD_NOT)
         return read_not(tray, word);
     if (word->kind == TN_WORD_NUMBER) {
-        tn_report_unit(tray->check, word);
+        tn_report_unit(tray->check, tray->schema, word);
         return false;
     }
     if (tray->schema->length_field != TN_NONE)

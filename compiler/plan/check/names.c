@@ -5,6 +5,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/check.h"
+#include "compiler/plan/syntax/slip.h"
 #include "runtime/base/nearest.h"
 
 /* ---- collecting */
@@ -146,6 +147,8 @@ static void add_rule(tn_check *check, tn_ast_rule *ast, size_t unit)
     name->rule = rule;
     if (rule->is_template)
         check->templates[check->template_count++] = rule;
+    if (rule->is_let)
+        tn_check_let(check, ast->body);
     if (rule->is_let || rule->is_template)
         return;
     rule->index = (uint32_t)(rule->is_measure ? result->measure_records++ : result->records++);
@@ -303,6 +306,31 @@ static const char *nearest_name(tn_check *check, const char *word, tn_want want)
 
 static const char *const wanted_words[] = {"rule", "library", "rule or library"};
 
+/* A word of the schema stands where a rule has to: says how a rule asks for it. */
+static bool help_word(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *word)
+{
+    uint32_t field = tn_field_find(schema, word);
+    const tn_checked_field *f = field == TN_NONE ? NULL : &schema->fields[field];
+    const char *first = f && f->value_count ? f->values[0].name : "";
+    bool value = false, number = false;
+    for (uint32_t i = 0; i < schema->field_count; i++)
+        value |= tn_field_has(&schema->fields[i], word);
+    for (uint32_t n = 0; n < schema->number_count; n++)
+        number |= strcmp(schema->numbers[n].name, word) == 0;
+    if (number)
+        tn_help(check->diagnostics, d, "`%s` is a number of a tray: `sum(%s)` adds it up, `tray(%s >= 2)` asks a tray",
+                word, word, word);
+    else if (f && f->kind == TN_FIELD_LENGTH)
+        tn_help(check->diagnostics, d, "`%s` is a length of a tray: `sum(%s)` adds it up, `tray(%s >= %s)` asks a tray",
+                word, word, word, first);
+    else if (f && f->kind != TN_FIELD_FLAG)
+        tn_help(check->diagnostics, d, "`%s` is a field of schema `%s`: write `tray(%s %s)`", word, schema->name, word,
+                first);
+    else if (f || value)
+        tn_help(check->diagnostics, d, "`%s` is a word of schema `%s`: write `tray(%s)`", word, schema->name, word);
+    return f || value || number;
+}
+
 static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want want)
 {
     if (check->incomplete || word->broken)
@@ -312,14 +340,13 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
         tn_report(check->diagnostics, code, word->node.span, "there is no %s `%s`", wanted_words[want], word->text);
     const char *near = nearest_name(check, word->text, want);
     const tn_checked_schema *schema = want == TN_WANT_RULE ? check->schema : NULL;
-    bool is_word = schema && tn_field_find(schema, word->text) != TN_NONE;
-    for (uint32_t f = 0; schema && f < schema->field_count; f++)
-        is_word |= tn_field_has(&schema->fields[f], word->text);
-    if (is_word)
-        tn_help(check->diagnostics, d, "`%s` is a word of schema `%s`: write `tray(%s)`", word->text, schema->name,
-                word->text);
-    else if (near)
+    const tn_slip *slip = want == TN_WANT_LIBRARY ? NULL : tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text));
+    if (schema && help_word(check, d, schema, word->text))
+        return;
+    if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
+    else if (slip)
+        tn_help(check->diagnostics, d, "%s", slip->help);
     else
         tn_help(check->diagnostics, d, "write the %s, or `use` the file that has it", wanted_words[want]);
 }
@@ -349,7 +376,7 @@ static bool report_misspelled(tn_check *check, const tn_ast_word *word)
 {
     static const char *const words[] = {"tray",        "neighbour", "many", "optional", "quantity",
                                         "occurrences", "distance",  "sum",  "every",    "matches"};
-    if (tn_names_get(&check->names, word->text))
+    if (tn_names_get(&check->names, word->text) || tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text)))
         return false;
     const char *near = nearest_name(check, word->text, TN_WANT_RULE);
     const char *meant = near ? NULL : tn_nearest(word->text, words, sizeof words / sizeof *words);

@@ -9,8 +9,10 @@
 static void add_use(tn_check *check, tn_ast_expr *expr)
 {
     tn_checked_rule *rule = check->rule;
-    if (!rule)
+    if (!rule) { /* in a library */
+        expr->rule->used = true;
         return;
+    }
     if (rule->use_count == rule->use_capacity) {
         size_t capacity = rule->use_capacity ? rule->use_capacity * 2 : 4;
         tn_checked_rule **uses = TN_NEW_ARRAY(check->arena, tn_checked_rule *, capacity);
@@ -154,7 +156,11 @@ static void report_number(tn_check *check, const tn_ast_expr *expr)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
                                  "a rule has to stand here, and this is a number");
-    tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
+    if (expr->kind == TN_EXPR_NUMBER)
+        tn_help(check->diagnostics, d,
+                "each side of `and` and `or` compares: `quantity(a) = 2 or quantity(a) = 3`, or `quantity(a) in 2..3`");
+    else
+        tn_help(check->diagnostics, d, "compare it with another number: `quantity(tray(...)) > 1`");
 }
 
 /* Recursion is as deep as expressions nest: at most TN_NESTING_MAX. */

@@ -192,6 +192,15 @@ static void add_choice(tn_check *check, tn_checked_schema *schema, tn_checked_fi
                                      .doc = ast->doc ? ast->doc->text : NULL});
 }
 
+/* width = 4 */
+static void report_bare(tn_check *check, const tn_ast_word *number)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, number->node.span, "`%s` has no unit", number->text);
+    tn_help(check->diagnostics, d,
+            "a length has a unit, such as `%s'` or `%sm`; a value that is no length is a name, such as `one`",
+            number->text, number->text);
+}
+
 /* A zone's fill, with each of its depths. */
 static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_field *field, const tn_ast_value *ast)
 {
@@ -215,7 +224,7 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
         if (depth->kind != TN_WORD_LENGTH || depth->broken) {
             schema->broken = true;
             if (depth->kind == TN_WORD_NUMBER) {
-                tn_report_unit(check, depth);
+                tn_report_unit(check, NULL, depth);
             } else if (!depth->broken) {
                 tn_diagnostic *d =
                     tn_report(check->diagnostics, E_MIXED_VALUES, depth->node.span, "`%s` is not a depth", depth->text);
@@ -266,7 +275,7 @@ static void check_plain_value(tn_check *check, tn_checked_schema *schema, tn_che
     }
     if (value->word->kind == TN_WORD_NUMBER) {
         if (!value->word->broken)
-            tn_report_unit(check, value->word);
+            report_bare(check, value->word);
         schema->broken = true;
     } else if ((value->word->kind == TN_WORD_LENGTH) != (field->kind == TN_FIELD_LENGTH)) {
         report_mixed(check, schema, field, value);

@@ -51,7 +51,11 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item,
     char legal[400] = "";
     if (item->field != TN_NONE)
         tn_say_values(&item->schema->fields[item->field], NULL, legal, sizeof legal);
-    if (item->word && item->field != TN_NONE)
+    bool flag = item->field != TN_NONE && item->schema->fields[item->field].kind == TN_FIELD_FLAG;
+    if (item->word && flag && item->word->kind == TN_WORD_OPERATOR)
+        tn_help(item->check->diagnostics, d, "a flag is written alone: `%s`, or `not %s`",
+                item->schema->fields[item->field].name, item->schema->fields[item->field].name);
+    else if (item->word && item->field != TN_NONE)
         tn_help(item->check->diagnostics, d, "items are separated by commas, alternatives joined by `or`");
     else if (item->field != TN_NONE && item->schema->fields[item->field].kind != TN_FIELD_FLAG)
         tn_help(item->check->diagnostics, d, "`%s` can be %s", item->schema->fields[item->field].name, legal);
@@ -172,14 +176,20 @@ static bool compares(int64_t left, tn_operator op, int64_t right)
     return false;
 }
 
+/* A number without a unit. */
+static bool is_bare(const tn_ast_word *word)
+{
+    return word->kind == TN_WORD_NUMBER || (word->kind == TN_WORD_DECIMAL && !strchr(word->text, '%'));
+}
+
 /* The length that comes next, where one must. */
 static const tn_ast_word *read_length(tn_item_reader *item)
 {
     const tn_ast_word *word = next_word(item);
     if (word && word->kind == TN_WORD_LENGTH && !word->broken)
         return word;
-    if (word && word->kind == TN_WORD_NUMBER)
-        tn_report_unit(item->check, word);
+    if (word && is_bare(word))
+        tn_report_unit(item->check, item->schema, word);
     else if (word && word->kind == TN_WORD_NAME && item->schema->fields[item->field].kind == TN_FIELD_LENGTH)
         tn_report_value(item->check, item->schema, item->field, word);
     else if (!word || !word->broken)
@@ -306,7 +316,7 @@ static bool read_zone(tn_item_reader *item, tn_operator op, bool compared)
             return false;
         item->fill = fill_has_depth(item, word->text) ? word->text : NULL; /* `empty or 8'`: 8' of the others */
         bool ends = !item->word || (item->word->kind != TN_WORD_LENGTH && item->word->kind != TN_WORD_OPERATOR &&
-                                    item->word->kind != TN_WORD_NUMBER && item->word->kind != TN_WORD_RANGE);
+                                    !is_bare(item->word) && item->word->kind != TN_WORD_RANGE);
         if (ends)
             return true;
         fill = word->text;

@@ -1,8 +1,11 @@
 /* Fields and values by name, and in words. */
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "compiler/plan/check/check.h"
+#include "compiler/plan/syntax/slip.h"
+#include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
 
 uint32_t tn_field_find(const tn_checked_schema *schema, const char *name)
@@ -74,19 +77,64 @@ static const char *nearest_word(tn_check *check, const tn_checked_schema *schema
     return names ? tn_nearest(word, names, count) : NULL;
 }
 
+static bool is_word_of(const tn_checked_schema *schema, const char *word)
+{
+    for (uint32_t f = 0; f < schema->field_count; f++)
+        if (strcmp(schema->fields[f].name, word) == 0 || tn_field_has(&schema->fields[f], word))
+            return true;
+    return false;
+}
+
+/* A word of the schema that begins with the same five letters: `isolated` for `isolation`. */
+static const char *same_stem(const tn_checked_schema *schema, const char *word)
+{
+    enum { STEM = 5 };
+    if (strlen(word) < STEM)
+        return NULL;
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        const tn_checked_field *field = &schema->fields[f];
+        if (strncmp(field->name, word, STEM) == 0)
+            return field->name;
+        for (uint32_t v = 0; v < field->value_count; v++)
+            if (tn_field_has(field, field->values[v].name) && strncmp(field->values[v].name, word, STEM) == 0)
+                return field->values[v].name;
+    }
+    return NULL;
+}
+
+/* `four bed` for `four-bed`; false where the two words are none together. */
+static bool join_words(const tn_checked_schema *schema, const tn_ast_word *word, char *joined, size_t size)
+{
+    const tn_ast_word *next = (const tn_ast_word *)word->node.next;
+    if (!next || next->kind != TN_WORD_NAME)
+        return false;
+    snprintf(joined, size, "%s-%s", word->text, next->text);
+    return is_word_of(schema, joined);
+}
+
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span,
                                  "`%s` is neither a field nor a value of schema `%s`", word->text, schema->name);
     tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
     const char *near = nearest_word(check, schema, word->text);
-    char fields[300] = "";
+    if (!near)
+        near = same_stem(schema, word->text);
+    char joined[80], fields[300] = "";
     for (uint32_t f = 0; f < schema->field_count; f++)
         append(fields, sizeof fields, "%s%s", f == 0 ? "" : ", ", schema->fields[f].name);
-    if (near)
+    const tn_slip *slip = tn_slip_find(TN_SLIP_TRAY, word->text, strlen(word->text));
+    if (slip) {
+        tn_help(check->diagnostics, d, "%s", slip->help);
+        if (slip->instead)
+            tn_replace_with(check->diagnostics, d, "%s", slip->instead);
+    } else if (near) {
         tn_suggest(check->diagnostics, d, "%s", near);
-    else
+    } else if (join_words(schema, word, joined, sizeof joined)) {
+        tn_help(check->diagnostics, d, "a name of several words is joined by `-`: `%s`", joined);
+    } else {
         tn_help(check->diagnostics, d, "the fields are %s", fields);
+    }
 }
 
 uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
@@ -114,14 +162,6 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
     return TN_NONE;
 }
 
-void tn_report_unit(tn_check *check, const tn_ast_word *number)
-{
-    if (number->broken)
-        return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, number->node.span, "`%s` has no unit", number->text);
-    tn_help(check->diagnostics, d, "write a length with its unit, such as `%s'` or `%sm`", number->text, number->text);
-}
-
 /* Another field of lengths that does have the value. */
 static const char *other_field(const tn_checked_schema *schema, uint32_t field, int64_t length)
 {
@@ -134,6 +174,72 @@ static const char *other_field(const tn_checked_schema *schema, uint32_t field, 
                 return other->name;
     }
     return NULL;
+}
+
+/* The first spelling of `number` with a unit that is a value of the schema: "2400mm"; false where there is none. */
+static bool find_unit(const tn_checked_schema *schema, const char *number, char *text, size_t size)
+{
+    static const char *const units[] = {"'", "m", "mm", "cm", "\""};
+    for (size_t u = 0; u < sizeof units / sizeof *units; u++) {
+        int64_t length;
+        snprintf(text, size, "%s%s", number, units[u]);
+        if (tn_length_read(text, strlen(text), false, &length, NULL) == strlen(text) &&
+            other_field(schema, TN_NONE, length))
+            return true;
+    }
+    return false;
+}
+
+/* Does the schema measure in metres? */
+static bool is_metric(const tn_checked_schema *schema)
+{
+    for (uint32_t f = 0; schema && f < schema->field_count; f++)
+        for (uint32_t v = 0; v < schema->fields[f].value_count; v++) {
+            const tn_checked_value *value = &schema->fields[f].values[v];
+            const char *length = schema->fields[f].kind == TN_FIELD_LENGTH ? value->spelling : value->measure;
+            if (length && *length)
+                return length[strlen(length) - 1] == 'm';
+        }
+    return false;
+}
+
+/* `5 m`: the unit stands apart. */
+static const tn_ast_word *unit_apart(const tn_ast_word *number)
+{
+    static const char *const units[] = {"m", "mm", "cm", "ft", "in"};
+    const tn_ast_word *next = (const tn_ast_word *)number->node.next;
+    for (size_t u = 0; next && next->kind == TN_WORD_NAME && u < sizeof units / sizeof *units; u++)
+        if (strcmp(next->text, units[u]) == 0)
+            return next;
+    return NULL;
+}
+
+static void help_unit(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *number)
+{
+    if (schema && schema->value_count > 0)
+        tn_help(check->diagnostics, d, "write a length with its unit, such as `%s%s`", number,
+                is_metric(schema) ? "m" : "'");
+    else
+        tn_help(check->diagnostics, d, "write a length with its unit, such as `%s'` or `%sm`", number, number);
+}
+
+void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *number)
+{
+    if (number->broken)
+        return;
+    const tn_ast_word *apart = unit_apart(number);
+    char meant[64];
+    tn_span span = apart ? tn_span_join(number->node.span, apart->node.span) : number->node.span;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, span, "`%s` has no unit", number->text);
+    if (apart) {
+        const char *unit = strcmp(apart->text, "ft") == 0 ? "'" : strcmp(apart->text, "in") == 0 ? "\"" : apart->text;
+        tn_help(check->diagnostics, d, "a unit follows its number directly: `%s%s`", number->text, unit);
+        tn_replace_with(check->diagnostics, d, "%s%s", number->text, unit);
+    } else if (schema && find_unit(schema, number->text, meant, sizeof meant)) {
+        tn_suggest(check->diagnostics, d, "%s", meant);
+    } else {
+        help_unit(check, d, schema, number->text);
+    }
 }
 
 static const char *nearest_value(tn_check *check, const tn_checked_field *field, const char *word)

@@ -1,3 +1,4 @@
+/* Parses a sentence by Earley's method, for inverting. */
 #include "runtime/genome/mapping/chart.h"
 
 #include <stdlib.h>
@@ -5,6 +6,8 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
+
+enum { ITEMS_BETWEEN_LOOKS = 256 }; /* at the watch */
 
 void tn_chart_clear(tn_chart *c)
 {
@@ -407,6 +410,11 @@ tn_status tn_chart_parse(tn_chart *c, uint32_t *result, tn_error *error)
         uint32_t index = c->queue[c->queue_begin++];
         c->items[index].queued = false;
         process(c, index);
+        if (c->queue_begin % ITEMS_BETWEEN_LOOKS > 0)
+            continue;
+        tn_watch_tell(c->watch, c->furthest, c->length);
+        if (tn_watch_stopped(c->watch))
+            return tn_fail_stopped(c->watch, error);
     }
     if (c->out_of_memory)
         return tn_fail_memory(error);

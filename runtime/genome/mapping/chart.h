@@ -67,6 +67,7 @@ typedef struct tn_chart {
     uint32_t expected[8]; /* words */
     size_t expected_count;
     bool out_of_memory, too_many;
+    tn_watch *watch; /* or NULL */
 } tn_chart;
 
 /* An ambiguous grammar meets its items again and again, in the worst case with the cube of the sentence's length: that

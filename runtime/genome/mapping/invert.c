@@ -293,6 +293,7 @@ tn_status tn_invert(const tn_grammar *grammar, const char *sentence, size_t size
         return tn_fail(error, TN_LIMIT, E_INVERT_LIMIT, "the sentence is longer than %u bytes, the limit",
                        UINT32_MAX / 2);
     tn_chart chart = {.grammar = grammar, .sentence = sentence, .size = size};
+    chart.watch = options->watch;
     chart.max_items = options->max_items ? options->max_items : TN_INVERT_ITEMS;
     tn_status status = TN_OK;
     if (grammar->dialect == TN_DIALECT_GE) {

@@ -7,12 +7,14 @@
 #ifndef TARTAN_GENOME_MAPPING_INVERT_H
 #define TARTAN_GENOME_MAPPING_INVERT_H
 
+#include "runtime/base/watch.h"
 #include "runtime/genome/mapping/genome.h"
 #include "runtime/grammar/grammar.h"
 
 typedef struct tn_invert_options {
     uint32_t max_depth; /* as in tn_mapping_options */
     size_t max_items;   /* parser states, a bound on time and memory; 0: TN_INVERT_ITEMS */
+    tn_watch *watch;    /* or NULL: parsing is given up (TN_STOPPED) once this says so; it is told bytes or tokens */
 } tn_invert_options;
 
 #define TN_INVERT_ITEMS 2000000u

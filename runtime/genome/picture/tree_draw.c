@@ -203,7 +203,7 @@ static tn_status draw(drawing *d, tn_picture *to, tn_error *error)
         status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         d->context = tn_canvas_context(canvas);
-        for (uint32_t i = 0; i < d->tree->count; i++)
+        for (uint32_t i = 0; i < d->tree->count && !tn_canvas_stopped(canvas); i++)
             if (drawn(d, i))
                 draw_node(d, i);
         status = tn_canvas_commit(canvas, error);

@@ -1,6 +1,6 @@
 #include "runtime/growth/environment/environment.h"
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 
 /* Within this of a boundary a vertex counts as on it. */
 #define TOUCH 1e-9

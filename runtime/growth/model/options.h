@@ -19,7 +19,6 @@ typedef struct tn_growth_options {
     bool explain;          /* count why branches did not join */
     uint64_t seed;         /* of weighted rules */
     uint64_t edge_limit;   /* most edges; 0: TN_EDGES_MAX */
-    uint64_t memory_limit; /* most bytes; 0: none */
     int threads;           /* 0: as many as the machine has */
     tn_watch *watch;       /* or NULL: a step gives up (TN_STOPPED) once this says so, and the map is then unusable */
 } tn_growth_options;

@@ -1,6 +1,7 @@
 /* What replaces each edge: numbers of its pieces, vertices and branches, its frame, the new vertices' positions and the
  * pieces' states. New edges are numbered: kept ones in their order, then pieces in the order of replacement. */
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,6 +206,32 @@ static void count(const tn_pass *pass, uint16_t chosen, uint64_t times, tn_rewri
     so_far->branches += times * template->branch_count;
 }
 
+static uint64_t lacking(const tn_pages *pages, uint64_t bytes)
+{
+    return bytes > pages->capacity ? bytes - pages->capacity : 0;
+}
+
+/* What the step needs beyond what the growth holds: the new map, and what it is made with. */
+static tn_status check_memory(const tn_growth *growth, const tn_rewrite_tally *total, uint64_t vertices, uint64_t edges,
+                              tn_error *error)
+{
+    const tn_growth_workspace *space = &growth->space;
+    const tn_pages *darts = &space->darts[!space->current];
+    uint64_t old = growth->map.edge_count;
+    uint64_t marks = lacking(&space->records, sizeof(tn_record) * old) +
+                     lacking(&space->joints, sizeof(uint32_t) * total->branches) +
+                     lacking(darts, 2 * sizeof(tn_edge_side) * old + sizeof(tn_aim) * total->branches);
+    uint64_t map = lacking(&space->positions, 3 * sizeof(double) * vertices) +
+                   lacking(&space->states[!space->current], sizeof(tn_edge_state) * edges) +
+                   lacking(darts, 4 * sizeof(uint32_t) * edges);
+    char what[32];
+    snprintf(what, sizeof what, "step %u", growth->steps + 1);
+    tn_status status = tn_watch_room(growth->options.watch, marks + map, what, error);
+    if (status == TN_LIMIT)
+        tn_error_help(error, "take fewer steps, or raise the limit with --memory-limit");
+    return status;
+}
+
 tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_error *error)
 {
     tn_growth *growth = pass->growth;
@@ -221,16 +248,9 @@ tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_
     }
     uint64_t vertices = (uint64_t)old->vertex_count + total->vertices;
     uint64_t most = edges + (total->branches + growth->pending.count) / 2;
-    uint64_t bytes = 3 * sizeof(double) * vertices + (sizeof(tn_edge_state) + 4 * sizeof(uint32_t)) * most +
-                     (sizeof(tn_aim) + sizeof(uint32_t)) * total->branches +
-                     (sizeof(tn_record) + 40) * (uint64_t)old->edge_count;
-    if (growth->options.memory_limit && bytes > growth->options.memory_limit) {
-        tn_fail(error, TN_LIMIT, E_GROWTH_MEMORY, "step %u would need about %llu MB of memory; the limit is %llu MB",
-                growth->steps + 1, (unsigned long long)(bytes >> 20),
-                (unsigned long long)(growth->options.memory_limit >> 20));
-        tn_error_help(error, "take fewer steps, or raise the limit with --memory-limit");
-        return TN_LIMIT;
-    }
+    tn_status status = check_memory(growth, total, vertices, most, error);
+    if (status != TN_OK)
+        return status;
     pass->vertices = (uint32_t)vertices;
     pass->edges = (uint32_t)edges;
     pass->branch_count = (uint32_t)total->branches;

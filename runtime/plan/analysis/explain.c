@@ -352,7 +352,9 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
 tn_status tn_explain_part(tn_explaining *e, tn_reader_of who, tn_stretch region, tn_asked asked, uint32_t parent,
                           uint32_t *node)
 {
-    tn_status status = add_node(e, who, region, parent, node);
+    tn_status status = tn_watch_check(e->result->schema->module->watch, e->error);
+    if (status == TN_OK)
+        status = add_node(e, who, region, parent, node);
     if (status == TN_OK)
         status = find(e, who, asked, *node);
     if (status != TN_OK)

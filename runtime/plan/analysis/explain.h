@@ -68,7 +68,8 @@ typedef struct tn_explanation {
     size_t tree_capacity;
 } tn_explanation;
 
-/* Explains a HOLDS function on a plan. max_length: see above; 0 is the default. Clear in any case. */
+/* Explains a HOLDS function on a plan. max_length: see above; 0 is the default. TN_STOPPED once
+ * the module's watch says so. Clear in any case. */
 tn_status tn_explain(const tn_schema *schema, uint32_t function, const tn_tray *trays, size_t length, size_t max_length,
                      tn_explanation *explanation, tn_error *error);
 void tn_explanation_clear(tn_explanation *explanation);

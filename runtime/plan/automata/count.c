@@ -1,6 +1,7 @@
 /* Counts words forward from the start, or backward from the end in rows. */
 #include "runtime/plan/automata/count.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -172,6 +173,13 @@ void tn_count_row_add(const tn_count_row *row, uint32_t state, uint64_t times, m
     mpz_addmul_ui(count, value, times);
 }
 
+uint64_t tn_count_to_come(size_t half, size_t limbs, uint32_t length, uint32_t max)
+{
+    double left = max > length ? max - length : 0, slope = 2 * (double)(limbs > half ? limbs - half : 0) / length;
+    double bytes = sizeof(mp_limb_t) * left * ((double)limbs + slope * left / 2);
+    return bytes < 0x1p63 ? (uint64_t)bytes : UINT64_MAX / 2;
+}
+
 /* ---- counts */
 
 /* How many words of the length reached lead to each state; only to those `active` there are any. */
@@ -256,11 +264,24 @@ uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max)
     return bits * max / 64 + 1;
 }
 
+/* GMP, which the counts are for, ends the program where it gets no memory. */
+static tn_status check_counts(tn_watch *watch, size_t half, size_t limbs, uint32_t length, uint32_t max,
+                              tn_error *error)
+{
+    char what[64];
+    snprintf(what, sizeof what, "counting the plans of up to %u trays", max);
+    tn_status status = tn_watch_room(watch, tn_count_to_come(half, limbs, length, max), what, error);
+    if (status == TN_LIMIT)
+        tn_error_help(error, "give fewer trays with --trays, or raise the limit with --memory-limit");
+    return status;
+}
+
 static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights, uint32_t max, mpz_t *counts,
-                                tn_error *error)
+                                tn_watch *watch, tn_error *error)
 {
     tn_edges edges = {0};
     tn_count_row row = {0};
+    size_t half = 1;
     tn_status status = tn_edges_make(&edges, sparse, weights, error);
     if (status == TN_OK)
         status = tn_count_row_first(&edges, &row, error);
@@ -270,6 +291,13 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
             tn_count_row_add(&row, 0, 1, counts[length]);
         if (length == max)
             break;
+        status = tn_watch_check(watch, error);
+        if (status == TN_OK && tn_count_forecasts(length))
+            status = check_counts(watch, half, row.limbs, length, max, error);
+        if (status != TN_OK)
+            break;
+        if (tn_count_forecasts(2 * length))
+            half = row.limbs;
         tn_count_row next = {0};
         status = tn_count_row_next(&edges, &row, &next, error);
         tn_count_row_clear(&row);
@@ -280,7 +308,8 @@ static tn_status count_backward(const tn_sparse *sparse, const uint64_t *weights
     return status;
 }
 
-tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_error *error)
+tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_watch *watch,
+                           tn_error *error)
 {
     uint64_t *weights = NULL;
     tn_status status = tn_column_weights(sizes, sparse->letters, sparse->column, sparse->columns, &weights, error);
@@ -288,13 +317,13 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint3
     if (status == TN_OK && sparse->folded && limbs <= TN_FORWARD_LIMBS_MAX)
         status = count_forward(sparse, weights, limbs, max, counts, error);
     else if (status == TN_OK)
-        status = count_backward(sparse, weights, max, counts, error);
+        status = count_backward(sparse, weights, max, counts, watch, error);
     free(weights);
     return status;
 }
 
 tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, mpz_t count,
-                         tn_error *error)
+                         tn_watch *watch, tn_error *error)
 {
     mpz_set_ui(count, 0);
     if (min > max)
@@ -304,7 +333,7 @@ tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_
         return tn_fail_memory(error);
     for (uint32_t length = 0; length <= max; length++)
         mpz_init(counts[length]);
-    tn_status status = tn_count_lengths(sparse, sizes, max, counts, error);
+    tn_status status = tn_count_lengths(sparse, sizes, max, counts, watch, error);
     for (uint32_t length = min; status == TN_OK && length <= max; length++)
         mpz_add(count, count, counts[length]);
     for (uint32_t length = 0; length <= max; length++)

@@ -53,6 +53,16 @@ tn_status tn_count_row_next(const tn_edges *edges, const tn_count_row *row, tn_c
 
 void tn_count_row_clear(tn_count_row *row);
 
+/* Bytes of the counts of one state for the lengths behind `length` and up to `max`, as far as their limbs grow as they
+ * did since half of that length, when there were `half`. Counts grow evenly in the long run: asked at powers of two
+ * (tn_count_forecasts), which are long enough. */
+uint64_t tn_count_to_come(size_t half, size_t limbs, uint32_t length, uint32_t max);
+
+static inline bool tn_count_forecasts(uint32_t length)
+{
+    return length >= 512 && (length & (length - 1)) == 0;
+}
+
 static inline const mp_limb_t *tn_count_row_at(const tn_count_row *row, uint32_t state)
 {
     return row->value + (size_t)state * row->limbs;
@@ -89,13 +99,14 @@ uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max)
 
 /* ---- counts of words; sizes: the symbols of each letter */
 
-/* How many words of each of the lengths 0..max the automaton accepts: counts is an initialised array of max + 1. */
-tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts,
+/* How many words of each of the lengths 0..max the automaton accepts: counts is an initialised array of max + 1. The
+ * watch, or NULL, can end it, and limits what the counts take (TN_LIMIT). */
+tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint32_t max, mpz_t *counts, tn_watch *watch,
                            tn_error *error);
 
 /* How many words of the lengths min..max. */
 tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_t min, uint32_t max, mpz_t count,
-                         tn_error *error);
+                         tn_watch *watch, tn_error *error);
 
 /* How many words of the lengths min..max `a` accepts and b accepts too (TN_DFA_AND) or does not (TN_DFA_MINUS): without
  * making their product (count_both.c). The bounds are of the pairs of states met; `what` names the product. */

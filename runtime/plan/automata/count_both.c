@@ -369,7 +369,7 @@ static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_opera
     tn_sparse *product = NULL;
     tn_status status = tn_sparse_combine(a, b, operation, what, bounds, &product, error);
     if (status == TN_OK)
-        status = tn_count_range(product, sizes, min, max, count, error);
+        status = tn_count_range(product, sizes, min, max, count, bounds->watch, error);
     tn_sparse_free(product);
     return status;
 }

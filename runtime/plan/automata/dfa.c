@@ -16,8 +16,8 @@ tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, 
                           tn_error *error)
 {
     bounds->work += work;
-    if (bounds->watch && tn_watch_stopped(bounds->watch))
-        return tn_fail(error, TN_STOPPED, TN_CODE_NONE, "stopped while the automaton of this %s was being made", what);
+    if (tn_watch_stopped(bounds->watch))
+        return tn_fail_stopped(bounds->watch, error);
     tn_status status = TN_OK;
     if (states > bounds->max_states)
         status = tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "the automaton of this %s passes the limit of %u states",

@@ -40,7 +40,8 @@ static tn_status count_both(const tn_library *library, mpz_t *counts, tn_error *
     for (size_t i = 0; status == TN_OK && i < library->record->clause_count; i++)
         status = apply_turned(library, lowering, i, &bounds, &both, error);
     if (status == TN_OK)
-        status = tn_count_lengths(both, library->classes->size, library->max, counts, error);
+        status =
+            tn_count_lengths(both, library->classes->size, library->max, counts, library->schema->module->watch, error);
     tn_sparse_free(both);
     tn_lowering_free(lowering);
     return status;
@@ -72,7 +73,8 @@ static tn_status take_palindromes(const tn_library *library, bool odd, mpz_t *co
     mpz_t *words = tn_integers_new((size_t)longest + 1);
     tn_status status = words ? make_halves(library, odd, longest, &halves, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_count_lengths(halves, library->classes->size, longest, words, error);
+        status =
+            tn_count_lengths(halves, library->classes->size, longest, words, library->schema->module->watch, error);
     for (uint32_t n = odd; status == TN_OK && n <= longest; n++)
         mpz_sub(counts[2 * n - odd], counts[2 * n - odd], words[n]);
     tn_sparse_free(halves);

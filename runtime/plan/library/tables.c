@@ -1,6 +1,8 @@
 /* The tables that a library is counted, ranked and enumerated with. */
+#include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/base/memory.h"
 #include "runtime/plan/library/library_data.h"
 
 #define PASSED_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB of marks at most */
@@ -16,6 +18,28 @@ static tn_status pass_table(const tn_library *library, uint64_t bytes, uint32_t 
     return TN_LIMIT;
 }
 
+/* What the rows to come will take, said before they are made. */
+static tn_status check_rows(const tn_library *library, uint64_t bytes, uint32_t left, tn_error *error)
+{
+    uint64_t coming = tn_count_to_come(library->rows[left / 2].limbs, library->rows[left].limbs, left, library->max);
+    uint64_t rows = coming > UINT64_MAX / 4 / library->kept->states ? UINT64_MAX / 4 : coming * library->kept->states;
+    char needed[32], limit[32], what[64];
+    tn_memory_write(bytes + rows, needed);
+    tn_memory_write(library->max_table, limit);
+    if (bytes + rows > library->max_table) {
+        tn_fail(error, TN_LIMIT, E_TABLE_TOO_LARGE,
+                "the table of counts for plans of up to %u trays would take about %s (%u states); the limit is %s",
+                library->max, needed, library->kept->states, limit);
+        tn_error_help(error, "give fewer trays with --trays, or leave out rules that multiply the states");
+        return TN_LIMIT;
+    }
+    snprintf(what, sizeof what, "the table of counts for plans of up to %u trays", library->max);
+    tn_status status = tn_watch_room(library->schema->module->watch, rows + 2 * coming, what, error); /* and totals */
+    if (status == TN_LIMIT)
+        tn_error_help(error, "give fewer trays with --trays, or raise the limit with --memory-limit");
+    return status;
+}
+
 static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error *error)
 {
     uint64_t bytes = (uint64_t)library->kept->states * library->kept->columns * sizeof *library->kept->delta;
@@ -25,6 +49,10 @@ static tn_status fill_rows(tn_library *library, const tn_edges *edges, tn_error 
         bytes += tn_count_row_bytes(edges, row) + edges->states * sizeof(double);
         if (status == TN_OK)
             status = pass_table(library, bytes, left, error);
+        if (status == TN_OK && left < library->max && tn_count_forecasts(left))
+            status = check_rows(library, bytes, left, error);
+        if (status == TN_OK)
+            status = tn_watch_check(library->schema->module->watch, error);
         if (status != TN_OK)
             return status;
     }
@@ -91,7 +119,8 @@ static tn_status make_totals(tn_library *library, tn_error *error)
         if (length >= library->min)
             tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
     }
-    return tn_count_lengths(library->generator, library->classes->size, library->max, library->generated, error);
+    return tn_count_lengths(library->generator, library->classes->size, library->max, library->generated,
+                            library->schema->module->watch, error);
 }
 
 /* Marks how many trays of each column have passed, every so many trays. */

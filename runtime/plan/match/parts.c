@@ -286,6 +286,19 @@ static tn_status read_function(reading *r, uint32_t function)
     return top(r)->kind == TN_PART_KIND_COUNT ? foreign(r, record->code_begin) : TN_OK;
 }
 
+/* Does a function H only call its own judgement M? A rule with parameters has no record: its two functions have one
+ * name. */
+static bool calls_own(const tn_module *module, uint32_t function, const tn_part *call)
+{
+    const tn_function_record *holds = &module->FUNCTION_records[function];
+    uint32_t own = tn_function_rule(module, function);
+    if (call->kind != TN_PART_RULE || call->rule != own)
+        return false;
+    const tn_function_record *whole = &module->FUNCTION_records[call->function];
+    return own != UINT32_MAX ||
+           (holds->kind == TN_FUNCTION_HOLDS && whole->kind == TN_FUNCTION_WHOLE && holds->name == whole->name);
+}
+
 /* The judgement H of a rule may be a call of its own judgement M: then that one's parts are the rule's. */
 static tn_status read_rule(reading *r, uint32_t function)
 {
@@ -293,8 +306,7 @@ static tn_status read_rule(reading *r, uint32_t function)
     if (status != TN_OK)
         return status;
     tn_part call = *top(r);
-    uint32_t own = tn_function_rule(r->module, function);
-    if (call.kind != TN_PART_RULE || call.rule != own || own == UINT32_MAX)
+    if (!calls_own(r->module, function, &call))
         return TN_OK;
     r->depth--;
     r->parts->count--;

@@ -141,6 +141,28 @@ bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
     return ok && (!*name || tn_buffer_printf(out, " %s", name));
 }
 
+bool tn_amount_write_about(tn_amount_unit unit, const mpq_t converted, tn_buffer *out)
+{
+    enum { SIGNIFICANT = 6 };
+    mpz_t scaled, whole;
+    mpz_inits(scaled, whole, NULL);
+    mpz_tdiv_q(whole, mpq_numref(converted), mpq_denref(converted));
+    int size = mpz_sgn(whole) ? (int)mpz_sizeinbase(whole, 10) : 0,
+        decimals = size < SIGNIFICANT ? SIGNIFICANT - size : 0;
+    mpz_ui_pow_ui(scaled, 10, (unsigned)decimals);
+    mpz_mul(scaled, scaled, mpq_numref(converted));
+    mpz_mul_2exp(scaled, scaled, 1);
+    mpz_add(scaled, scaled, mpq_denref(converted)); /* halves are rounded up */
+    mpz_mul_2exp(whole, mpq_denref(converted), 1);
+    mpz_fdiv_q(scaled, scaled, whole);
+    for (; decimals > 0 && mpz_divisible_ui_p(scaled, 10); decimals--)
+        mpz_divexact_ui(scaled, scaled, 10);
+    const char *name = tn_amount_unit_name(unit);
+    bool ok = put_decimal(scaled, decimals, true, out) && (!*name || tn_buffer_printf(out, " %s", name));
+    mpz_clears(scaled, whole, NULL);
+    return ok;
+}
+
 bool tn_amount_write_root(tn_amount_unit unit, const mpq_t square, tn_buffer *out)
 {
     mpq_t converted;

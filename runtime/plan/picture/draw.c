@@ -324,7 +324,7 @@ static double spread(double room, double cell, size_t count, double gap)
 }
 
 /* The page whose first cell is `first`. */
-static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t page, size_t pages)
+static void draw_page(const drawing *d, const tn_canvas *canvas, size_t first, size_t page, size_t pages)
 {
     size_t on_page = d->columns * d->rows, left = slots(d) - first, here = left < on_page ? left : on_page;
     size_t columns = here < d->columns ? here : d->columns, rows = columns ? (here + d->columns - 1) / d->columns : 0;
@@ -335,8 +335,9 @@ static void draw_page(const drawing *d, cairo_t *context, size_t first, size_t p
     double used_down = d->cell_height * (double)rows + row_gap * (rows ? (double)rows - 1 : 0);
     double x0 = MARGIN + INSET + fmax(0, (across - used) / 2);
     double y0 = MARGIN + INSET + (pages == 1 ? fmax(0, (down - used_down) / 2) : 0);
+    cairo_t *context = tn_canvas_context(canvas);
     draw_frame(d, context, page, pages);
-    for (size_t i = 0, slot = SIZE_MAX; i < d->count; i++) {
+    for (size_t i = 0, slot = SIZE_MAX; i < d->count && !tn_canvas_stopped(canvas); i++) {
         slot = next_slot(d, slot, &d->plans[i]);
         size_t at = slot - first; /* wraps where it is on an earlier page */
         if (at < here)
@@ -352,7 +353,7 @@ static tn_status draw_pages(const drawing *d, tn_canvas *canvas, tn_error *error
         tn_status status = page ? tn_canvas_page(canvas, d->width, d->height, error) : TN_OK;
         if (status != TN_OK)
             return status;
-        draw_page(d, tn_canvas_context(canvas), page * on_page, page + 1, pages);
+        draw_page(d, canvas, page * on_page, page + 1, pages);
     }
     return tn_canvas_commit(canvas, error);
 }

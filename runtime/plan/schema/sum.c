@@ -1,81 +1,167 @@
 /* Sums over plans: what their trays count, exactly, and then in whole steps. */
 #include "runtime/plan/schema/sum.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/module/code.h"
 #include "runtime/number/rational.h"
 
 /* ---- what a tray counts */
 
-static void operate(tn_opcode opcode, mpq_t lower, const mpq_t upper)
+/* A number on the stack. What has divided by zero has no value; nor has what is made of it. */
+typedef struct tally {
+    mpq_t value;
+    uint32_t divided; /* where in the code that was, or NOWHERE */
+} tally;
+
+static const uint32_t NOWHERE = UINT32_MAX;
+
+static void operate(tn_opcode opcode, tally *lower, const tally *upper, uint32_t offset)
 {
+    if (lower->divided == NOWHERE)
+        lower->divided = upper->divided;
     switch (opcode) {
     case TN_OP_PLUS:
-        mpq_add(lower, lower, upper);
+        mpq_add(lower->value, lower->value, upper->value);
         break;
     case TN_OP_MINUS:
-        mpq_sub(lower, lower, upper);
+        mpq_sub(lower->value, lower->value, upper->value);
         break;
     case TN_OP_TIMES:
-        mpq_mul(lower, lower, upper);
+        mpq_mul(lower->value, lower->value, upper->value);
         break;
     case TN_OP_OVER:
-        if (mpq_sgn(upper) == 0)
-            mpq_set_si(lower, 0, 1);
-        else
-            mpq_div(lower, lower, upper);
+        if (mpq_sgn(upper->value) != 0)
+            mpq_div(lower->value, lower->value, upper->value);
+        else if (lower->divided == NOWHERE)
+            lower->divided = offset;
         break;
     default: /* LESSER, LARGER */
-        if ((mpq_cmp(upper, lower) < 0) == (opcode == TN_OP_LESSER))
-            mpq_set(lower, upper);
+        if ((mpq_cmp(upper->value, lower->value) < 0) == (opcode == TN_OP_LESSER))
+            mpq_set(lower->value, upper->value);
         break;
     }
 }
 
 /* Runs one instruction; what has grown past all measure becomes 0, which tn_sum_new then refuses to have a step for. */
-static void run(const tn_schema *schema, const tn_instruction *op, tn_tray tray, mpq_t *stack, size_t *top)
+static void run(const tn_schema *schema, const tn_instruction *op, uint32_t offset, tn_tray tray, tally *stack,
+                size_t *top)
 {
     switch (op->opcode) {
     case TN_OP_FIGURE:
-        mpq_set_str(stack[(*top)++], tn_text(schema->module, (tn_string)op->first), 10);
+        stack[*top].divided = NOWHERE;
+        mpq_set_str(stack[(*top)++].value, tn_text(schema->module, (tn_string)op->first), 10);
         return;
     case TN_OP_EXTENT: {
         uint32_t field = (uint32_t)op->first - schema->record->field_first;
-        mpq_set_si(stack[(*top)++], tn_tray_value_record(schema, tray, field)->length, 1);
+        stack[*top].divided = NOWHERE;
+        mpq_set_si(stack[(*top)++].value, tn_tray_value_record(schema, tray, field)->length, 1);
         return;
     }
     case TN_OP_PICK:
         --*top;
-        if (tn_spec_meets(schema, (uint32_t)op->first, tray))
-            mpq_swap(stack[*top - 1], stack[*top]);
+        if (tn_spec_meets(schema, (uint32_t)op->first, tray)) {
+            mpq_swap(stack[*top - 1].value, stack[*top].value);
+            stack[*top - 1].divided = stack[*top].divided;
+        }
         return;
     default:
         --*top;
-        operate(op->opcode, stack[*top - 1], stack[*top]);
-        if (!tn_rational_fits(stack[*top - 1]))
-            mpq_set_si(stack[*top - 1], 0, 1);
+        operate(op->opcode, &stack[*top - 1], &stack[*top], offset);
+        if (!tn_rational_fits(stack[*top - 1].value))
+            mpq_set_si(stack[*top - 1].value, 0, 1);
         return;
     }
 }
 
-void tn_tally_value(const tn_schema *schema, uint32_t function, tn_tray tray, mpq_t value)
+/* The exact value of a tally function for a tray: in nanometres to its power. false, and 0, where it divides by zero:
+ * *divided is where. */
+static bool tally_value(const tn_schema *schema, uint32_t function, tn_tray tray, mpq_t value, uint32_t *divided)
 {
-    mpq_t stack[TN_TALLY_STACK_MAX];
+    tally stack[TN_TALLY_STACK_MAX];
     const tn_function_record *record = &schema->module->FUNCTION_records[function];
     size_t top = 0;
     for (uint32_t i = 0; i < record->stack_max; i++)
-        mpq_init(stack[i]);
+        mpq_init(stack[i].value);
     for (uint32_t offset = record->code_begin; offset < record->code_end;) {
         tn_instruction op = tn_code_read(schema->module->code, offset);
         if (op.opcode == TN_OP_TALLY)
             break;
-        run(schema, &op, tray, stack, &top);
+        run(schema, &op, offset, tray, stack, &top);
         offset += op.length;
     }
-    mpq_set(value, stack[0]);
+    *divided = stack[0].divided;
+    if (*divided == NOWHERE)
+        mpq_set(value, stack[0].value);
+    else
+        mpq_set_si(value, 0, 1);
     for (uint32_t i = 0; i < record->stack_max; i++)
-        mpq_clear(stack[i]);
+        mpq_clear(stack[i].value);
+    return *divided == NOWHERE;
+}
+
+/* ---- trays that a term does not count */
+
+enum { STACK = 64, WORK = 10000 };
+
+/* May a rule function match the tray alone? Decided of specifiers joined by `and`, `or`, `not` and calls; where there
+ * is more in it, or it takes long, it may. `work`: instructions that may still be run. */
+static bool may_match(const tn_schema *schema, uint32_t function, tn_tray tray, uint32_t *work)
+{
+    const tn_function_record *record = &schema->module->FUNCTION_records[function];
+    bool stack[STACK];
+    size_t top = 0;
+    if (record->stack_max > STACK)
+        return true;
+    for (uint32_t offset = record->code_begin;;) {
+        tn_instruction op = tn_code_read(schema->module->code, offset);
+        if (*work == 0)
+            return true;
+        --*work;
+        switch (op.opcode) {
+        case TN_OP_TRAY:
+            stack[top++] = tn_spec_meets(schema, (uint32_t)op.first, tray);
+            break;
+        case TN_OP_CALL:
+            stack[top++] = may_match(schema, (uint32_t)op.first, tray, work);
+            break;
+        case TN_OP_AND:
+            top--;
+            stack[top - 1] = stack[top - 1] && stack[top];
+            break;
+        case TN_OP_OR:
+            top--;
+            stack[top - 1] = stack[top - 1] || stack[top];
+            break;
+        case TN_OP_NOT:
+            stack[top - 1] = !stack[top - 1];
+            break;
+        case TN_OP_SOMEWHERE:
+            break;
+        case TN_OP_RETURN:
+            return stack[0];
+        default:
+            return true;
+        }
+        offset += op.length;
+    }
+}
+
+static tn_status divided_by_zero(const tn_schema *schema, uint32_t offset, tn_tray tray, tn_error *error)
+{
+    char text[200] = "";
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
+                 tn_text(schema->module, tn_tray_value_record(schema, tray, f)->spelling));
+    }
+    tn_fail(error, TN_INVALID, E_DIVIDED_BY_ZERO, "this divides by 0 for the tray `%s`", text);
+    tn_error_help(error, "say which trays are meant, after `of`: `sum(... of tray(...))`, or in a number's `where`");
+    if (error)
+        error->code_offset = offset;
+    return TN_INVALID;
 }
 
 /* ---- steps */
@@ -91,15 +177,16 @@ static const tn_term_record *term_of(const tn_sum *sum, uint32_t i)
     return &sum->schema->module->TERM_records[sum->record->term_first + i];
 }
 
-/* value := the number of tray t in term i. */
+/* value := the number of tray t in term i; of a tray that the term does not count it may be anything. */
 static void number(const tn_sum *sum, walk *w, uint32_t i, tn_tray t)
 {
+    uint32_t divided;
     const tn_term_record *term = term_of(sum, i);
     if (term->tally == TN_NO_RECORD) {
         mpq_set(w->value, w->factor);
         return;
     }
-    tn_tally_value(sum->schema, term->tally, t, w->value);
+    tally_value(sum->schema, term->tally, t, w->value, &divided);
     mpq_mul(w->value, w->value, w->factor);
 }
 
@@ -118,6 +205,22 @@ static tn_status too_fine(tn_error *error)
     tn_fail(error, TN_LIMIT, E_TOO_FINE, "the numbers of a sum have no step in common that they are few times of");
     tn_error_help(error, "use rounder numbers: prices in steps of 10 or 50, lengths in whole units");
     return TN_LIMIT;
+}
+
+/* No tray that is counted divides by zero. */
+static tn_status check_divisions(const tn_sum *sum, walk *w, tn_error *error)
+{
+    uint32_t divided;
+    for (uint32_t i = 0; i < sum->count; i++) {
+        const tn_term_record *term = term_of(sum, i);
+        for (tn_tray t = 0; term->tally != TN_NO_RECORD && t < sum->schema->tray_count; t++) {
+            uint32_t work = WORK;
+            if (!tally_value(sum->schema, term->tally, t, w->value, &divided) &&
+                may_match(sum->schema, term->part, t, &work))
+                return divided_by_zero(sum->schema, divided, t, error);
+        }
+    }
+    return TN_OK;
 }
 
 static tn_status find_unit(tn_sum *sum, walk *w, tn_error *error)
@@ -208,7 +311,9 @@ tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **out, tn_e
     walk w;
     mpz_inits(w.common, w.divisor, NULL);
     mpq_inits(w.value, w.factor, NULL);
-    tn_status status = sum->terms ? find_unit(sum, &w, error) : tn_fail_memory(error);
+    tn_status status = sum->terms ? check_divisions(sum, &w, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = find_unit(sum, &w, error);
     if (status == TN_OK) {
         find_divisor(sum, &w);
         status = fill(sum, &w, error);

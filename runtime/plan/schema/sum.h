@@ -27,11 +27,9 @@ typedef struct tn_sum {
     mpq_t unit;       /* a step, in nanometres to the sum's power; above 0 */
 } tn_sum;
 
-/* Makes the SUM record ready. E0424 (TN_LIMIT) where its numbers have no common step that is coarse enough. */
+/* Makes the SUM record ready. E0419 (TN_INVALID) where it divides by zero for a tray that it counts, E0424 (TN_LIMIT)
+ * where its numbers have no common step that is coarse enough. */
 tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **sum, tn_error *error);
 void tn_sum_free(tn_sum *sum);
-
-/* The exact value of a tally function for a tray: in nanometres to its power. `value` is initialised. */
-void tn_tally_value(const tn_schema *schema, uint32_t function, tn_tray tray, mpq_t value);
 
 #endif

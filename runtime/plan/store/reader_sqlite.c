@@ -33,15 +33,29 @@ static tn_status check_schema(tn_plan_reader *reader, tn_error *error)
     return code == SQLITE_NOMEM ? tn_fail_memory(error) : TN_OK;
 }
 
+/* From here on SQLite's locks keep other programs that use it from changing the file: a change is somebody's who writes
+ * over it. Where changes are logged beside the file (WAL), it changes by the way, and only SQLite can tell. */
+static tn_status begin_reading(tn_plan_reader *reader, tn_error *error)
+{
+    sqlite3_stmt *row = NULL;
+    if (sqlite3_exec(reader->database, "BEGIN; SELECT 1 FROM sqlite_master", NULL, NULL, NULL) != SQLITE_OK)
+        return failed(reader, error);
+    int code = sqlite3_prepare_v2(reader->database, "PRAGMA journal_mode", -1, &row, NULL);
+    bool told = code == SQLITE_OK && sqlite3_step(row) == SQLITE_ROW;
+    const char *mode = told ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    bool logged = !mode || strcmp(mode, "wal") == 0;
+    sqlite3_finalize(row);
+    reader->opened = logged ? (tn_file_state){0} : tn_file_state_of(reader->file);
+    return code == SQLITE_NOMEM ? tn_fail_memory(error) : TN_OK;
+}
+
 tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error)
 {
     if (reader->file == STDIN_FILENO)
         return tn_fail(error, TN_INVALID, E_PLAN_FILE,
                        "a SQLite library cannot be read from standard input: name its file");
-    close(reader->file);
-    reader->file = -1;
-    reader->opened = (tn_file_state){0}; /* SQLite's locks see to it that what is read is of one file */
-    /* Opened for writing where that is allowed, as SQLite must roll back what a killed writer left half done. */
+    /* The file stays open until the database is closed: closing it would give up SQLite's locks.
+     * Opened for writing where that is allowed, as SQLite must roll back what a killed writer left half done. */
     if (sqlite3_open_v2(reader->path, &reader->database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_PRIVATECACHE, NULL) !=
         SQLITE_OK)
         return reader->database ? failed(reader, error) : tn_fail_memory(error);
@@ -54,7 +68,9 @@ tn_status tn_reader_sqlite_open(tn_plan_reader *reader, tn_error *error)
     if (sqlite3_exec(reader->database, "PRAGMA query_only = 1; PRAGMA cell_size_check = 1", NULL, NULL, NULL) !=
         SQLITE_OK)
         return failed(reader, error);
-    tn_status status = check_schema(reader, error);
+    tn_status status = begin_reading(reader, error);
+    if (status == TN_OK)
+        status = check_schema(reader, error);
     if (status != TN_OK)
         return status;
     const char *select = "SELECT rank, plan, packed FROM plans ORDER BY number";
@@ -86,6 +102,8 @@ tn_status tn_reader_sqlite_next(tn_plan_reader *reader, bool *found, tn_error *e
 {
     int code = sqlite3_step(reader->rows);
     *found = code == SQLITE_ROW;
+    if (code != SQLITE_ROW && tn_plan_reader_unchanged(reader, error) != TN_OK)
+        return TN_IO;
     if (code == SQLITE_DONE)
         return TN_OK;
     if (code != SQLITE_ROW)

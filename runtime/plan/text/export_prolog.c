@@ -15,6 +15,7 @@ typedef struct writing {
     const tn_module *module;
     tn_buffer *out;
     bool ok;
+    bool *left_out; /* [rules]: they say what the prelude has no words for */
 } writing;
 
 static void put(writing *w, const char *text)
@@ -292,33 +293,43 @@ static void put_part(writing *w, const tn_parts *parts, uint32_t function, uint3
     put(w, ", !.\n");
 }
 
-/* What the predicates of the prelude have no words for. */
-static tn_status check_parts(const tn_parts *parts, tn_error *error)
+/* What the predicates of the prelude have no words for; NULL where they have words for all of it. *part is which. */
+static const char *no_words(const writing *w, const tn_parts *parts, uint32_t *part)
 {
-    for (uint32_t i = 0; i < parts->count; i++) {
-        const tn_part *part = &parts->parts[i];
-        bool call = part->kind == TN_PART_RULE && part->rule == UINT32_MAX;
-        if (!call && part->kind != TN_PART_COMPARISON)
-            continue;
-        tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "a rule with %s is not exported to Prolog",
-                                   call ? "a call of a rule with parameters" : "a comparison of sums");
-        tn_error_help(error, "it can be matched, explained, drawn and counted");
-        if (error)
-            error->code_offset = part->root;
-        return status;
+    for (*part = 0; *part < parts->count; ++*part) {
+        const tn_part *it = &parts->parts[*part];
+        if (it->kind == TN_PART_COMPARISON)
+            return "a comparison of sums";
+        if (it->kind == TN_PART_RULE && it->rule == UINT32_MAX)
+            return "a call of a rule with parameters";
+        if (it->kind == TN_PART_RULE && w->left_out[it->rule])
+            return "a rule that is not exported";
     }
-    return TN_OK;
+    return NULL;
 }
 
+static void put_parts(writing *w, const tn_parts *parts, uint32_t function)
+{
+    for (uint32_t part = 0; part < parts->count; part++)
+        put_part(w, parts, function, part);
+    put(w, "\n");
+}
+
+/* The function of a clause that is no rule of its own. */
 static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 {
     tn_parts parts;
+    uint32_t part;
     tn_status status = tn_parts_read(w->module, function, &parts, error);
-    if (status == TN_OK)
-        status = check_parts(&parts, error);
-    for (uint32_t part = 0; status == TN_OK && part < parts.count; part++)
-        put_part(w, &parts, function, part);
-    put(w, "\n");
+    const char *lacks = status == TN_OK ? no_words(w, &parts, &part) : NULL;
+    if (lacks) {
+        status = tn_fail(error, TN_INVALID, E_NO_PARTS, "a clause with %s is not exported to Prolog", lacks);
+        tn_error_help(error, "it can be matched, explained, drawn and counted");
+        if (error)
+            error->code_offset = parts.parts[part].root;
+    } else if (status == TN_OK) {
+        put_parts(w, &parts, function);
+    }
     tn_parts_clear(&parts);
     return status;
 }
@@ -339,17 +350,44 @@ static void put_own_name(writing *w, const tn_rule_record *rule)
     put(w, "(W, 0, N), !.\n\n");
 }
 
-static tn_status put_rule(writing *w, const tn_rule_record *rule, tn_error *error)
+static void put_heading(writing *w, const tn_rule_record *rule, const char *lacks)
 {
     const char *name = tn_text(w->module, rule->name), *doc = tn_text(w->module, rule->doc);
     put(w, "% ---- ");
     put(w, name);
     put(w, *doc ? ": " : "");
     put_comment(w, doc);
+    if (lacks) {
+        put(w, "\n% left out, as it has ");
+        put(w, lacks);
+        put(w, "\n");
+    }
     put(w, "\n");
-    put_own_name(w, rule);
-    tn_status status = put_function(w, rule->whole, error);
-    return status == TN_OK ? put_function(w, rule->holds, error) : status;
+}
+
+static tn_status put_rule(writing *w, uint32_t index, tn_error *error)
+{
+    const tn_rule_record *rule = &w->module->RULE_records[index];
+    tn_parts whole = {0}, holds = {0};
+    uint32_t part;
+    tn_status status = tn_parts_read(w->module, rule->whole, &whole, error);
+    if (status == TN_OK)
+        status = tn_parts_read(w->module, rule->holds, &holds, error);
+    if (status == TN_OK) {
+        const char *lacks = no_words(w, &whole, &part);
+        if (!lacks)
+            lacks = no_words(w, &holds, &part);
+        put_heading(w, rule, lacks);
+        w->left_out[index] = lacks != NULL;
+        if (!lacks) {
+            put_own_name(w, rule);
+            put_parts(w, &whole, rule->whole);
+            put_parts(w, &holds, rule->holds);
+        }
+    }
+    tn_parts_clear(&whole);
+    tn_parts_clear(&holds);
+    return status;
 }
 
 /* Every rule by its name as an atom. */
@@ -358,7 +396,7 @@ static void put_rule_names(writing *w)
     put(w, "% ---- rules by name\n:- dynamic(rule_part/2).\n");
     for (size_t i = 0; i < w->module->RULE_count; i++) {
         const tn_rule_record *rule = &w->module->RULE_records[i];
-        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record)
+        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record || w->left_out[i])
             continue;
         put(w, "rule_part(");
         put_atom(w, tn_text(w->module, rule->name), NULL);
@@ -381,6 +419,19 @@ static void put_clause(writing *w, const tn_library_record *library, const tn_cl
     put(w, ").\n");
 }
 
+/* A library is nothing without one of its clauses. */
+static tn_status check_clause(const writing *w, const tn_clause_record *clause, tn_error *error)
+{
+    uint32_t rule = tn_function_rule(w->module, clause->holds);
+    if (rule == UINT32_MAX || !w->left_out[rule])
+        return TN_OK;
+    tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "the rule `%s` of a clause is not exported to Prolog",
+                               tn_text(w->module, w->module->RULE_records[rule].name));
+    tn_error_help(error,
+                  "it compares sums or calls a rule with parameters: it can be matched, explained, drawn and counted");
+    return status;
+}
+
 static tn_status put_libraries(writing *w, tn_error *error)
 {
     const tn_module *module = w->module;
@@ -397,8 +448,10 @@ static tn_status put_libraries(writing *w, tn_error *error)
         put_atom(w, tn_text(module, library->name), NULL);
         w->ok =
             w->ok && tn_buffer_printf(w->out, ", %" PRIu32 ", %" PRIu32 ").\n", library->trays_min, library->trays_max);
-        for (uint32_t i = 0; i < library->clause_count; i++)
+        for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++) {
             put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
+            status = check_clause(w, &module->CLAUSE_records[library->clause_first + i], error);
+        }
     }
     put(w, "\nprune_plan(Library, Clause, Trays) :-\n"
            "    plan_of(Trays, W), W = w(N, _), prune_clause(Library, Clause, Part), call(Part, W, 0, N).\n"
@@ -433,26 +486,63 @@ static void put_lengths(writing *w)
     put(w, "\n");
 }
 
+static void put_beginning(writing *w)
+{
+    const tn_schema *schema = w->schema;
+    put(w, "% Trays of schema ");
+    put(w, tn_text(w->module, schema->record->name));
+    put(w, ": tray(");
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        put(w, f ? ", " : "");
+        put(w, tn_text(w->module, schema->fields[f].name));
+    }
+    put(w, ").\n\n");
+    put(w, tn_prolog_prelude);
+    put(w, "\n");
+    put_lengths(w);
+}
+
+/* Rules are numbered in the order in which they are written down: what one calls may come after it. */
+static tn_status put_rules(writing *w, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < w->module->RULE_count; i++)
+        if (&w->module->SCHEMA_records[w->module->RULE_records[i].schema] == w->schema->record)
+            status = put_rule(w, i, error);
+    return status;
+}
+
+/* Marks the rules that are left out, and those that call one, until there are no more. */
+static tn_status find_left_out(writing *w, tn_error *error)
+{
+    tn_buffer nothing = {0}, *out = w->out;
+    tn_status status = TN_OK;
+    w->out = &nothing;
+    for (uint32_t before = 1, found = 0; status == TN_OK && found != before;) {
+        before = found;
+        found = 0;
+        nothing.size = 0;
+        status = put_rules(w, error);
+        for (uint32_t i = 0; i < w->module->RULE_count; i++)
+            found += w->left_out[i];
+    }
+    free(nothing.data);
+    w->out = out;
+    return status;
+}
+
 tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *error)
 {
-    writing w = {schema, schema->module, out, true};
-    tn_status status = TN_OK;
-    put(&w, "% Trays of schema ");
-    put(&w, tn_text(w.module, schema->record->name));
-    put(&w, ": tray(");
-    for (uint32_t f = 0; f < schema->field_count; f++) {
-        put(&w, f ? ", " : "");
-        put(&w, tn_text(w.module, schema->fields[f].name));
-    }
-    put(&w, ").\n\n");
-    put(&w, tn_prolog_prelude);
-    put(&w, "\n");
-    put_lengths(&w);
-    for (size_t i = 0; status == TN_OK && i < w.module->RULE_count; i++)
-        if (&w.module->SCHEMA_records[w.module->RULE_records[i].schema] == schema->record)
-            status = put_rule(&w, &w.module->RULE_records[i], error);
+    writing w = {schema, schema->module, out, true, calloc(schema->module->RULE_count + 1, sizeof(bool))};
+    if (!w.left_out)
+        return tn_fail_memory(error);
+    put_beginning(&w);
+    tn_status status = find_left_out(&w, error);
+    if (status == TN_OK)
+        status = put_rules(&w, error);
     put_rule_names(&w);
     if (status == TN_OK)
         status = put_libraries(&w, error);
+    free(w.left_out);
     return status == TN_OK && !w.ok ? tn_fail_memory(error) : status;
 }

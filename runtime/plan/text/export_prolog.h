@@ -10,8 +10,9 @@
 
 #include "runtime/plan/text/text.h"
 
-/* Appends the program of all rules and libraries of the schema's module that are about this schema. Errors as in
- * tn_parts_read. */
+/* Appends the program of all rules and libraries of the schema's module that are about this schema. Rules that compare
+ * sums or call rules with parameters are left out, and those that name such a rule; a comment says so. E_NO_PARTS where
+ * a library's clause is one of these. Other errors as in tn_parts_read. */
 tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *error);
 
 #endif

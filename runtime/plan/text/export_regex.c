@@ -215,13 +215,20 @@ static void eliminate_all(elimination *e)
     free(gone);
 }
 
+static tn_status too_large(const tn_dfa *dfa, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+            "the automaton has %u classes of trays and %u states; a pattern has at most %u letters and %u states",
+            dfa->columns, dfa->states, TN_REGEX_LETTERS_MAX, TN_REGEX_LENGTH_MAX);
+    tn_error_help(error, "a rule that tells fewer kinds of trays apart, or counts less far, may have a pattern");
+    return TN_LIMIT;
+}
+
 tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
 {
     elimination e = {.count = dfa->states};
     if (dfa->columns > TN_REGEX_LETTERS_MAX || dfa->states > TN_REGEX_LENGTH_MAX)
-        return tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
-                       "the automaton has %u classes of trays and %u states; a pattern has at most %u letters",
-                       dfa->columns, dfa->states, TN_REGEX_LETTERS_MAX);
+        return too_large(dfa, error);
     size_t all = (size_t)e.count + 2;
     e.between = calloc(all * all, sizeof *e.between);
     if (!e.between)

@@ -37,7 +37,7 @@ static void explains(void **state)
     tartan_part part = tartan_part_init();
     tartan_error error;
     uint32_t trays[] = {0, 1, 3};
-    assert_int_equal(tartan_explain_library(module, NULL, trays, 3, &why, &error), TARTAN_OK);
+    assert_int_equal(tartan_explain_library(module, NULL, trays, 3, NULL, &why, &error), TARTAN_OK);
     memset(trays, 0, sizeof trays); /* they were copied */
     assert_false(tartan_explanation_kept(why) || tartan_explanation_length_drops(why));
     assert_int_equal(tartan_explanation_count(why), 1);
@@ -64,16 +64,16 @@ static void explains(void **state)
     tartan_explanation_free(why);
     why = NULL;
     const char *names[] = {"wide", "pair"};
-    assert_int_equal(tartan_explain_rules(module, names, 2, (uint32_t[]){2}, 1, &why, &error), TARTAN_OK);
+    assert_int_equal(tartan_explain_rules(module, names, 2, (uint32_t[]){2}, 1, NULL, &why, &error), TARTAN_OK);
     assert_int_equal(tartan_explanation_verdict(why, 0, &verdict, &error), TARTAN_OK);
     assert_true(verdict.matches && !verdict.drops);
     assert_int_equal(tartan_explanation_verdict(why, 1, &verdict, &error), TARTAN_OK);
     assert_false(verdict.matches);
     tartan_explanation_free(why);
     why = NULL;
-    assert_int_equal(tartan_explain_rules(module, NULL, 0, (uint32_t[]){4}, 1, &why, &error), TARTAN_INVALID);
-    assert_int_equal(tartan_explain_rules(module, NULL, 0, NULL, 1, &why, &error), TARTAN_INVALID);
-    assert_int_equal(tartan_explain_library(NULL, NULL, NULL, 0, &why, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_explain_rules(module, NULL, 0, (uint32_t[]){4}, 1, NULL, &why, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_explain_rules(module, NULL, 0, NULL, 1, NULL, &why, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_explain_library(NULL, NULL, NULL, 0, NULL, &why, &error), TARTAN_INVALID);
     assert_null(why);
 
     tartan_near *near = NULL;
@@ -193,7 +193,7 @@ static void draws_plans(void **state)
     static const char *const begins[] = {"<?xml", "\x89PNG", "%PDF"};
     for (int format = TARTAN_SVG; format <= TARTAN_PDF; format++) {
         assert_int_equal(
-            tartan_plans_draw(schema, trays, ends, 2, (tartan_picture_format)format, NULL, &bytes, &size, &error),
+            tartan_plans_draw(schema, trays, ends, 2, (tartan_picture_format)format, NULL, NULL, &bytes, &size, &error),
             TARTAN_OK);
         assert_memory_equal(bytes, begins[format], strlen(begins[format]));
         tartan_bytes_free(bytes);
@@ -201,11 +201,12 @@ static void draws_plans(void **state)
     }
     tartan_plans_drawing drawing = tartan_plans_drawing_init();
     drawing.paper = "napkin";
-    assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_SVG, &drawing, &bytes, &size, &error),
+    assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_SVG, &drawing, NULL, &bytes, &size, &error),
                      TARTAN_INVALID);
-    assert_int_equal(tartan_plans_draw(schema, trays, wrong, 2, TARTAN_SVG, NULL, &bytes, &size, &error),
+    assert_int_equal(tartan_plans_draw(schema, trays, wrong, 2, TARTAN_SVG, NULL, NULL, &bytes, &size, &error),
                      TARTAN_INVALID);
-    assert_int_equal(tartan_plans_draw(NULL, trays, ends, 2, TARTAN_SVG, NULL, &bytes, &size, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_plans_draw(NULL, trays, ends, 2, TARTAN_SVG, NULL, NULL, &bytes, &size, &error),
+                     TARTAN_INVALID);
     assert_null(bytes);
     tartan_rules_free(rules);
     tartan_module_free(module);

@@ -50,7 +50,7 @@ static void maps_and_inverts(void **state)
     assert_true(nodes[count - 1].kind == TARTAN_NODE_TERMINAL && nodes[count - 1].text[0] == '3');
     void *bytes;
     size_t size;
-    assert_int_equal(tartan_derivation_draw(mapper, TARTAN_SVG, &bytes, &size, &error), TARTAN_OK);
+    assert_int_equal(tartan_derivation_draw(mapper, TARTAN_SVG, NULL, &bytes, &size, &error), TARTAN_OK);
     assert_memory_equal(bytes, "<?xml", 5);
     tartan_bytes_free(bytes);
     assert_int_equal(tartan_map(mapper, codons, 1, NULL, &mapping, &error), TARTAN_OK);
@@ -58,11 +58,11 @@ static void maps_and_inverts(void **state)
     assert_int_equal(tartan_mapper_nodes(mapper, &nodes, &count, &error), TARTAN_INVALID);
 
     uint64_t *found;
-    assert_int_equal(tartan_invert(grammar, "3102", 4, 0, &found, &count, &error), TARTAN_OK);
+    assert_int_equal(tartan_invert(grammar, "3102", 4, 0, NULL, &found, &count, &error), TARTAN_OK);
     assert_int_equal(tartan_map(mapper, found, count, NULL, &mapping, &error), TARTAN_OK);
     assert_string_equal(mapping.sentence, "3102");
     tartan_bytes_free(found);
-    assert_int_equal(tartan_invert(grammar, "31x2", 4, 0, &found, &count, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_invert(grammar, "31x2", 4, 0, NULL, &found, &count, &error), TARTAN_INVALID);
     assert_int_equal(error.column, 3);
     char *derivations;
     bool by_codons = true;

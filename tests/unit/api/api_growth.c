@@ -246,7 +246,7 @@ static void writes_files_in_memory(void **state)
         void *bytes = NULL;
         size_t size = 0;
         tartan_error error;
-        if (tartan_mesh_write(mesh, (tartan_mesh_format)format, &style, &bytes, &size, &error) != TARTAN_OK)
+        if (tartan_mesh_write(mesh, (tartan_mesh_format)format, &style, NULL, &bytes, &size, &error) != TARTAN_OK)
             fail_msg("format %d: %s", format, error.message);
         assert_true(size > 100);
         if (begins[format] && format != TARTAN_DXF)
@@ -259,7 +259,8 @@ static void writes_files_in_memory(void **state)
         size_t sizes[2];
         for (int i = 0; i < 2; i++)
             assert_int_equal(
-                tartan_growth_draw(growth, (tartan_picture_format)format, NULL, &bytes[i], &sizes[i], NULL), TARTAN_OK);
+                tartan_growth_draw(growth, (tartan_picture_format)format, NULL, NULL, &bytes[i], &sizes[i], NULL),
+                TARTAN_OK);
         assert_memory_equal(bytes[0], pictures[format], strlen(pictures[format]));
         assert_true(sizes[0] == sizes[1] && memcmp(bytes[0], bytes[1], sizes[0]) == 0);
         tartan_bytes_free(bytes[0]);
@@ -312,7 +313,8 @@ static void refuses_misuse(void **state)
     assert_int_equal(tartan_growth_grow(growth, 1, &unset, &error), TARTAN_INVALID);
     void *bytes;
     size_t size;
-    assert_int_equal(tartan_growth_draw(growth, (tartan_picture_format)9, NULL, &bytes, &size, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_growth_draw(growth, (tartan_picture_format)9, NULL, NULL, &bytes, &size, &error),
+                     TARTAN_INVALID);
     tartan_growth_free(growth);
 
     tartan_mesh *mesh = NULL;

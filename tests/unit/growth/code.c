@@ -331,7 +331,7 @@ static void grow_both_ways(const tn_module *module, uint32_t steps)
     tn_study study;
     tn_error error;
     assert_int_equal(tn_growth_system_read(module, &system, &error), TN_OK);
-    assert_int_equal(tn_study_read(module, "t.study", tn_openmesh_read, &study, &error), TN_OK);
+    assert_int_equal(tn_study_read(module, "t.study", &tn_openmesh_reader, &study, &error), TN_OK);
     tn_growth *growths[2];
     study.options.edge_limit = 400;
     study.options.threads = 1;

@@ -11,13 +11,14 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/memory.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 #include "runtime/load.h"
-#include "tests/support/compile_file.h"
 #include "runtime/mesh/openmesh.h"
+#include "tests/support/compile_file.h"
 
 typedef struct grown {
     tn_compilation compilation;
@@ -40,7 +41,7 @@ static void plant_text(grown *g, const char *path, const char *text)
     if (status == TN_OK)
         status = tn_growth_system_read(g->module, &g->system, &error);
     if (status == TN_OK)
-        status = tn_study_read(g->module, path, tn_openmesh_read, &g->study, &error);
+        status = tn_study_read(g->module, path, &tn_openmesh_reader, &g->study, &error);
     if (status == TN_OK)
         status = tn_growth_new(g->system, &g->study.environment, &g->study.options, &g->growth, &error);
     if (status != TN_OK)
@@ -286,13 +287,16 @@ static void test_limits_stop_a_step(void **state)
     uproot(&g);
 
     plant_text(&g, "t.study", "rules \"square\"");
-    g.study.options.memory_limit = 10000;
+    tn_watch watch = {.memory_limit = tn_memory_used() + (16 << 20)};
+    g.study.options.watch = &watch;
     replant(&g);
     tn_status status = TN_OK;
-    for (int n = 0; n < 6 && status == TN_OK; n++)
+    for (int n = 0; n < 12 && status == TN_OK; n++)
         status = tn_growth_step(g.growth, &error);
     assert_int_equal(status, TN_LIMIT);
-    assert_int_equal(error.code, 841);
+    assert_int_equal(error.code, E_MEMORY_LIMIT);
+    assert_true(tn_memory_used() <= watch.memory_limit);
+    g.study.options.watch = NULL;
     uproot(&g);
 
     plant_text(&g, "t.study", "rules \"square\" scale 1e11");

@@ -45,7 +45,7 @@ static void plant(pair *p, const char *path, const char *text)
     if (status == TN_OK)
         status = tn_growth_system_read(p->module, &p->system, &error);
     if (status == TN_OK)
-        status = tn_study_read(p->module, path, tn_openmesh_read, &p->study, &error);
+        status = tn_study_read(p->module, path, &tn_openmesh_reader, &p->study, &error);
     if (status != TN_OK)
         fail_msg("%s\n%s", error.message, text);
 }

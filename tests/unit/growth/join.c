@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/base/random.h"
 #include "runtime/growth/join/join.h"
 

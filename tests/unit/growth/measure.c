@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"
@@ -49,7 +49,7 @@ static double value_of(const char *expression, const tn_fitness *fitness)
     tn_error error;
     snprintf(text, sizeof text, "rules \"square\"\nfitness x = %s", expression);
     tn_module *module = compile(text);
-    assert_int_equal(tn_study_read(module, "t.study", tn_openmesh_read, &study, &error), TN_OK);
+    assert_int_equal(tn_study_read(module, "t.study", &tn_openmesh_reader, &study, &error), TN_OK);
     assert_int_equal(study.goal.named_count, 1);
     assert_string_equal(study.goal.named[0].name, "x");
     double value = tn_named_value(&study.goal.named[0], fitness);
@@ -130,7 +130,7 @@ static void test_they_are_goals_like_others(void **state)
     tn_error error;
     tn_module *module = compile("rules \"square\"\nfitness slope = undulation / size target 0.5 weight 4\n"
                                 "fitness size target 10 weight 2\nfitness cells = faces target 62");
-    assert_int_equal(tn_study_read(module, "t.study", tn_openmesh_read, &study, &error), TN_OK);
+    assert_int_equal(tn_study_read(module, "t.study", &tn_openmesh_reader, &study, &error), TN_OK);
     double slope = 4 * (0.25 / 1), size = 2 * (2.0 / 10), cells = 31.0 / 62;
     assert_true(tn_fitness_part(&hilly, &study.goal, TN_TERM_SIZE, 1) == size);
     assert_true(tn_fitness_part(&hilly, &study.goal, TN_FITNESS_TERM_COUNT, 1) == slope);
@@ -166,7 +166,7 @@ static void test_changed_code(void **state)
                 continue;
             }
             tn_study study;
-            if (tn_study_read(module, "t.study", tn_openmesh_read, &study, &error) == TN_OK)
+            if (tn_study_read(module, "t.study", &tn_openmesh_reader, &study, &error) == TN_OK)
                 tn_named_value(&study.goal.named[0], &hilly);
             tn_study_clear(&study);
             tn_module_free(module);

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/number/run.h"
 #include "runtime/number/sentence.h"
 #include "tests/support/test_expression.h"

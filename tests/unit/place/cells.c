@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
+#include "runtime/base/memory.h"
 #include "runtime/place/bounds.h"
 #include "runtime/place/mersenne.h"
 
@@ -57,7 +58,7 @@ static void test_boxes(void **state)
 {
     (void)state;
     tn_error error;
-    tn_cells *cells = tn_cells_new(UINT64_C(1) << 30);
+    tn_cells *cells = tn_cells_new(NULL);
     uint64_t random = 1, count = 0;
     memset(filled, 0, sizeof filled);
     for (int turn = 0; turn < 4000; turn++) {
@@ -116,14 +117,14 @@ static void test_bounds(void **state)
     (void)state;
     tn_error error;
     for (int32_t r = -2; r <= 20; r++) {
-        tn_cells *cells = tn_cells_new(UINT64_C(1) << 30);
+        tn_cells *cells = tn_cells_new(NULL);
         assert_int_equal(tn_bound_ball(cells, r, &error), TN_OK);
         compare(cells, in_ball, (int32_t[]){r, 0, 0});
         tn_cells_free(cells);
     }
     const int32_t sizes[][3] = {{0, 0, 0}, {1, 2, 3}, {8, 9, 8}, {-1, 4, 4}, {20, 0, 7}, {-5, -5, -5}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        tn_cells *cells = tn_cells_new(UINT64_C(1) << 30);
+        tn_cells *cells = tn_cells_new(NULL);
         tn_step step = {.kind = TN_STEP_BOUND_BOX, .a = {sizes[i][0], sizes[i][1], sizes[i][2]}};
         tn_frame frame = {0};
         assert_int_equal(tn_bound_box(cells, &frame, &step, &error), TN_OK);
@@ -132,14 +133,19 @@ static void test_bounds(void **state)
     }
 }
 
+/* More cells than any machine has room for. */
 static void test_memory_limit(void **state)
 {
     (void)state;
     tn_error error;
-    tn_cells *cells = tn_cells_new(1 << 16);
-    tn_cell_box box = {{0, 0, 0}, {1 << 20, 1, 1}};
-    assert_int_equal(tn_cells_fill(cells, &box, &error), TN_LIMIT);
-    assert_int_equal(error.code, E_PLACE_MEMORY);
+    tn_watch watch;
+    tn_watch_begin(&watch, NULL, NULL);
+    watch.memory_limit = tn_memory_used() + (32 << 20);
+    tn_cells *cells = tn_cells_new(&watch);
+    tn_cell_box box = {{0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}};
+    assert_int_equal(tn_cells_fill(cells, &box, &error), TN_STOPPED);
+    assert_int_equal(error.code, E_MEMORY_LIMIT);
+    assert_true(tn_memory_used() < watch.memory_limit + (128 << 20));
     tn_cells_free(cells);
 }
 

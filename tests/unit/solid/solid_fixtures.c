@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
 #include "runtime/geometry/union/union.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
 
 static double real(const json_t *value)

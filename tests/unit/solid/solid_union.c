@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/numeric.h"
 #include "runtime/base/random.h"
 #include "runtime/geometry/union/union.h"
+#include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
 
 enum { BOXES = 12 };
@@ -110,6 +110,110 @@ static void check_edges(const tn_mesh *mesh)
     free(back);
 }
 
+typedef struct spoke {
+    uint32_t vertex, from, to; /* a triangle at a vertex: the two others, counter-clockwise */
+} spoke;
+
+static int by_vertex(const void *a, const void *b)
+{
+    const spoke *x = a, *y = b;
+    return (x->vertex > y->vertex) - (x->vertex < y->vertex);
+}
+
+/* The triangles at each vertex go round it once, all of them. */
+static void check_umbrellas(const tn_mesh *mesh)
+{
+    size_t count = 3 * mesh->face_count;
+    spoke *spokes = malloc((count + 1) * sizeof *spokes);
+    for (size_t c = 0; c < count; c++) {
+        size_t f = c - c % 3;
+        spokes[c] = (spoke){mesh->corners[c], mesh->corners[f + (c + 1) % 3], mesh->corners[f + (c + 2) % 3]};
+    }
+    qsort(spokes, count, sizeof *spokes, by_vertex);
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        uint32_t at = spokes[begin].from;
+        size_t steps = 0;
+        for (end = begin; end < count && spokes[end].vertex == spokes[begin].vertex;)
+            end++;
+        do {
+            size_t i = begin;
+            while (i < end && spokes[i].from != at)
+                i++;
+            assert_true(i < end);
+            at = spokes[i].to;
+            steps++;
+        } while (at != spokes[begin].from && steps <= end - begin);
+        assert_int_equal(steps, end - begin);
+    }
+    free(spokes);
+}
+
+static uint32_t root(uint32_t *parent, uint32_t x)
+{
+    while (parent[x] != x)
+        x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+static double volume_under(const tn_mesh *mesh, size_t face)
+{
+    const double *a = mesh->positions + 3 * (size_t)mesh->corners[3 * face],
+                 *b = mesh->positions + 3 * (size_t)mesh->corners[3 * face + 1],
+                 *c = mesh->positions + 3 * (size_t)mesh->corners[3 * face + 2];
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Pieces of the mesh that hold a volume; hollows, whose surface is turned inside, do not count. */
+static size_t count_pieces(const tn_mesh *mesh)
+{
+    uint32_t *parent = malloc((mesh->vertex_count + 1) * sizeof *parent);
+    double *volume = calloc(mesh->vertex_count + 1, sizeof *volume);
+    size_t pieces = 0;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        parent[v] = v;
+    for (size_t c = 0; c < 3 * mesh->face_count; c++)
+        parent[root(parent, mesh->corners[c])] = root(parent, mesh->corners[c % 3 == 2 ? c - 2 : c + 1]);
+    for (size_t f = 0; f < mesh->face_count; f++)
+        volume[root(parent, mesh->corners[3 * f])] += volume_under(mesh, f);
+    for (size_t v = 0; v < mesh->vertex_count; v++)
+        pieces += volume[v] > 0;
+    free(parent);
+    free(volume);
+    return pieces;
+}
+
+/* Cells that share area, however little. */
+static size_t count_parts(const tn_union *u, const tn_cut_box *cells, size_t count)
+{
+    uint32_t *parent = malloc((count + 1) * sizeof *parent);
+    size_t parts = 0;
+    for (uint32_t i = 0; i < count; i++)
+        parent[i] = i;
+    for (size_t i = 0; i < u->contact_count; i++)
+        parent[root(parent, u->contacts[i].a)] = root(parent, u->contacts[i].b);
+    for (uint32_t i = 0; i < count; i++)
+        parts += cells[i].face_count > 0 && root(parent, i) == i;
+    free(parent);
+    return parts;
+}
+
+/* Each image is the box as it is written with the signs turned round, to the last bit. */
+static void check_symmetry(const tn_design *design, const tn_cut_box *cells)
+{
+    uint32_t n = design->box_count;
+    for (uint32_t i = 0; i < n * tn_design_images(design); i++) {
+        uint32_t image = tn_design_image(design, i / n);
+        const tn_cut_box *own = &cells[i % n], *other = &cells[i];
+        assert_int_equal(own->corner_count, other->corner_count);
+        for (int k = 0; k < 3 && own->corner_count; k++) {
+            bool turned = image >> k & 1;
+            assert_true(other->low[k] == (turned ? -own->high[k] : own->low[k]));
+            for (uint32_t v = 0; v < own->corner_count; v++)
+                assert_true(other->at[v][k] == (turned ? -own->at[v][k] : own->at[v][k]));
+        }
+    }
+}
+
 /* Is a * b exactly c * d? Products with what rounding left out. */
 static bool equal_products(double a, double b, double c, double d)
 {
@@ -162,7 +266,12 @@ static void check_design(uint64_t seed)
     check_apart(cells, &design, count);
     if (tn_union_make(cells, count, &u, &error) != TN_OK)
         fail_msg("design %llu: %s", (unsigned long long)seed, error.message);
+    check_symmetry(&design, cells);
     check_edges(&u.mesh);
+    check_umbrellas(&u.mesh);
+    if (u.doubled == 0 && count_pieces(&u.mesh) != count_parts(&u, cells, count))
+        fail_msg("design %llu: %zu pieces, %zu parts", (unsigned long long)seed, count_pieces(&u.mesh),
+                 count_parts(&u, cells, count));
     double volume = volume_of(&u.mesh);
     if (!(fabs(volume - moments.volume) <= 1e-9 * (1 + moments.volume)))
         fail_msg("design %llu: the mesh holds %.17g, the cells %.17g", (unsigned long long)seed, volume,

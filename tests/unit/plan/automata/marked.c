@@ -150,7 +150,7 @@ static void test_words_are_counted_by_their_symbols(void **state)
     assert_int_equal(tn_marked_chain(&l->marked, l->chosen, l->chosen, &chain, NULL), TN_OK);
     assert_int_equal(tn_marked_anywhere(&l->marked, chain, &anywhere, NULL), TN_OK);
     assert_int_equal(tn_sparse_make(anywhere, 0, &sparse, NULL), TN_OK);
-    assert_int_equal(tn_count_range(sparse, sizes, LONGEST, LONGEST, count, NULL), TN_OK);
+    assert_int_equal(tn_count_range(sparse, sizes, LONGEST, LONGEST, count, NULL, NULL), TN_OK);
     assert_int_equal(mpz_get_ui(count), wanted);
     mpz_clear(count);
     tn_sparse_free(sparse);

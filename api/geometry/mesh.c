@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/growth/growth.h"
+#include "api/geometry/mesh.h"
 
 tartan_status tn_api_mesh(tn_mesh *made, tartan_mesh **mesh, tartan_error *error)
 {
@@ -15,6 +15,41 @@ tartan_status tn_api_mesh(tn_mesh *made, tartan_mesh **mesh, tartan_error *error
     held->mesh = *made;
     *mesh = held;
     return TARTAN_OK;
+}
+
+static tn_status no_reader(const char *path, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_CANNOT_READ, "the mesh %.300s is not read: the options have no reader of meshes",
+            path);
+    tn_error_help(error, "set read_mesh to tartan_mesh_read, of libtartan-mesh");
+    return TN_INVALID;
+}
+
+static tn_status read_by(void *context, const char *path, tn_mesh *mesh, tn_error *error)
+{
+    tartan_mesh_reader *const *read = context;
+    tartan_mesh *made = NULL;
+    tartan_error said = {.status = TARTAN_OK};
+    *mesh = (tn_mesh){0};
+    if (!*read)
+        return no_reader(path, error);
+    tartan_status status = (*read)(path, &made, &said);
+    if (status == TARTAN_OK && made) {
+        *mesh = made->mesh;
+        free(made);
+        return TN_OK;
+    }
+    tartan_mesh_free(made);
+    tn_status failed = status == TARTAN_OK ? TN_INVALID : (tn_status)status;
+    tn_fail(error, failed, (tn_code)said.code, "%.400s", said.message[0] ? said.message : "there is no such mesh");
+    if (said.help[0])
+        tn_error_help(error, "%.300s", said.help);
+    return failed;
+}
+
+tn_mesh_reader tn_api_mesh_reader(tartan_mesh_reader **read)
+{
+    return (tn_mesh_reader){read_by, read};
 }
 
 void tartan_mesh_free(tartan_mesh *mesh)

@@ -1,0 +1,22 @@
+/* What the files of the C interface to rule files share: opening one with its source. */
+#ifndef TARTAN_API_COMPILER_COMPILE_H
+#define TARTAN_API_COMPILER_COMPILE_H
+
+#include "api/base/api.h"
+#include "driver/open/open.h"
+
+/* As tartan_compile_text and tartan_compile_file, and keeps what was opened. Close it in any case. */
+tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *options,
+                          tn_opened *opened, tartan_error *error);
+tartan_status tn_api_open_file(const char *path, const tartan_compile_options *options, tn_opened *opened,
+                               tartan_error *error);
+
+/* Everything that there is to say, to the caller's function (may be NULL). */
+void tn_api_report(tn_diagnostics *diagnostics, tartan_report *report, void *context);
+
+/* What made the work fail, in one sentence: the first error, or why the watch (which may be NULL) ended it.
+ * Returns the status. */
+tartan_status tn_api_first_error(const tn_diagnostics *diagnostics, tn_status status, const tn_watch *watch,
+                                 tartan_error *error);
+
+#endif

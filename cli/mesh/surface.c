@@ -1,0 +1,108 @@
+/* Opens a surface of a file, and warns of what its contour has. */
+#include "cli/mesh/surface.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/notation.h"
+#include "runtime/mesh/openmesh.h"
+
+static tn_status no_surface(const tn_opened *opened, const char *name, tn_error *error)
+{
+    const tn_module *module = opened->module;
+    if (module->SURFACE_count == 0) {
+        tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface and no design of boxes", opened->path);
+        const tn_notation *notation = tn_notation_of_module(module);
+        const char *help = "a .field file defines a surface: `surface ball = x*x + y*y + z*z - 1`";
+        bool field = notation && strcmp(notation->name, "field") == 0;
+        tn_error_help(error, "%s", field ? help : tn_opened_help(opened, help).text);
+        return TN_INVALID;
+    }
+    const char **names = calloc(module->SURFACE_count, sizeof *names);
+    if (!names)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < module->SURFACE_count; i++)
+        names[i] = tn_text(module, module->SURFACE_records[i].name);
+    const char *near = tn_nearest(name, names, module->SURFACE_count);
+    tn_fail(error, TN_INVALID, E_NO_SURFACE, "%.200s has no surface `%.100s`", opened->path, name);
+    if (near) {
+        tn_error_help(error, "did you mean `%s`?", near);
+    } else {
+        char list[300];
+        tn_word_list(names, module->SURFACE_count, list, sizeof list);
+        tn_error_help(error, "it has %s", list);
+    }
+    free(names);
+    return TN_INVALID;
+}
+
+tn_status tn_open_field_of(tn_job *job, const char *name, tn_open_field *open, tn_error *error)
+{
+    const tn_module *module = job->opened.module;
+    size_t surface = name ? 0 : module->SURFACE_count - 1;
+    while (name && surface < module->SURFACE_count &&
+           strcmp(tn_text(module, module->SURFACE_records[surface].name), name) != 0)
+        surface++;
+    if (surface >= module->SURFACE_count)
+        return no_surface(&job->opened, name, error);
+    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, job->opened.path, &open->meshes, error);
+    if (status == TN_OK)
+        status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
+    return status;
+}
+
+void tn_open_field_close(tn_open_field *open)
+{
+    tn_field_clear(&open->field);
+    tn_field_meshes_clear(&open->meshes);
+}
+
+/* ---- what there is to say */
+
+void tn_job_warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+{
+    char text[300];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    tn_diagnostic *d = tn_report_bare(tn_job_diagnostics(job), TN_WARNING, code, "%s", text);
+    tn_help(tn_job_diagnostics(job), d, "%s", help);
+}
+
+static void warn_of_cut(tn_job *job, const tn_contour *contour)
+{
+    static const char *const sides[] = {"low x", "high x", "low y", "high y", "low z", "high z"};
+    const char *cut[6];
+    char list[100];
+    size_t count = 0;
+    for (unsigned side = 0; side < 6; side++)
+        if (contour->cut >> side & 1)
+            cut[count++] = sides[side];
+    if (count == 0)
+        return;
+    tn_word_list(cut, count, list, sizeof list);
+    tn_job_warn(job, W_FIELD_CUT, "take a larger box, if that is not meant", "the box cuts the form at %s", list);
+}
+
+void tn_job_warn_of_contour(tn_job *job, const tn_contour *c, const char *jumps)
+{
+    if (!c->inside)
+        tn_job_warn(job, W_FIELD_EMPTY, "inside is where the field is below 0",
+                    "nothing of the box is inside, at this grid");
+    else if (!c->outside)
+        tn_job_warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
+                    "all of the box is inside");
+    else
+        warn_of_cut(job, c);
+    if (c->no_values)
+        tn_job_warn(job, W_FIELD_NO_VALUE, "what has no value is outside",
+                    "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values, c->no_value[0],
+                    c->no_value[1], c->no_value[2]);
+    if (c->jumps)
+        tn_job_warn(job, W_FIELD_JUMPS, jumps,
+                    "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
+                    c->jump[1], c->jump[2]);
+}

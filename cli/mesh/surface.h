@@ -1,0 +1,27 @@
+/* A surface of the file that a command has open: mesh, slice and draw work on one. */
+#ifndef TARTAN_CLI_MESH_SURFACE_H
+#define TARTAN_CLI_MESH_SURFACE_H
+
+#include "cli/common/job.h"
+#include "runtime/field/contour.h"
+#include "runtime/field/meshes.h"
+
+/* Close it in any case. */
+typedef struct tn_open_field {
+    tn_field_meshes meshes;
+    tn_field field;
+} tn_open_field;
+
+/* The surface of this name, or (NULL) the last of the file. */
+tn_status tn_open_field_of(tn_job *job, const char *name, tn_open_field *open, tn_error *error);
+void tn_open_field_close(tn_open_field *open);
+
+/* Adds a warning that has no place in the file. */
+void tn_job_warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Warns where nothing or everything is inside, where the box cuts the form, of samples without value, and of
+ * jumps; `jumps` says what is there. */
+void tn_job_warn_of_contour(tn_job *job, const tn_contour *contour, const char *jumps);
+
+#endif

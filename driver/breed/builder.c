@@ -1,0 +1,230 @@
+/* Scores bred designs of boxes: compiles a sentence, builds its design, and measures what the goals speak of. */
+#include "driver/breed/builder.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "driver/breed/inputs.h"
+#include "driver/solid/solid.h"
+#include "runtime/number/run.h"
+
+typedef struct wish {
+    const char *name; /* of the module */
+    uint32_t function;
+    double target, weight;
+} wish;
+
+struct tn_design_scorer {
+    tn_opened opened; /* of the goals */
+    const tn_solid_record *record;
+    wish *wishes; /* owned */
+    size_t wish_count;
+    uint64_t asked; /* measures that goals and requirements speak of */
+    bool separately;
+};
+
+void tn_design_scorer_free(tn_design_scorer *s)
+{
+    if (!s)
+        return;
+    free(s->wishes);
+    tn_close(&s->opened);
+    free(s);
+}
+
+/* ---- goals */
+
+static tn_status refuse(tn_error *error, const char *goals, const char *why, const char *help)
+{
+    tn_fail(error, TN_INVALID, E_DESIGN_GOALS, "the design %.200s cannot be used to score others: %.300s", goals, why);
+    if (help)
+        tn_error_help(error, "%s", help);
+    return TN_INVALID;
+}
+
+static tn_status take_goals(tn_design_scorer *s, tn_error *error)
+{
+    const tn_module *module = s->opened.module;
+    s->wishes = calloc(s->record->goal_count + 1u, sizeof *s->wishes);
+    if (!s->wishes)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < s->record->goal_count; i++) {
+        const tn_solid_goal_record *goal = &module->SOLID_GOAL_records[s->record->goal_first + i];
+        s->wishes[s->wish_count++] = (wish){tn_text(module, goal->name), goal->function, goal->target, goal->weight};
+        s->asked |= tn_solid_asked(module, goal->function);
+    }
+    for (uint32_t i = 0; i < s->record->requirement_count; i++)
+        s->asked |= tn_solid_asked(module, module->REQUIREMENT_records[s->record->requirement_first + i].violation);
+    return TN_OK;
+}
+
+static tn_status open_goals(tn_design_scorer *s, const char *goals, tn_error *error)
+{
+    uint32_t solid;
+    if (tn_open(goals, false, &s->opened) != TN_OK)
+        return refuse(error, goals, tn_first_error(&s->opened), NULL);
+    if (tn_solid_choose(&s->opened, NULL, &solid) != TN_OK)
+        return refuse(error, goals, "it has no design, or more than one",
+                      "write a file with one design, and its `fitness` lines");
+    s->record = &s->opened.module->SOLID_records[solid];
+    if (s->record->goal_count == 0)
+        return refuse(error, goals, "it wants nothing", "add lines such as `fitness lightness = mass target 0;`");
+    if (s->separately && s->record->goal_count > TN_OBJECTIVES_MAX)
+        return refuse(error, goals, "it has more goals than `selection nsga2` weighs, which is 8",
+                      "put some together in one expression, or choose by the sum: `selection tournament 3`");
+    return take_goals(s, error);
+}
+
+tn_status tn_design_scorer_new(const char *goals, bool separately, tn_design_scorer **scorer, tn_error *error)
+{
+    tn_design_scorer *s = calloc(1, sizeof *s);
+    *scorer = NULL;
+    if (!s)
+        return tn_fail_memory(error);
+    s->separately = separately;
+    tn_status status = open_goals(s, goals, error);
+    if (status == TN_OK)
+        *scorer = s;
+    else
+        tn_design_scorer_free(s);
+    return status;
+}
+
+tn_status tn_design_scorer_inputs(const tn_design_scorer *s, char **inputs, tn_error *error)
+{
+    return tn_inputs_add_sources(inputs, "build", s->opened.module, UINT32_MAX, error);
+}
+
+/* ---- one design */
+
+/* Compiles a sentence and builds its design. Close and clear both in any case. */
+static tn_status build(const char *sentence, size_t size, tn_opened *opened, tn_built *built, tn_error *error)
+{
+    uint32_t solid;
+    *built = (tn_built){0};
+    tn_status status =
+        tn_open_text(TN_NOTATION(solid), &(tn_input){.text = sentence, .size = size, .name = "the sentence"},
+                     &(tn_compile_options){0}, opened);
+    if (status == TN_OK)
+        status = tn_solid_choose(opened, NULL, &solid);
+    if (status != TN_OK)
+        return tn_open_error(opened, status, error);
+    return tn_built_make(opened->module, solid, TN_BRED_BOXES, built, error);
+}
+
+static double value_of(const tn_design_scorer *s, uint32_t function, const double *values)
+{
+    const tn_module *module = s->opened.module;
+    return tn_number_run(module->code, module->FUNCTION_records[function].code_begin, values);
+}
+
+/* How far the requirements are from holding, together; not finite where one has no value. */
+static double lacking(const tn_design_scorer *s, const double *values)
+{
+    const tn_module *module = s->opened.module;
+    double sum = 0;
+    for (uint32_t i = 0; i < s->record->requirement_count; i++)
+        sum += value_of(s, module->REQUIREMENT_records[s->record->requirement_first + i].violation, values);
+    return sum;
+}
+
+/* Distances are shares of their targets, as those of grown surfaces are. */
+static void score_goals(const tn_design_scorer *s, const double *values, tn_score *score, char message[200])
+{
+    double lacks = lacking(s, values), total = lacks;
+    for (size_t i = 0; i < s->wish_count; i++) {
+        const wish *w = &s->wishes[i];
+        double part = w->weight * fabs(value_of(s, w->function, values) - w->target) / fmax(fabs(w->target), 1);
+        total += part;
+        if (s->separately)
+            score->objectives[i] = part + lacks;
+    }
+    if (!s->separately)
+        score->objectives[0] = total;
+    if (isfinite(total))
+        return;
+    score->state = TN_SCORE_FAILED;
+    snprintf(message, 200, "a goal or requirement has no value for this design");
+}
+
+static tn_status score_design(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                              char message[200], tn_error *error)
+{
+    (void)thread;
+    const tn_design_scorer *s = context;
+    double values[TN_SOLID_MEASURED_COUNT] = {0};
+    tn_error own = {0};
+    tn_opened opened = {0};
+    tn_built built;
+    tn_status status = build(sentence, size, &opened, &built, &own);
+    if (status == TN_OK)
+        status = tn_built_measure(&built, s->asked, values, &own);
+    if (status == TN_OK)
+        score_goals(s, values, score, message);
+    tn_built_clear(&built);
+    tn_close(&opened);
+    return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
+}
+
+/* "lightness target 3 weight 2" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_design_scorer *s = context;
+    size_t length = strcspn(change, " ");
+    for (size_t i = 0; i < s->wish_count; i++) {
+        wish *w = &s->wishes[i];
+        double target = w->target, weight = w->weight;
+        if (strncasecmp(w->name, change, length) != 0 || w->name[length] || !change[length] ||
+            !tn_wish_read(change + length, &target, &weight))
+            continue;
+        w->target = target;
+        w->weight = weight;
+        return TN_OK;
+    }
+    tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
+    tn_error_help(error, "name a goal of the design, as \"%.60s target 3 weight 2\"", s->wishes[0].name);
+    return TN_INVALID;
+}
+
+tn_evaluator tn_design_scorer_evaluator(tn_design_scorer *s)
+{
+    return (tn_evaluator){
+        .context = s, .objectives = s->separately ? s->wish_count : 1, .evaluate = score_design, .adjust = adjust};
+}
+
+const char *tn_design_scorer_objective(const void *scorer, size_t i)
+{
+    return ((const tn_design_scorer *)scorer)->wishes[i].name;
+}
+
+/* ---- pictures */
+
+tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
+                                size_t count, const char *title, const char *path, tn_error *error)
+{
+    (void)scorer;
+    tn_view **views = calloc(count + 1, sizeof *views);
+    tn_camera camera = tn_camera_default();
+    size_t drawn = 0;
+    if (count > 1)
+        camera.width = 200;
+    tn_status status = views ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        tn_opened opened = {0};
+        tn_built built;
+        status = build(sentences[i], strlen(sentences[i]), &opened, &built, error);
+        if (status == TN_OK)
+            status = tn_built_view(&built, &camera, &views[drawn++], error);
+        tn_built_clear(&built);
+        tn_close(&opened);
+    }
+    const tn_view_options options = {.title = title, .labels = labels};
+    if (status == TN_OK && drawn)
+        status = tn_views_draw(views, drawn, &options, &(tn_picture){.path = path}, error);
+    for (size_t i = 0; views && i < drawn; i++)
+        tn_view_free(views[i]);
+    free(views);
+    return status;
+}

@@ -1,0 +1,29 @@
+/* Scoring designs of boxes: a sentence is a .solid text; its design is built and held to the goals of another. */
+#ifndef TARTAN_DRIVER_BREED_BUILDER_H
+#define TARTAN_DRIVER_BREED_BUILDER_H
+
+#include "runtime/genome/breeding/evolve.h"
+
+typedef struct tn_design_scorer tn_design_scorer;
+
+#define TN_BRED_BOXES 2000u /* of a design that is bred, images counted */
+
+/* `goals` is the path of a .solid with one design, whose `fitness` lines are the goals; its requirements count too, by
+ * how far they are from holding. Its boxes are not built. With `separately`, each goal is an objective; else their sum
+ * is the one. TN_INVALID (E1246) where it cannot be used. */
+tn_status tn_design_scorer_new(const char *goals, bool separately, tn_design_scorer **scorer, tn_error *error);
+void tn_design_scorer_free(tn_design_scorer *scorer);
+
+tn_evaluator tn_design_scorer_evaluator(tn_design_scorer *scorer);
+
+/* What objective `i` is, where each goal is one. */
+const char *tn_design_scorer_objective(const void *scorer, size_t i);
+
+/* Draws sentences that could be scored side by side, as tn_grower_draw does. */
+tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
+                                size_t count, const char *title, const char *path, tn_error *error);
+
+/* Adds what its scores depend on to the text (inputs.h). */
+tn_status tn_design_scorer_inputs(const tn_design_scorer *scorer, char **inputs, tn_error *error);
+
+#endif

@@ -1,0 +1,64 @@
+/* Models of parts, placed by the connection grammar of a .pcfg file. */
+#ifndef TARTAN_PLACE_H
+#define TARTAN_PLACE_H
+
+#include "module.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Zeros are the defaults. */
+typedef struct tartan_place_options {
+    size_t size;
+    uint32_t seed;            /* of drawn alternatives */
+    uint64_t part_limit;      /* 1,000,000 */
+    uint64_t step_limit;      /* 1,000,000,000 */
+    uint64_t frame_limit;     /* frames that are open at a time: 1,000,000 */
+    uint64_t lookahead_limit; /* steps of one look ahead: 1,000,000 */
+} tartan_place_options;
+TARTAN_SIZED(tartan_place_options)
+
+typedef struct tartan_placed_part {
+    int32_t at[3];    /* x and z in half studs (10 LDU), y in plates (8 LDU), downwards */
+    uint32_t heading; /* quarter turns, 0 to 3: 1 takes (x, z) to (-z, x) */
+    int32_t colour;
+    const char *name; /* the placement's */
+} tartan_placed_part;
+
+typedef struct tartan_placement tartan_placement;
+
+/* Places the parts of the module's grammar. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such
+ * grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an option's. The placement borrows the module. */
+TARTAN_API tartan_status tartan_place(const tartan_module *module, const tartan_place_options *options,
+                                      const tartan_watch *watch, tartan_placement **placement, tartan_error *error);
+TARTAN_API void tartan_placement_free(tartan_placement *placement);
+
+/* The parts, in the order in which they were placed. */
+TARTAN_API const tartan_placed_part *tartan_placement_parts(const tartan_placement *placement, size_t *count);
+
+typedef struct tartan_placement_counts {
+    size_t size;
+    uint64_t parts, steps;
+    uint64_t expansions; /* of symbols */
+    uint64_t draws;      /* alternatives that were drawn */
+    uint64_t tries;      /* alternatives that were looked at */
+    uint64_t fallbacks;  /* last alternatives that were taken although they did not fit */
+    uint64_t cells, bounds;
+} tartan_placement_counts;
+TARTAN_SIZED(tartan_placement_counts)
+
+TARTAN_API tartan_status tartan_placement_count(const tartan_placement *placement, tartan_placement_counts *counts,
+                                                tartan_error *error);
+
+/* The model as an LDraw file, and the list of its parts as CSV (part,colour,number). Free with tartan_text_free. */
+TARTAN_API tartan_status tartan_placement_ldraw(const tartan_placement *placement, char **text, size_t *size,
+                                                tartan_error *error);
+TARTAN_API tartan_status tartan_placement_list(const tartan_placement *placement, char **text, size_t *size,
+                                               tartan_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

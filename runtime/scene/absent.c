@@ -1,0 +1,51 @@
+/* Pictures of faces in space in a build without the part `draw`: there are none. */
+#include "runtime/base/part.h"
+#include "runtime/scene/view.h"
+
+tn_camera tn_camera_default(void)
+{
+    return (tn_camera){0};
+}
+
+tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error)
+{
+    (void)faces, (void)corners, (void)groups;
+    *sight = (tn_sight){0};
+    return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
+}
+
+tn_status tn_sight_of_mesh(const tn_mesh *mesh, tn_sight *sight, tn_error *error)
+{
+    (void)mesh;
+    return tn_sight_new(0, 0, false, sight, error);
+}
+
+void tn_sight_clear(tn_sight *sight)
+{
+    (void)sight; /* always empty */
+}
+
+tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **view, tn_error *error)
+{
+    (void)sight, (void)camera;
+    *view = NULL;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
+}
+
+void tn_view_free(tn_view *view)
+{
+    (void)view; /* always NULL */
+}
+
+uint32_t tn_view_by_depth(const tn_view *view)
+{
+    (void)view;
+    return 0;
+}
+
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error)
+{
+    (void)views, (void)count, (void)options, (void)to;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
+}

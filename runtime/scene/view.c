@@ -1,0 +1,227 @@
+/* Takes views of faces: turns them before the eye, finds what hides what, and keeps what is to be painted. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/crew.h"
+#include "runtime/geometry/hidden.h"
+#include "runtime/geometry/vector.h"
+#include "runtime/numeric/numeric.h"
+#include "runtime/scene/view_parts.h"
+
+tn_camera tn_camera_default(void)
+{
+    return (tn_camera){-60, 30, 480};
+}
+
+void tn_view_free(tn_view *view)
+{
+    if (!view)
+        return;
+    free(view->faces);
+    free(view->points);
+    free(view->edges);
+    free(view);
+}
+
+/* ---- what is looked at */
+
+tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error)
+{
+    *sight = (tn_sight){0};
+    if (faces > TN_DRAWN_FACES_MAX) {
+        tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "a picture of %zu faces would be too large; the limit is %u",
+                faces, TN_DRAWN_FACES_MAX);
+        tn_error_help(error, "draw less, or write a mesh instead");
+        return TN_LIMIT;
+    }
+    sight->points = malloc((corners + 1) * sizeof *sight->points);
+    sight->first = malloc((faces + 1) * sizeof *sight->first);
+    sight->edges = malloc((corners + 1) * sizeof *sight->edges);
+    sight->groups = groups ? malloc((faces + 1) * sizeof *sight->groups) : NULL;
+    bool fine = sight->points && sight->first && sight->edges && (!groups || sight->groups);
+    return fine ? TN_OK : tn_fail_memory(error);
+}
+
+void tn_sight_clear(tn_sight *sight)
+{
+    free(sight->points);
+    free(sight->first);
+    free(sight->edges);
+    free(sight->groups);
+    *sight = (tn_sight){0};
+}
+
+/* ---- before the eye */
+
+typedef struct viewpoint {
+    tn_vector right, up, towards;
+} viewpoint;
+
+static viewpoint place_eye(const tn_camera *camera)
+{
+    double ca = tn_cos_degrees(camera->azimuth), sa = tn_sin_degrees(camera->azimuth);
+    double ce = tn_cos_degrees(camera->elevation), se = tn_sin_degrees(camera->elevation);
+    return (viewpoint){{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
+}
+
+/* Light from over the eye's left shoulder; both sides of a surface are lit. */
+static float light_on(const viewpoint *eye, tn_vector normal)
+{
+    tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
+    double facing = tn_dot(normal, eye->towards) < 0 ? -1 : 1;
+    return (float)(0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp)));
+}
+
+/* A surface as it lies before the eye; its points are those of the sight, moved and scaled. */
+typedef struct prospect {
+    const tn_sight *sight;
+    tn_scene scene;
+    float *light; /* [face] */
+    double middle[3], size;
+} prospect;
+
+/* Turns the corners of a face before the eye; returns its normal, of unit length. */
+static tn_vector turn_face(const viewpoint *eye, double (*points)[3], uint32_t count)
+{
+    tn_vector normal = {0, 0, 0}, origin = tn_vector_at(points[0]), before = {0};
+    for (uint32_t c = 0; c < count; c++) {
+        tn_vector p = tn_vector_at(points[c]), r = tn_sub(p, origin);
+        points[c][0] = tn_dot(p, eye->right);
+        points[c][1] = tn_dot(p, eye->up);
+        points[c][2] = tn_dot(p, eye->towards);
+        normal = tn_add(normal, tn_cross(before, r));
+        before = r;
+    }
+    return tn_normalised(normal);
+}
+
+/* Turns all faces, and moves those that can be seen to the front of the sight's arrays. */
+static void turn_faces(tn_sight *sight, const viewpoint *eye, float *light)
+{
+    uint32_t kept = 0, corners = 0, begin = sight->first[0];
+    for (uint32_t f = 0; f < sight->face_count; f++) {
+        uint32_t end = sight->first[f + 1], count = end - begin;
+        tn_vector normal = turn_face(eye, sight->points + begin, count);
+        if (!sight->closed || tn_dot(normal, eye->towards) > 1e-12) {
+            memmove(sight->points + corners, sight->points + begin, count * sizeof *sight->points);
+            memmove(sight->edges + corners, sight->edges + begin, count * sizeof *sight->edges);
+            if (sight->groups)
+                sight->groups[kept] = sight->groups[f];
+            light[kept] = light_on(eye, normal);
+            sight->first[kept++] = corners;
+            corners += count;
+        }
+        begin = end;
+    }
+    sight->first[kept] = corners;
+    sight->face_count = kept;
+}
+
+/* Moves and scales the scene to about the unit cube, as tn_scene wants it. */
+static void measure(prospect *seen, uint32_t corners)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t c = 0; c < corners; c++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], seen->scene.points[c][k]);
+            high[k] = fmax(high[k], seen->scene.points[c][k]);
+        }
+    }
+    seen->size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+    seen->size = seen->size > 1e-300 ? seen->size : 1;
+    for (int k = 0; k < 3; k++)
+        seen->middle[k] = low[k] + (high[k] - low[k]) / 2;
+    for (uint32_t c = 0; c < corners; c++)
+        for (int k = 0; k < 3; k++)
+            seen->scene.points[c][k] = (seen->scene.points[c][k] - seen->middle[k]) / seen->size;
+}
+
+static tn_status look(tn_sight *sight, const viewpoint *eye, prospect *seen, tn_error *error)
+{
+    float *light = malloc((sight->face_count + 1u) * sizeof *light);
+    *seen = (prospect){.sight = sight, .light = light};
+    if (!light)
+        return tn_fail_memory(error);
+    turn_faces(sight, eye, light);
+    *seen = (prospect){.sight = sight,
+                       .scene = {.points = sight->points,
+                                 .first = sight->first,
+                                 .face_count = sight->face_count,
+                                 .threads = sight->threads > 0 ? sight->threads : (int)tn_crew_default(),
+                                 .watch = sight->watch},
+                       .light = light};
+    measure(seen, sight->first[sight->face_count]);
+    return TN_OK;
+}
+
+/* One patch of the painting, back in model units. */
+static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *painting, const tn_patch *patch,
+                       uint32_t *corner)
+{
+    view->faces[view->face_count++] =
+        (tn_seen_face){*corner, patch->count, seen->sight->groups ? seen->sight->groups[patch->face] : TN_NO_GROUP,
+                       seen->light[patch->face]};
+    for (uint32_t c = patch->first; c < patch->first + patch->count; c++) {
+        const double *p = patch->piece ? painting->points[c] : seen->scene.points[c];
+        uint32_t side = patch->piece ? painting->sides[c] : c;
+        for (int k = 0; k < 2; k++) {
+            double at = p[k] * seen->size + seen->middle[k];
+            view->points[*corner][k] = (float)at;
+            view->low[k] = fmin(view->low[k], at);
+            view->high[k] = fmax(view->high[k], at);
+        }
+        view->edges[(*corner)++] = side == TN_CUT ? TN_EDGE_NONE : seen->sight->edges[side];
+    }
+}
+
+static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *painting, tn_error *error)
+{
+    size_t corners = 0;
+    uint32_t corner = 0;
+    for (size_t i = 0; i < painting->patch_count; i++)
+        corners += painting->patches[i].count;
+    view->faces = malloc((painting->patch_count + 1) * sizeof *view->faces);
+    view->points = malloc((corners + 1) * sizeof *view->points);
+    view->edges = malloc((corners + 1) * sizeof *view->edges);
+    if (!view->faces || !view->points || !view->edges)
+        return tn_fail_memory(error);
+    for (int k = 0; k < 2; k++) {
+        view->low[k] = INFINITY;
+        view->high[k] = -INFINITY;
+    }
+    view->by_depth = painting->by_depth;
+    for (size_t i = 0; i < painting->patch_count; i++)
+        keep_patch(view, seen, painting, &painting->patches[i], &corner);
+    return TN_OK;
+}
+
+tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **result, tn_error *error)
+{
+    tn_view *view = calloc(1, sizeof *view);
+    *result = NULL;
+    if (!view)
+        return tn_fail_memory(error);
+    view->width = camera->width > 0 ? camera->width : 480;
+    view->step = sight->step;
+    viewpoint eye = place_eye(camera);
+    prospect seen;
+    tn_painting painting = {0};
+    tn_status status = look(sight, &eye, &seen, error);
+    if (status == TN_OK)
+        status = tn_painting_make(&seen.scene, &painting, error);
+    if (status == TN_OK)
+        status = keep(view, &seen, &painting, error);
+    tn_painting_clear(&painting);
+    free(seen.light);
+    if (status == TN_OK)
+        *result = view;
+    else
+        tn_view_free(view);
+    return status;
+}
+
+uint32_t tn_view_by_depth(const tn_view *view)
+{
+    return view->by_depth;
+}

@@ -1,0 +1,80 @@
+/* Pictures of faces in space: shaded, hidden faces removed (hidden.h), edges drawn, several views side by side.
+ *
+ * An engine lists the faces of what it has made (tn_sight), takes a view of them, and draws views on a sheet.
+ */
+#ifndef TARTAN_SCENE_VIEW_H
+#define TARTAN_SCENE_VIEW_H
+
+#include "runtime/base/picture.h"
+#include "runtime/base/watch.h"
+#include "runtime/geometry/mesh.h"
+
+#define TN_DRAWN_FACES_MAX 2000000u
+
+typedef struct tn_camera {
+    double azimuth;   /* degrees about z, from the x axis; the camera looks from there */
+    double elevation; /* degrees above the ground: 90 looks straight down */
+    double width;     /* of a view, in points */
+} tn_camera;
+
+/* Azimuth -60, elevation 30, 480 points wide. */
+tn_camera tn_camera_default(void);
+
+/* What an edge is drawn as: the colour of its label, dark, or not at all. */
+#define TN_EDGE_NONE UINT16_MAX
+#define TN_EDGE_DARK (UINT16_MAX - 1)
+
+/* What is looked at, z up. The arrays belong to the caller. Limits and messages are about `what`: "a picture of the
+ * form". */
+typedef struct tn_sight {
+    double (*points)[3]; /* [corner]; taking a view changes them */
+    uint32_t *first;     /* [face_count + 1] each face's first corner; faces have three or more */
+    uint16_t *edges;     /* [corner] label of the edge that starts there, or TN_EDGE_... */
+    uint32_t *groups;    /* [face] whose colour it is filled with; NULL: all are cream */
+    bool closed; /* faces are those of solids, counter-clockwise seen from outside: what looks away is not drawn */
+    uint32_t face_count;
+    uint32_t step;          /* written below each of several views where they have no labels */
+    int threads;            /* 0: as many as there are processors */
+    struct tn_watch *watch; /* or NULL */
+} tn_sight;
+
+/* Room for so many; TN_MEMORY. Clear it in any case. E0820 for more than TN_DRAWN_FACES_MAX faces. */
+tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error);
+void tn_sight_clear(tn_sight *sight);
+
+/* The faces of a mesh, in the colours of its groups if it has any. Of triangles, the edges are drawn at which it bends
+ * or two groups meet; of other faces, all edges. */
+tn_status tn_sight_of_mesh(const tn_mesh *mesh, tn_sight *sight, tn_error *error);
+
+/* One view: what is drawn may be thrown away afterwards. */
+typedef struct tn_view tn_view;
+
+tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **view, tn_error *error);
+void tn_view_free(tn_view *view);
+
+/* How many faces pass through one another too often to be cut (hidden.h): they are drawn by their depth, which is only
+ * nearly right. */
+uint32_t tn_view_by_depth(const tn_view *view);
+
+/* Names of labels, or of groups: what is not seen is not listed. */
+typedef struct tn_legend {
+    const char *(*name)(const void *names, uint32_t number);
+    const void *names;
+    uint32_t count;
+    bool groups; /* names are those of groups, otherwise of labels of edges */
+} tn_legend;
+
+typedef struct tn_view_options {
+    const char *title;         /* or NULL */
+    const char *caption;       /* a line at the foot: how it was made; or NULL */
+    uint32_t columns;          /* of a sheet; 0: about as many as rows */
+    const char *const *labels; /* below each view; NULL: its step, if there are several */
+    uint32_t dpi;
+    tn_legend legend; /* count 0: none */
+} tn_view_options;
+
+/* Draws views side by side, all to one scale. */
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error);
+
+#endif

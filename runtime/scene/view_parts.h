@@ -1,0 +1,27 @@
+/* What taking a view leaves for drawing it. Internal to runtime/scene. */
+#ifndef TARTAN_SCENE_VIEW_PARTS_H
+#define TARTAN_SCENE_VIEW_PARTS_H
+
+#include "runtime/scene/view.h"
+
+#define TN_NO_GROUP UINT32_MAX
+
+/* A face, or a piece of one: what is needed to paint it. */
+typedef struct tn_seen_face {
+    uint32_t first, size; /* corners */
+    uint32_t group;       /* or TN_NO_GROUP */
+    float light;          /* 0 dark .. 1 */
+} tn_seen_face;
+
+struct tn_view {
+    tn_seen_face *faces; /* the farthest first */
+    size_t face_count;
+    float (*points)[2]; /* [corner] in the picture's plane, y up */
+    uint16_t *edges;    /* [corner] of the edge that starts there: as in tn_sight; TN_EDGE_NONE where a face was cut */
+    double low[2], high[2];
+    double width;
+    uint32_t step;
+    uint32_t by_depth;
+};
+
+#endif

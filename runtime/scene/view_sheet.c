@@ -1,0 +1,265 @@
+/* Draws views side by side on a sheet, with a legend of what their colours mean. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/draw/canvas.h"
+#include "runtime/draw/type.h"
+#include "runtime/geometry/mesh.h"
+#include "runtime/scene/view_parts.h"
+
+#define MARGIN 14.0
+#define TITLE_HEIGHT 26.0
+#define FOOT_HEIGHT 30.0
+#define LABEL_HEIGHT 16.0
+#define LEGEND_LINE 11.0
+#define LEGEND_ROWS_MAX 40u /* more labels than these tell nobody anything */
+#define HAIRLINE 0.5
+
+typedef struct sheet {
+    double scale;     /* points per model unit */
+    uint32_t *legend; /* labels that are seen; owned */
+    uint32_t legend_count, legend_columns, legend_rows;
+    double legend_cell; /* points a column */
+    double cell[2];
+    size_t columns, rows;
+    double size[2];
+} sheet;
+
+static void mark_seen(const tn_view *view, const tn_legend *legend, bool *seen)
+{
+    for (size_t f = 0; f < view->face_count; f++) {
+        const tn_seen_face *face = &view->faces[f];
+        if (legend->groups && face->group < legend->count)
+            seen[face->group] = true;
+        for (uint32_t c = face->first; c < face->first + face->size && !legend->groups; c++)
+            if (view->edges[c] < legend->count)
+                seen[view->edges[c]] = true;
+    }
+}
+
+/* Lists what is seen, in one row where that is wide enough. False: out of memory. */
+static bool lay_out_legend(tn_view *const *views, size_t count, const tn_legend *legend, sheet *s)
+{
+    size_t longest = 1;
+    bool *seen = calloc(legend->count + 1u, sizeof *seen);
+    s->legend = malloc((legend->count + 1u) * sizeof *s->legend);
+    s->legend_count = 0;
+    for (size_t i = 0; seen && i < count; i++)
+        mark_seen(views[i], legend, seen);
+    for (uint32_t number = 0; seen && s->legend && number < legend->count; number++) {
+        if (!seen[number])
+            continue;
+        size_t length = strlen(legend->name(legend->names, number));
+        longest = length > longest ? length : longest;
+        s->legend[s->legend_count++] = number;
+    }
+    s->legend_cell = 26 + 5 * (double)longest; /* of 8 points, letters and digits are at most so wide on the mean */
+    s->legend_columns = (uint32_t)fmax((s->size[0] - 2 * MARGIN) / s->legend_cell, 1);
+    if (s->legend_count > LEGEND_ROWS_MAX * s->legend_columns)
+        s->legend_count = LEGEND_ROWS_MAX * s->legend_columns;
+    s->legend_rows = s->legend_count ? (s->legend_count + s->legend_columns - 1) / s->legend_columns : 1;
+    bool fine = seen && s->legend;
+    free(seen);
+    return fine;
+}
+
+static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
+{
+    sheet s = {.columns = options->columns};
+    double extent[2] = {1e-9, 1e-9};
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 2; k++)
+            extent[k] = fmax(extent[k], views[i]->high[k] - views[i]->low[k]);
+    if (s.columns == 0)
+        for (s.columns = 1; s.columns * s.columns < count;)
+            s.columns++;
+    s.columns = s.columns < count ? s.columns : count;
+    s.rows = (count + s.columns - 1) / s.columns;
+    double width = views[0]->width / (count > 1 ? 2 : 1);
+    s.scale = (width - 2 * MARGIN) / fmax(extent[0], extent[1]);
+    s.cell[0] = extent[0] * s.scale + 2 * MARGIN;
+    s.cell[1] = extent[1] * s.scale + 2 * MARGIN + (count > 1 ? LABEL_HEIGHT : 0);
+    s.size[0] = fmax(s.cell[0] * (double)s.columns, 300);
+    s.size[1] = s.cell[1] * (double)s.rows + FOOT_HEIGHT + (options->title && options->title[0] ? TITLE_HEIGHT : 0);
+    return s;
+}
+
+static void set_colour(cairo_t *cr, uint32_t number, double light)
+{
+    unsigned char rgb[3];
+    tn_group_colour(number, rgb);
+    cairo_set_source_rgb(cr, light * rgb[0] / 255.0, light * rgb[1] / 255.0, light * rgb[2] / 255.0);
+}
+
+static void set_edge_colour(cairo_t *cr, uint16_t edge)
+{
+    if (edge == TN_EDGE_DARK)
+        cairo_set_source_rgb(cr, 0.13, 0.13, 0.15);
+    else
+        set_colour(cr, edge, 1);
+}
+
+/* Faces of groups are paler than lines of their colour, so that edges stand out. */
+static void set_face_colour(cairo_t *cr, const tn_seen_face *face)
+{
+    unsigned char rgb[3];
+    double light = (double)face->light;
+    if (face->group == TN_NO_GROUP) {
+        cairo_set_source_rgb(cr, 0.98 * light, 0.97 * light, 0.93 * light);
+        return;
+    }
+    tn_group_colour(face->group, rgb);
+    cairo_set_source_rgb(cr, light * (0.4 + 0.6 * rgb[0] / 255.0), light * (0.4 + 0.6 * rgb[1] / 255.0),
+                         light * (0.4 + 0.6 * rgb[2] / 255.0));
+}
+
+static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+{
+    cairo_new_path(cr); /* text leaves a point behind */
+    for (uint32_t c = face->first; c < face->first + face->size; c++)
+        cairo_line_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
+    cairo_close_path(cr);
+}
+
+/* Strokes the sides of one kind, from one corner on; returns the next corner. */
+static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i)
+{
+    uint16_t edge = view->edges[face->first + i];
+    const float *start = view->points[face->first + i];
+    cairo_move_to(cr, (double)start[0], (double)start[1]);
+    for (; i < face->size && view->edges[face->first + i] == edge; i++) {
+        uint32_t next = face->first + (i + 1 == face->size ? 0 : i + 1);
+        cairo_line_to(cr, (double)view->points[next][0], (double)view->points[next][1]);
+    }
+    cairo_stroke(cr);
+    return i;
+}
+
+/* Fills a face and draws its edges, runs of one colour at a time. Where it was cut, a hairline of its own colour closes
+ * the seam that smoothed edges would leave. */
+static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double line, double hairline)
+{
+    outline(cr, view, face);
+    set_face_colour(cr, face);
+    cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_fill(cr);
+    cairo_set_line_width(cr, hairline);
+    for (uint32_t i = 0; i < face->size;)
+        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i) : i + 1;
+    cairo_set_line_width(cr, line);
+    for (uint32_t i = 0; i < face->size;) {
+        uint16_t edge = view->edges[face->first + i];
+        if (edge == TN_EDGE_NONE) {
+            i++;
+            continue;
+        }
+        set_edge_colour(cr, edge);
+        i = stroke_run(cr, view, face, i);
+    }
+}
+
+/* `label` is written below the view; NULL for none. */
+static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double x, double y, const char *label)
+{
+    double wide = (view->high[0] - view->low[0]) * s->scale, high = (view->high[1] - view->low[1]) * s->scale;
+    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (label ? LABEL_HEIGHT : 0) - high) / 2;
+    double line = 0.8;
+    if (view->face_count > 300)
+        line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
+    cairo_save(cr);
+    cairo_translate(cr, left, top + high);
+    cairo_scale(cr, s->scale, -s->scale);
+    cairo_translate(cr, -view->low[0], -view->low[1]);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    for (size_t f = 0; f < view->face_count; f++)
+        paint_face(cr, view, &view->faces[f], line / s->scale, HAIRLINE / s->scale);
+    cairo_restore(cr);
+    if (label) {
+        cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+        tn_type_face(cr, 9, false);
+        tn_type_line(cr, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, label);
+    }
+}
+
+/* A line of the legend: a stroke in the colour of a label, or a square in that of a group. */
+static void write_entry(cairo_t *cr, const tn_legend *legend, uint32_t number, double x, double y)
+{
+    if (legend->groups) {
+        set_face_colour(cr, &(tn_seen_face){.group = number, .light = 0.9F});
+        cairo_rectangle(cr, x + 4, y - 6, 7, 7);
+        cairo_fill(cr);
+    } else {
+        set_colour(cr, number, 1);
+        cairo_set_line_width(cr, 2);
+        cairo_move_to(cr, x, y - 2.5);
+        cairo_line_to(cr, x + 12, y - 2.5);
+        cairo_stroke(cr);
+    }
+    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+    tn_type_line(cr, x + 15, y, TN_ALIGN_LEFT, legend->name(legend->names, number));
+}
+
+static void write_foot(cairo_t *cr, const sheet *s, const tn_view_options *options)
+{
+    double x = MARGIN, y = s->size[1] - FOOT_HEIGHT - LEGEND_LINE * (s->legend_rows - 1) + 10;
+    tn_type_face(cr, 8, false);
+    for (uint32_t i = 0; i < s->legend_count; i++) {
+        if (s->legend_rows > 1) {
+            x = MARGIN + i % s->legend_columns * s->legend_cell;
+            y += i > 0 && i % s->legend_columns == 0 ? LEGEND_LINE : 0;
+        }
+        write_entry(cr, &options->legend, s->legend[i], x, y);
+        x += 26 + tn_type_width(cr, options->legend.name(options->legend.names, s->legend[i]));
+    }
+    if (options->caption) {
+        cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
+        tn_type_face(cr, 6.5, false);
+        tn_type_line(cr, MARGIN, s->size[1] - 8, TN_ALIGN_LEFT, options->caption);
+    }
+}
+
+static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const sheet *s,
+                        const tn_view_options *options)
+{
+    double top = 0;
+    if (options->title && options->title[0]) {
+        tn_type_face(cr, 12, false);
+        tn_type_line(cr, MARGIN, 18, TN_ALIGN_LEFT, options->title);
+        top = TITLE_HEIGHT;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char label[96];
+        if (options->labels)
+            snprintf(label, sizeof label, "%s", options->labels[i]);
+        else
+            snprintf(label, sizeof label, "step %u", views[i]->step);
+        paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
+                   options->labels || count > 1 ? label : NULL);
+    }
+    write_foot(cr, s, options);
+}
+
+tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
+                        tn_error *error)
+{
+    sheet s = lay_out(views, count, options);
+    if (!lay_out_legend(views, count, &options->legend, &s)) {
+        free(s.legend);
+        return tn_fail_memory(error);
+    }
+    s.size[1] += LEGEND_LINE * (s.legend_rows - 1);
+    tn_canvas_options canvas_options = {
+        .width = s.size[0], .height = s.size[1], .dpi = options->dpi, .title = options->title};
+    tn_canvas *canvas;
+    tn_status status = tn_canvas_open(to, &canvas_options, &canvas, error);
+    if (status == TN_OK) {
+        paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
+        status = tn_canvas_commit(canvas, error);
+        tn_canvas_free(canvas);
+    }
+    free(s.legend);
+    return status;
+}

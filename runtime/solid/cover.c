@@ -1,0 +1,176 @@
+/* Areas that convex polygons cover: one is laid down, and what others cover of it is cut away along their sides. */
+#include "runtime/solid/cover.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/solid/footprint.h"
+
+/* A convex polygon with any number of corners up to this; a cut adds one at most. What has more is kept whole: then
+ * areas come out too large, which takes forty sides that all cross one small piece. */
+enum { PIECE_CORNERS = 48 };
+
+typedef struct tn_cover_piece {
+    double at[PIECE_CORNERS][2];
+    size_t count;
+} piece;
+
+bool tn_cover_of(const double (*points)[2], size_t count, tn_cover *cover)
+{
+    memcpy(cover->at, points, count * sizeof *points);
+    cover->count = count;
+    if (!tn_hull(cover->at, &cover->count))
+        return false;
+    for (int k = 0; k < 2; k++) {
+        cover->low[k] = INFINITY;
+        cover->high[k] = -INFINITY;
+        for (size_t i = 0; i < cover->count; i++) {
+            cover->low[k] = fmin(cover->low[k], cover->at[i][k]);
+            cover->high[k] = fmax(cover->high[k], cover->at[i][k]);
+        }
+    }
+    return true;
+}
+
+static piece *add(tn_cover_pieces *work)
+{
+    if (work->count == work->room) {
+        size_t room = work->room ? 2 * work->room : 16;
+        piece *more = realloc(work->pieces, room * sizeof *more);
+        work->failed |= !more;
+        if (!more)
+            return NULL;
+        work->pieces = more;
+        work->room = room;
+    }
+    return &work->pieces[work->count++];
+}
+
+void tn_cover_begin(tn_cover_pieces *work, const tn_cover *cover)
+{
+    work->count = 0;
+    piece *whole = cover->count >= 3 ? add(work) : NULL;
+    if (!whole)
+        return;
+    whole->count = cover->count;
+    memcpy(whole->at, cover->at, cover->count * sizeof *cover->at);
+}
+
+static double beyond(const double a[2], const double b[2], const double p[2])
+{
+    return (b[1] - a[1]) * (p[0] - a[0]) - (b[0] - a[0]) * (p[1] - a[1]); /* above 0: right of a to b, outside */
+}
+
+/* The part of p on one side of the line from a to b: outside it, or inside. */
+static void half(const piece *p, const double a[2], const double b[2], bool outside, piece *out)
+{
+    out->count = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const double *from = p->at[i], *to = p->at[(i + 1) % p->count];
+        double s = beyond(a, b, from), t = beyond(a, b, to);
+        if (outside ? s >= 0 : s <= 0)
+            memcpy(out->at[out->count++], from, sizeof *out->at);
+        if ((s > 0 && t < 0) || (s < 0 && t > 0)) {
+            double share = s / (s - t);
+            out->at[out->count][0] = from[0] + share * (to[0] - from[0]);
+            out->at[out->count++][1] = from[1] + share * (to[1] - from[1]);
+        }
+    }
+}
+
+static double area_of(const piece *p)
+{
+    return p->count < 3 ? 0 : tn_hull_area((const double(*)[2])p->at, p->count);
+}
+
+/* Takes the polygon away from piece i, which is left empty; what lies outside each side in turn becomes pieces. */
+static void cut(tn_cover_pieces *work, size_t i, const tn_cover *other)
+{
+    piece rest = work->pieces[i], part;
+    if (rest.count + other->count >= PIECE_CORNERS)
+        return;
+    work->pieces[i].count = 0;
+    for (size_t k = 0; k < other->count && rest.count >= 3; k++) {
+        const double *a = other->at[k], *b = other->at[(k + 1) % other->count];
+        half(&rest, a, b, true, &part);
+        if (area_of(&part) > 0) {
+            piece *more = add(work);
+            if (!more)
+                return;
+            *more = part;
+        }
+        half(&rest, a, b, false, &part);
+        rest = part;
+    }
+}
+
+static bool meets(const piece *p, const tn_cover *other)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < p->count; i++)
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], p->at[i][k]);
+            high[k] = fmax(high[k], p->at[i][k]);
+        }
+    return p->count >= 3 && low[0] < other->high[0] && other->low[0] < high[0] && low[1] < other->high[1] &&
+           other->low[1] < high[1];
+}
+
+void tn_cover_less(tn_cover_pieces *work, const tn_cover *other)
+{
+    size_t before = work->count, kept = 0;
+    for (size_t i = 0; i < before && other->count >= 3; i++)
+        if (meets(&work->pieces[i], other))
+            cut(work, i, other);
+    for (size_t i = 0; i < work->count; i++)
+        if (work->pieces[i].count >= 3)
+            work->pieces[kept++] = work->pieces[i];
+    work->count = kept;
+}
+
+double tn_cover_left(const tn_cover_pieces *work)
+{
+    double area = 0;
+    for (size_t i = 0; i < work->count; i++)
+        area += area_of(&work->pieces[i]);
+    return area;
+}
+
+static int by_low(const void *a, const void *b)
+{
+    const tn_cover *p = a, *q = b;
+    for (int k = 0; k < 2; k++)
+        if (p->low[k] != q->low[k])
+            return p->low[k] < q->low[k] ? -1 : 1;
+    return p->high[0] < q->high[0] ? -1 : p->high[0] > q->high[0];
+}
+
+/* Each polygon less those before it in order of their low sides; `open` are the ones that reach so far. */
+double tn_cover_area(tn_cover *covers, size_t count)
+{
+    size_t *open = malloc((count + 1) * sizeof *open), open_count = 0;
+    tn_cover_pieces work = {0};
+    double area = 0;
+    if (!open)
+        return -1;
+    if (count)
+        qsort(covers, count, sizeof *covers, by_low);
+    for (size_t i = 0; i < count; i++) {
+        size_t kept = 0;
+        tn_cover_begin(&work, &covers[i]);
+        for (size_t k = 0; k < open_count; k++) {
+            if (covers[open[k]].high[0] <= covers[i].low[0])
+                continue;
+            open[kept++] = open[k];
+            if (work.count)
+                tn_cover_less(&work, &covers[open[k]]);
+        }
+        area += tn_cover_left(&work);
+        open[kept++] = i;
+        open_count = kept;
+    }
+    free(work.pieces);
+    free(open);
+    return work.failed ? -1 : area;
+}

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Commands about measures: count --by, best, pareto, complete, --where; what they say to wrong words.
+name=measures
+. "$(dirname "$0")/golden.bash"
+
+golden by 'tartan count measures.plan -l strips --by area'
+golden by_number 'tartan count measures.plan -l strips --by served'
+golden by_bins 'tartan count measures.plan -l strips --by cost --bins 6'
+golden by_step 'tartan count measures.plan -l strips --by cost --step 500'
+golden by_json 'tartan count measures.plan -l strips --by all-beds --json'
+golden by_none 'tartan count measures.plan -l strips --by cost --where "trays = 2 and trays = 3"'
+golden by_none_json 'tartan count measures.plan -l strips --by cost --where "trays = 2 and trays = 3" --json'
+golden best 'tartan best measures.plan 4 -l strips --least cost --then-most all-beds'
+golden best_json 'tartan best measures.plan 2 -l strips --most area --then-least cost -f json'
+golden best_mirror 'tartan best measures.plan 3 -l strips --most all-beds --mirror'
+golden best_csv 'tartan best measures.plan 2 -l strips --most all-beds -f csv'
+golden best_all 'tartan best measures.plan 100 -l strips --least area --where "trays = 2 and all-beds >= 4" -f json | wc -l'
+golden pareto 'tartan pareto measures.plan -l strips --least cost --most all-beds'
+golden pareto_json 'tartan pareto measures.plan -l strips --least cost --most all-beds --json | head -20'
+golden complete 'tartan complete measures.plan -l strips "3m room | ? | ... | store"'
+golden complete_json 'tartan complete measures.plan -l strips "room | ?" --json'
+golden complete_none 'tartan complete measures.plan -l strips "store | ?"'
+golden where 'tartan count measures.plan -l strips --where "area <= 20m2" --where "plan [room | ... | store]"'
+golden prolog_left_out 'tartan export measures.plan --prolog -l strips'
+
+golden regex_sum 'tartan export measures.plan --regex --rule few-stores'
+golden explain_call 'tartan explain measures.plan --rule crowded "3m store none | 2m store none" --full'
+golden no_measure 'tartan count measures.plan -l strips --by arae'
+golden wrong_step 'tartan count measures.plan -l strips --by area --step 2m2'
+golden fine_step 'tartan count measures.plan -l strips --by area --step 0.00001'
+golden no_wish 'tartan best measures.plan 3 -l strips'
+golden two_wishes 'tartan best measures.plan 3 -l strips --least cost --least area'
+golden one_wish 'tartan pareto measures.plan -l strips --least cost'
+golden wrong_number 'tartan best 3 measures.plan --least cost'
+golden wrong_where 'tartan count measures.plan -l strips --where "area <= 20m"'
+golden wrong_where_word 'tartan count measures.plan -l strips --where "quantity(tray(stor)) > 1"'
+golden wrong_pattern 'tartan complete measures.plan -l strips "room | 5m"'
+golden half_pattern 'tartan complete measures.plan -l strips "room |"'
+
+"$TARTAN" build "$files/measures.plan" -o "$scratch/measures.tnb"
+golden module_by "tartan count $scratch/measures.tnb -l strips --by area | head -4"
+golden module_where "tartan count $scratch/measures.tnb -l strips --where 'area <= 20m2'"
+
+# The best are the first of the distribution, and each of them is kept.
+"$TARTAN" best "$files/measures.plan" 1000 -l strips --least cost >"$scratch/best"
+grep -v '^#' "$scratch/best" | "$TARTAN" prune "$files/measures.plan" - -l strips >"$scratch/kept" 2>/dev/null
+cmp <(grep -v '^#' "$scratch/best") "$scratch/kept" || fail 'best writes plans that the library does not keep'
+sed -n 's/^# \([^ ]*\) .*/\1/p' "$scratch/best" | tr -d , | sort -n -c || fail 'best is not in order'
+finish
