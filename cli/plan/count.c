@@ -5,6 +5,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
 #include "driver/open/digits.h"
@@ -96,7 +97,7 @@ static tn_status count_clause(counts *c, tn_opened *opened, uint32_t i, tn_error
     return TN_OK;
 }
 
-static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
+static tn_status count_lengths(counts *c, tn_error *error)
 {
     const tn_library *library = c->ready->library;
     tn_status status = TN_OK;
@@ -109,8 +110,17 @@ static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
         if (status == TN_OK && c->mirror)
             status = tn_library_kept_mirror(library, length, c->lengths[i].mirror, error);
     }
+    return status;
+}
+
+static tn_status count_clauses(counts *c, tn_opened *opened, tn_error *error)
+{
+    tn_progress progress;
+    tn_status status = TN_OK;
+    tn_progress_watch(&progress, "clauses counted", tn_interrupt_waiting());
     for (uint32_t i = 0; status == TN_OK && i < c->clause_count; i++)
         status = count_clause(c, opened, i, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     return status;
 }
 
@@ -194,8 +204,6 @@ static void write_text(const counts *c, FILE *out)
     free(text);
     mpz_clear(pruned);
     write_lengths(c, out);
-    write_clauses(c, false, "requirement", "keeps out", out);
-    write_clauses(c, true, "rule", "prunes", out);
 }
 
 static void set_number(json_t *object, const char *key, const mpz_t number)
@@ -236,7 +244,7 @@ static json_t *clauses_json(const counts *c, bool prunes, const char *out_key)
     return list;
 }
 
-static void write_json(const counts *c, FILE *out)
+static void write_json(const counts *c, bool effects, FILE *out)
 {
     const length_counts *total = &c->lengths[c->length_count];
     char hash[33];
@@ -255,12 +263,35 @@ static void write_json(const counts *c, FILE *out)
     if (c->mirror)
         set_number(root, "mirror", total->mirror);
     json_object_set_new(root, "by_length", lengths_json(c));
-    json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
-    json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
+    if (effects)
+        json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
+    if (effects)
+        json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
     json_dumpf(root, out, JSON_INDENT(2));
     fputc('\n', out);
     json_decref(root);
     mpz_clear(pruned);
+}
+
+/* The counts first, and then what each clause does, which may take far longer. */
+static tn_status write_counts(tn_job *job, counts *c, const tn_count_options *options, FILE *out, tn_error *error)
+{
+    tn_status status = TN_OK;
+    if (!options->json)
+        write_text(c, out);
+    if (!options->json && !options->no_effects)
+        fflush(out);
+    if (!options->no_effects)
+        status = count_clauses(c, &job->opened, error);
+    if (status != TN_OK)
+        return status;
+    if (options->json) {
+        write_json(c, !options->no_effects, out);
+    } else if (!options->no_effects) {
+        write_clauses(c, false, "requirement", "keeps out", out);
+        write_clauses(c, true, "rule", "prunes", out);
+    }
+    return TN_OK;
 }
 
 void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path)
@@ -274,14 +305,15 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
         return;
     }
     tn_job_show(job);
-    if (count_all(&c, &job->opened, &error) != TN_OK) {
+    if (count_lengths(&c, &error) != TN_OK) {
         tn_job_fail(job, &error);
     } else if (tn_job_output(job, path, &output)) {
-        (options->json ? write_json : write_text)(&c, output.stream);
-        bool complete = tn_interrupt_check(&error) == TN_OK; /* long plans have long numbers, and take long to write */
-        if (!complete)
+        tn_status status = write_counts(job, &c, options, output.stream, &error);
+        if (status == TN_OK)
+            status = tn_interrupt_check(&error); /* long plans have long numbers, and take long to write */
+        if (status != TN_OK)
             tn_job_fail(job, &error);
-        tn_job_close(job, &output, complete);
+        tn_job_close(job, &output, status == TN_OK);
     }
     counts_free(&c);
 }
@@ -315,6 +347,8 @@ static const tn_option options[] = {
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
     NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
+    FLAG("no-effects", 0, count.no_effects,
+         "leave out what each clause does, which may take far longer than the counts"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTIONS_LIBRARY_LIMITS,
@@ -323,12 +357,16 @@ static const tn_option options[] = {
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]",
+    .usage =
+        "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
         "these lengths that it keeps out. For both it counts how many more plans there would be without that "
-        "clause. Counts are exact, whatever their size. They are computed from the library's automaton, without "
+        "clause. The counts are written first. What each clause does may take far longer for hundreds of clauses, so "
+        "each clause has an equal share of the work, and one that needs more is not counted, with a note. "
+        "--no-effects leaves this out.\n\n"
+        "Counts are exact, whatever their size. They are computed from the library's automaton, without "
         "listing plans.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,

@@ -58,7 +58,7 @@ void tn_watch_measure(tn_watch *watch);
  * the system does not have them. `what` begins a sentence. The watch may be NULL. */
 tn_status tn_watch_room(const tn_watch *watch, uint64_t bytes, const char *what, tn_error *error);
 
-/* Says how far the work is, on the watch's own thread. NULL is fine. */
+/* Says how far the work is; on any other thread than the watch's own it says nothing. NULL is fine. */
 void tn_watch_tell(tn_watch *watch, double done, double total);
 
 #endif

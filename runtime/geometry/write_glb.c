@@ -193,7 +193,7 @@ tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     for (size_t f = 0; f < mesh->face_count; f++)
         if (mesh->face_first[f + 1] - mesh->face_first[f] != 3)
             return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a GLB file takes triangles only");
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK)
         status = write_triangles(mesh, style, normals, out, error);
     free(normals);

@@ -85,7 +85,7 @@ tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     tn_text_out *out = malloc(sizeof *out);
     if (!out)
         return tn_fail_memory(error);
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
         largest = fmax(largest, fabs(mesh->positions[i]));
     tn_text_begin(out, stream, largest);

@@ -81,7 +81,7 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     out->stream = stream;
     out->failed = false;
     out->used = 0;
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK) {
         write_header(mesh, style, stream, large);
         for (size_t v = 0; v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++) {
