@@ -1,3 +1,4 @@
+/* Opens the library that a command line names, within the limits of its options. */
 #include "cli/plan/library_job.h"
 
 #include <stdlib.h>
