@@ -1,3 +1,4 @@
+/* Finds what the names in a .plan file stand for. */
 #include "lsp/index.h"
 
 #include <string.h>

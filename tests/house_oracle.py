@@ -82,6 +82,59 @@ def compare_decision(path, wanted):
         failures.append(f"{os.path.basename(path)}: {wanted['line']} is dropped by {got}, not {wanted['dropped_by']}")
 
 
+def run(*words):
+    """What tartan prints, or what is wrong."""
+    done = subprocess.run([tartan, *words], capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else done.stderr
+
+
+def counts(*words):
+    try:
+        return json.loads(run("count", *words, "--json"))
+    except json.JSONDecodeError:
+        return {}
+
+
+def same(name, got, wanted):
+    if got != wanted:
+        failures.append(f"{name}: {got}, not {wanted}")
+
+
+def compare_counts(path, wanted):
+    """All houses of a form's library counted, and houses by their ranks, both ways."""
+    name = os.path.basename(path)
+    library = ["--library", "h"]
+    got = counts(path, *library)
+    for part in ("plans", "plans_with_houses", "zoned", "faced", "houses"):
+        same(f"{name}: {part}", got.get(part), str(wanted["count"][part]))
+    same(name, got.get("by_length"), {n: str(houses) for n, houses in wanted["count"]["by_length"].items() if houses})
+    for rank, line in wanted["at_rank"].items():
+        same(f"{name}: house {rank}", run("unrank", path, rank, *library), line)
+        number = run("rank", path, line, *library)
+        same(f"{name}: house {number}", run("unrank", path, number, *library), line)
+
+
+def compare_variants():
+    """Houses on one plan: of the LaHave House in one section, and of rows of two trays."""
+    with open(oracles + "/lahave-variants.json") as file:
+        wanted = json.load(file)
+    for section, parts in wanted["sections"].items():
+        values = section.split()
+        names = ["machine storeys", "machine roof", "body storeys", "body roof", "bay storeys", "bay roof", "cladding"]
+        names = names[: 2 * len([v for v in values if v.isdigit()])] + names[6:]
+        where = "section(" + ", ".join(f"{n} {v}" for n, v in zip(names, values)) + ")"
+        got = counts(oracles + "/stdlib/lahave-form.plan", "--library", wanted["library"], "--plan", wanted["plan"], "--where", where)
+        same(f"LaHave, {section}", [got.get(part) for part in parts], [str(number) for number in parts.values()])
+    source = [oracles + "/stdlib/row-houses.plan", "--library", "row-houses"]
+    with open(oracles + "/row-variants.json") as file:
+        plans = json.load(file)["plans"]
+    for plan in plans:
+        got = counts(*source, "--plan", plan["plan"])
+        for part in ("zoned", "faced", "houses"):
+            same(f"row {plan['plan_rank']}: {part}", got.get(part), str(plan[part]))
+        same(f"row {plan['plan_rank']}", run("unrank", source[0], f"#{plan['plan_rank']}:0", *source[1:]), plan["first"])
+
+
 def main():
     count = decided = 0
     os.chdir(tempfile.mkdtemp())
@@ -89,6 +142,8 @@ def main():
         with open(path) as file:
             wanted = json.load(file)
         source = path[:-5] + ".plan"
+        if "count" in wanted:
+            compare_counts(source, wanted)
         if "rules" in wanted:
             decided += compare_rules(source, wanted)
         for one in wanted.get("decisions", []):
@@ -102,6 +157,7 @@ def main():
             if got.stdout != line + "\n":
                 failures.append(f"{os.path.basename(path)}: {line} becomes {got.stdout or got.stderr}")
             count += 1
+    compare_variants()
     with open(oracles + "/lahave-walk.json") as file:
         walk = json.load(file)
     compare("lahave-walk.json", oracles + "/stdlib/lahave-form.plan", walk)

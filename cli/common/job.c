@@ -1,3 +1,4 @@
+/* Runs the parts that commands share: opening files, messages, output, exit codes. */
 #include "cli/common/job.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Shows on a terminal how far long work is. */
 #include "cli/common/progress.h"
 
 #include <stdio.h>

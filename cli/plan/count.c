@@ -8,6 +8,7 @@
 #include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
+#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 #include "runtime/base/utf8.h"
@@ -16,7 +17,8 @@ typedef struct count_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_count_options count;
-    const char *by; /* the measure that is counted by */
+    const char *plan; /* whose houses are counted */
+    const char *by;   /* the measure that is counted by */
     const char *step;
     tn_option_number bins;
     const char *output;
@@ -327,15 +329,27 @@ static void answer(tn_job *job, const tn_ready_library *ready, const count_setti
         tn_job_count(job, ready, &settings->count, settings->output);
 }
 
+/* With --plan, or where --library names a library of houses. */
+static bool counts_houses(const tn_job *job, const count_settings *settings)
+{
+    const char *library = settings->plans.library;
+    return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const count_settings *settings = (const count_settings *)common;
     tn_job job;
-    tn_ready_library ready;
+    tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+    bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
+    if (open && counts_houses(&job, settings)) {
+        const tn_house_settings houses = tn_job_houses(&settings->plans);
+        tn_job_count_houses(&job, &houses, settings->plan, settings->count.json, settings->output);
+    } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         answer(&job, &ready, settings);
+    }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -349,6 +363,7 @@ static const tn_option options[] = {
     NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
     FLAG("no-effects", 0, count.no_effects,
          "leave out what each clause does, which may take far longer than the counts"),
+    TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
     OPTIONS_LIBRARY_LIMITS,
@@ -358,7 +373,8 @@ const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
     .usage =
-        "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]",
+        "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]\n"
+        "FILE --library HOUSES [--plan PLAN] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
@@ -367,7 +383,10 @@ const tn_command tn_command_count = {
         "each clause has an equal share of the work, and one that needs more is not counted, with a note. "
         "--no-effects leaves this out.\n\n"
         "Counts are exact, whatever their size. They are computed from the library's automaton, without "
-        "listing plans.",
+        "listing plans.\n\n"
+        "For a library of houses (docs/houses.md) it counts the plans, those that have a house, the choices of section "
+        "and functions, those with openings, and the houses. They are counted plan by plan; --plan counts those of one "
+        "plan.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -1,3 +1,4 @@
+/* Opens the library that a command line names, within the limits of its options. */
 #include "cli/plan/library_job.h"
 
 #include <stdlib.h>
@@ -54,15 +55,35 @@ bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans
     return tn_job_library_open_plan(job, path, plans, NULL, ready);
 }
 
+static tn_library_options options_of(const tn_plan_settings *plans)
+{
+    return (tn_library_options){.max_states = (uint32_t)plans->max_states.value,
+                                .override_trays = plans->trays.given,
+                                .trays_min = (uint32_t)plans->trays.low,
+                                .trays_max = (uint32_t)plans->trays.high,
+                                .max_length = (uint32_t)plans->max_length.value,
+                                .threads = tn_job_threads(plans)};
+}
+
+tn_house_settings tn_job_houses(const tn_plan_settings *plans)
+{
+    return (tn_house_settings){.library = plans->library,
+                               .max_states = (uint32_t)plans->max_states.value,
+                               .max_length = tn_job_max_length(plans)};
+}
+
+bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)
+{
+    const tn_library_options options = options_of(plans);
+    tn_status status = tn_library_ready(&job->opened, plans->library, &options, ready);
+    tn_job_status(job, status);
+    return status == TN_OK;
+}
+
 bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
                               tn_ready_library *ready)
 {
-    tn_library_options options = {.max_states = (uint32_t)plans->max_states.value,
-                                  .override_trays = plans->trays.given,
-                                  .trays_min = (uint32_t)plans->trays.low,
-                                  .trays_max = (uint32_t)plans->trays.high,
-                                  .max_length = (uint32_t)plans->max_length.value,
-                                  .threads = tn_job_threads(plans)};
+    const tn_library_options options = options_of(plans);
     return ready_library(job, path, plans, pattern, &options, ready);
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
+#include "cli/house/numbered.h"
 #include "driver/plan/library.h"
 
 /* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */
@@ -43,6 +44,12 @@ bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *pl
 
 /* Opens the file and makes the chosen library ready; false where that failed (then end the job). */
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
+
+/* The same of a file that tn_job_open_plans has opened. */
+bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready);
+
+/* What the options say, for libraries of houses. */
+tn_house_settings tn_job_houses(const tn_plan_settings *plans);
 
 /* The same, with an open plan whose trays become functions of the module. */
 bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,

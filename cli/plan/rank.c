@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/judged.h"
 #include "cli/plan/library_job.h"
 #include "driver/plan/clauses.h"
 #include "runtime/plan/text/text.h"
@@ -90,10 +91,14 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const rank_settings *settings = (const rank_settings *)common;
     tn_job job;
-    tn_ready_library ready;
+    tn_ready_library ready = {0};
     const char *text = common->operands.items[1];
     tn_job_begin(&job, common);
-    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
+    bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
+    if (open && tn_is_house_line(text)) {
+        const tn_house_settings houses = tn_job_houses(&settings->plans);
+        tn_job_rank_house(&job, &houses, text);
+    } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         tn_plan plan = {0};
         tn_error error;
         tn_status status = text[strspn(text, " ")] == '{'
@@ -126,7 +131,9 @@ const tn_command tn_command_rank = {
                    "and then tray by tray. "
                    "PLAN is a plan line or a JSON object, in quotes. For a plan that the library does not hold, the "
                    "exit code is 1 and "
-                   "the message says which clause it fails.",
+                   "the message says which clause it fails. "
+                   "Of a house line it writes #P:V: the rank of its plan, and how many houses on that plan come "
+                   "before it.",
     .example = "$ tartan rank terrace \"$(tartan unrank terrace 1000)\"\n1000",
     .options = options,
     .option_count = OPTION_COUNT(options),

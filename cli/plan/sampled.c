@@ -1,3 +1,4 @@
+/* Draws ranks of a library, as --seed, --length and --per-length say. */
 #include "cli/plan/sampled.h"
 
 #include <stdio.h>

@@ -4,6 +4,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
+#include "driver/house/judge.h"
 #include "runtime/plan/text/text.h"
 
 typedef struct unrank_settings {
@@ -62,11 +63,17 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_ready_library ready = {0};
     const char *text = common->operands.items[1];
     tn_job_begin(&job, common);
-    if (!*text || strspn(text, "0123456789") != strlen(text)) {
+    bool digits = *text && strspn(text, "0123456789") == strlen(text);
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    if (!digits && !tn_is_house_number(text)) {
         tn_diagnostic *d = tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan unrank FILE RANK");
-    } else if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
-        unrank(&job, &ready, text);
+    } else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
+        if (!digits || (houses.library && tn_house_library_find(job.opened.module, houses.library) != TN_NO_RECORD))
+            tn_job_unrank_house(&job, &houses, text);
+        else if (tn_job_opened_library(&job, &settings->plans, &ready))
+            unrank(&job, &ready, text);
+    }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -81,9 +88,11 @@ static const tn_option options[] = {
 const tn_command tn_command_unrank = {
     .name = "unrank",
     .summary = "print the plan of a number",
-    .usage = "FILE RANK [--library NAME]",
+    .usage = "FILE RANK [--library NAME]\nFILE '#P:V' [--library HOUSES]",
     .description =
-        "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank.",
+        "Writes the plan of a rank (a whole number from 0, of any size) as a plan line: the inverse of rank. "
+        "#P:V is variant V of the plan of rank P in a library of houses, and is written as a house line; "
+        "with --library HOUSES a number alone is the rank among all houses.",
     .example = "$ tartan unrank lahave-houses 123456789",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -1,4 +1,4 @@
-/* Puts what engines find into the diagnostics of a file, at its place in the source. */
+/* Turns an engine's finding, a code offset, into a message at its place in the source. */
 #include "driver/open/findings.h"
 
 #include <string.h>

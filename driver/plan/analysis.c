@@ -1,3 +1,4 @@
+/* Analyses the rules of a file and words what is found. */
 #include "driver/plan/analysis.h"
 
 #include <stdlib.h>

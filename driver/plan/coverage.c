@@ -1,3 +1,4 @@
+/* Measures which parts of a file's rules its tests notice. */
 #include "driver/plan/coverage.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Writes the report of a library: the page, its counts and its warnings. */
 #include "driver/report/report.h"
 
 #include <stdlib.h>
@@ -82,7 +83,7 @@ static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
     return good && tn_report_html(r, "</div>\n");
 }
 
-/* The warnings of checking, and notes on what could not be analysed. */
+/* The warnings of checking, and its notes but for limits. */
 static bool put_findings(const tn_reporting *r)
 {
     tn_diagnostics *found = &r->opened->compilation.diagnostics;

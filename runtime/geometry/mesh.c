@@ -1,3 +1,4 @@
+/* Keeps meshes as arrays. */
 #include "runtime/geometry/mesh.h"
 
 #include <math.h>

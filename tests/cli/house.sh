@@ -28,6 +28,14 @@ golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rul
 golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"
 golden failed_test "tartan test houses-wrong.plan"
 
+golden count_plan "tartan count cottage --library cottages --plan \"14' room:14' none | 14' room:14' none | 14' room:14' none\" --json"
+golden count_no_plan "tartan count cottage --plan \"10' room:14' none\""
+golden count_bad_plan "tartan count cottage --plan '#600'"
+golden unrank "tartan unrank cottage '#10:77'"
+golden unrank_no_number "tartan unrank cottage '#10:x'"
+golden rank "tartan rank cottage \"\$(tartan unrank cottage '#10:77')\""
+golden rank_dropped "tartan rank cottage \"$bedrooms\""
+
 # Every part is a closed mesh: each edge is there twice, once in each direction.
 "$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o "$scratch/h.obj" \
     -o "$scratch/h.json" -o "$scratch/h.ply" -o "$scratch/h.glb"

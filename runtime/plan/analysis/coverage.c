@@ -1,4 +1,4 @@
-/* Counts for how many plans a decision is another one without a part of a rule. */
+/* Counts what would be decided otherwise if a part of a rule never matched. */
 #include "runtime/plan/analysis/coverage.h"
 
 #include <stdlib.h>

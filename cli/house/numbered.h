@@ -1,0 +1,28 @@
+/* Houses by number: counting those of a library, and `#P:V`, variant V of the plan of rank P. */
+#ifndef TARTAN_CLI_HOUSE_NUMBERED_H
+#define TARTAN_CLI_HOUSE_NUMBERED_H
+
+#include "cli/common/job.h"
+#include "runtime/house/house.h"
+
+/* What the options say of the library of houses and of its plans. */
+typedef struct tn_house_settings {
+    const char *library; /* NULL: the only one */
+    uint32_t max_states;
+    size_t max_length;
+} tn_house_settings;
+
+/* Counts the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
+void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const char *plan, bool json,
+                         const char *output);
+
+/* Writes the name #P:V of a house. */
+void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line);
+
+/* Is the text #P:V, or P:V? */
+bool tn_is_house_number(const char *text);
+
+/* Writes the line of the house of that name; of digits alone: of that rank among all of the library's. */
+void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number);
+
+#endif

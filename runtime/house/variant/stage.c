@@ -1,0 +1,69 @@
+/* Finds for each clause how much of a house it asks for, by the instructions that its code reaches. */
+#include "runtime/house/variant/stage.h"
+
+#include <stdlib.h>
+
+#include "runtime/module/code.h"
+
+static tn_clause_stage later(tn_clause_stage a, tn_clause_stage b)
+{
+    return a > b ? a : b;
+}
+
+/* The latest of the functions that an instruction names; they are lower, and so known. */
+static tn_clause_stage of_operands(const tn_module *module, const tn_instruction *op, const tn_clause_stage *known)
+{
+    tn_clause_stage stage = TN_STAGE_SECTION;
+    switch (tn_code_operands((uint8_t)op->opcode)) {
+    case TN_OPERANDS_FUNC:
+    case TN_OPERANDS_DECISION:
+    case TN_OPERANDS_DECISION_COND:
+        return known[op->first];
+    case TN_OPERANDS_SUMMED: {
+        const tn_sum_record *sum = &module->SUM_records[op->first];
+        for (uint32_t i = 0; i < sum->term_count; i++)
+            stage = later(stage, known[module->TERM_records[sum->term_first + i].part]);
+        return stage;
+    }
+    default:
+        return stage;
+    }
+}
+
+static tn_clause_stage of_instruction(const tn_module *module, const tn_instruction *op, const tn_clause_stage *known)
+{
+    switch (op->opcode) {
+    case TN_OP_SOME_ROOM:
+    case TN_OP_ROOMS:
+    case TN_OP_MEETS:
+    case TN_OP_APART:
+        return TN_STAGE_FACES;
+    case TN_OP_IS_FOR:
+        return TN_STAGE_FUNCTIONS;
+    default:
+        return of_operands(module, op, known);
+    }
+}
+
+tn_status tn_clause_stages(const tn_house_form *form, const tn_house_library_record *library, tn_clause_stage *stages,
+                           tn_error *error)
+{
+    const tn_module *module = form->module;
+    tn_clause_stage *known = calloc(module->FUNCTION_count + 1, sizeof *known);
+    if (!known)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        tn_code_kind code = tn_function_kinds[function->kind].code;
+        for (uint32_t at = function->code_begin;
+             (code == TN_CODE_RULE || code == TN_CODE_HOUSE) && at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            known[f] = later(known[f], of_instruction(module, &op, known));
+            at += op.length;
+        }
+    }
+    for (uint32_t i = 0; i < library->clause_count; i++)
+        stages[i] = known[module->HOUSE_CLAUSE_records[library->clause_first + i].holds];
+    free(known);
+    return TN_OK;
+}

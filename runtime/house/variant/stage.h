@@ -1,0 +1,17 @@
+/* When a clause of a house library can be asked: how much of a house has to be known for what it asks. */
+#ifndef TARTAN_HOUSE_VARIANT_STAGE_H
+#define TARTAN_HOUSE_VARIANT_STAGE_H
+
+#include "runtime/house/form/form.h"
+
+typedef enum tn_clause_stage {
+    TN_STAGE_SECTION,   /* the plan, the section, which cells there are */
+    TN_STAGE_FUNCTIONS, /* their functions */
+    TN_STAGE_FACES      /* what is in the faces: rooms, walks, what touches what */
+} tn_clause_stage;
+
+/* The stage of each clause of the library. */
+tn_status tn_clause_stages(const tn_house_form *form, const tn_house_library_record *library, tn_clause_stage *stages,
+                           tn_error *error);
+
+#endif

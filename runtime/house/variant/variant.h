@@ -1,0 +1,46 @@
+/* The houses of a library on one plan, in the order of their ranks: section, functions, faces, tiles.
+ *
+ * Sections, then functions, then what is in the faces are tried one after another; a clause is asked as soon as what it
+ * asks for is known, so that what it drops is not gone into. Tiles do not change what clauses say: they are multiplied.
+ * Counts are exact. Going through all takes as long as there are faced houses that no earlier clause drops: past a
+ * limit of `work` it is TN_LIMIT (E1617).
+ *
+ * A tn_house_variants belongs to one thread and borrows the form.
+ */
+#ifndef TARTAN_HOUSE_VARIANT_VARIANT_H
+#define TARTAN_HOUSE_VARIANT_VARIANT_H
+
+#include <gmp.h>
+
+#include "runtime/house/rule/asked.h"
+
+#define TN_VARIANT_WORK_DEFAULT UINT64_C(20000000) /* assignments looked at: some minutes */
+
+typedef struct tn_house_variants tn_house_variants;
+
+/* library: whose clauses keep houses. work: 0 is the default. */
+tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_library_record *library, uint64_t work,
+                                tn_house_variants **variants, tn_error *error);
+void tn_house_variants_free(tn_house_variants *variants);
+
+/* How many there are on a plan. zoned: sections with functions that have a house; faced: those with what is in the
+ * faces, too. Adds to what is there: begin with tn_house_counts_init. */
+typedef struct tn_house_counts {
+    uint64_t zoned, faced;
+    mpz_t houses;
+} tn_house_counts;
+void tn_house_counts_init(tn_house_counts *counts);
+void tn_house_counts_clear(tn_house_counts *counts);
+
+tn_status tn_house_variants_count(tn_house_variants *variants, const tn_tray *trays, size_t length,
+                                  tn_house_counts *counts, tn_error *error);
+
+/* The house that `variant` others come before; TN_INVALID (E1618) where there are not so many. Clear *house in any
+ * case. */
+tn_status tn_house_variants_at(tn_house_variants *variants, const tn_tray *trays, size_t length, const mpz_t variant,
+                               tn_house *house, tn_error *error);
+
+/* How many houses on its plan come before this one, which the library keeps. TN_INVALID (E1618) where it does not. */
+tn_status tn_house_variants_rank(tn_house_variants *variants, const tn_house *house, mpz_t variant, tn_error *error);
+
+#endif
