@@ -1,3 +1,4 @@
+/* Compiles a text and indexes it for the questions of an editor. */
 #include "lsp/analysis.h"
 
 #include <stdlib.h>

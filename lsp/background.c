@@ -1,3 +1,4 @@
+/* Runs the language server's slow work on a thread of its own. */
 #include "lsp/background.h"
 
 #include <pthread.h>

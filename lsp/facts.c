@@ -1,3 +1,4 @@
+/* Keeps what was found about rules and libraries, for hover and warnings. */
 #include "lsp/facts.h"
 
 #include <stdio.h>

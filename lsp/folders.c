@@ -1,3 +1,4 @@
+/* Lists the rule files in the folders that an editor has open. */
 #include "lsp/folders.h"
 
 #include <dirent.h>

@@ -1,3 +1,4 @@
+/* Finds what the names in a .plan file stand for. */
 #include "lsp/index.h"
 
 #include <string.h>
@@ -78,11 +79,7 @@ const tn_symbol *tn_index_schema(const tn_index *index, const char *owner)
     const tn_symbol *symbol = owner ? tn_names_get(&index->names, owner) : NULL;
     if (symbol && symbol->schema)
         return symbol->schema;
-    const tn_symbol *last = NULL;
-    for (const tn_symbol *s = index->first; s; s = s->next)
-        if (s->kind == TN_SYMBOL_SCHEMA)
-            last = s;
-    return last;
+    return index->last_schema;
 }
 
 /* ---- definitions */
@@ -92,6 +89,7 @@ static void define_schema(tn_index *index, const tn_ast_schema *ast)
     const tn_symbol *schema = define(index, TN_SYMBOL_SCHEMA, ast->name, ast->doc, &ast->top.node, NULL);
     if (!schema)
         return;
+    index->last_schema = schema;
     if (!tn_names_get(&index->schemas, schema->name))
         tn_names_put(&index->schemas, schema->name, (void *)(uintptr_t)schema);
     for (TN_EACH(const tn_ast_field, field, ast->body.fields)) {

@@ -32,7 +32,8 @@ typedef struct tn_occurrence {
 
 typedef struct tn_index {
     tn_arena *arena;
-    tn_symbol *first, *last; /* all symbols, in the order of files and text */
+    tn_symbol *first, *last;      /* all symbols, in the order of files and text */
+    const tn_symbol *last_schema; /* of those, or NULL */
     tn_occurrence *occurrences;
     size_t count, capacity;
     tn_names schemas, names, clauses; /* names: rules and libraries */

@@ -1,3 +1,4 @@
+/* Converts the language server's positions (UTF-16) to bytes, and back. */
 #include "lsp/lines.h"
 
 #include <stdlib.h>

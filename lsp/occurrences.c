@@ -1,3 +1,4 @@
+/* Finds the places where a name is used. */
 #include "lsp/occurrences.h"
 
 #include <stdlib.h>

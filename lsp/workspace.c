@@ -1,3 +1,4 @@
+/* Keeps the texts that an editor has open. */
 #include "lsp/workspace.h"
 
 #include <limits.h>

@@ -4,7 +4,7 @@
 A ```console block holds commands (lines that start with "$ ") and under each what it prints, standard output and errors
 together; a line "..." stands for any number of lines. A block of a notation's language (```plan; compiler/notations.def) is a rule file: it must
 pass `tartan check`, and one whose first line is "# NAME.plan" ("// NAME.hemls") is there under that name for the commands below it. Each page runs in a copy of its own
-folder. TARTAN is the binary. --update writes what is printed now into the pages.
+folder. Links to files of the repository must lead somewhere. TARTAN is the binary. --update writes what is printed now into the pages.
 """
 import os, re, shutil, subprocess, sys, tempfile
 
@@ -69,9 +69,24 @@ def rules(page, kind, block, folder):
     return code != 0
 
 
+def links(page, text):
+    """How many links to files, or to headings of pages, lead nowhere."""
+    failures = 0
+    for path, heading in re.findall(r"\]\(([^)#\s:]*)(?:#([^)\s]*))?\)", re.sub(r"^```.*?^```$", "", text, flags=re.S | re.M)):
+        target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+        there = os.path.exists(target)
+        if there and heading and target.endswith(".md"):
+            found = re.findall(r"^#+ (.*)$", open(target).read(), re.M)
+            there = heading in [re.sub(r"[^\w\- ]", "", h.strip().lower()).replace(" ", "-") for h in found]
+        if not there:
+            print("%s: the link to %s leads nowhere" % (page, path + ("#" + heading if heading else "")))
+            failures += 1
+    return failures
+
+
 def check(page, update):
     text = open(page).read()
-    failures = 0
+    failures = links(page, text)
     with tempfile.TemporaryDirectory() as top:
         folder = os.path.join(top, "here")
         if "examples" in page.split(os.sep):

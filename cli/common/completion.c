@@ -1,3 +1,4 @@
+/* Writes completion for shells from the tables of commands and options. */
 #include "cli/common/completion.h"
 
 #include <ctype.h>

@@ -1,3 +1,4 @@
+/* Prints help: of a command, and the list of all. */
 #include "cli/common/help.h"
 
 #include <string.h>

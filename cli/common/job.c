@@ -1,3 +1,4 @@
+/* Runs the parts that commands share: opening files, messages, output, exit codes. */
 #include "cli/common/job.h"
 
 #include <stdarg.h>
@@ -50,6 +51,8 @@ bool tn_job_open(tn_job *job, const char *path)
 
 bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *questions)
 {
+    if (job->opened.module && job->opened.path == path)
+        return true;
     worsen(job, tn_exit_code(tn_open_asking(path, job->settings->werror, questions, &job->opened)));
     if (job->opened.module)
         job->opened.module->watch = tn_interrupt_waiting();

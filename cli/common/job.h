@@ -34,7 +34,7 @@ typedef struct tn_job {
 
 void tn_job_begin(tn_job *job, const tn_settings *settings);
 
-/* Opens a rule file or module; false where that failed (then end the job). */
+/* Opens a rule file or module, unless that is open; false where that failed (then end the job). */
 bool tn_job_open(tn_job *job, const char *path);
 
 /* The same, with what the command line asks of a .plan file; NULL: nothing. */

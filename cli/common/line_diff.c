@@ -1,3 +1,4 @@
+/* Compares two texts line by line and prints what differs. */
 #include "cli/common/line_diff.h"
 
 #include <stdint.h>

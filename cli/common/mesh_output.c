@@ -5,13 +5,12 @@
 #include <string.h>
 #include <strings.h>
 
-#include "runtime/geometry/write.h"
 #include "runtime/mesh/openmesh.h"
 
 tn_out_format tn_out_format_of(const char *path)
 {
-    static const char *const words[TN_OUT_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off", "om",
-                                                           "glb", "dxf", "svg", "png", "pdf", "scad"};
+    static const char *const words[TN_OUT_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off",  "om", "glb",
+                                                           "dxf", "svg", "png", "pdf", "scad", "3mf"};
     const char *dot = strrchr(path, '.');
     for (int f = TN_OUT_OBJ; dot && f < TN_OUT_FORMAT_COUNT; f++)
         if (strcasecmp(dot + 1, words[f]) == 0)
@@ -29,7 +28,7 @@ tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_
     if (status == TN_OK && changes->decimate.given)
         status = tn_openmesh_decimate(mesh, (size_t)changes->decimate.value, error);
     if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL ||
-                            (format == TN_OUT_DXF && !mesh->lines)))
+                            format == TN_OUT_3MF || (format == TN_OUT_DXF && !mesh->lines)))
         status = tn_mesh_triangulate(mesh, error);
     return status;
 }
@@ -48,22 +47,22 @@ static tn_status write_by_openmesh(const tn_mesh *mesh, tn_out_format format, bo
     return status;
 }
 
-tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, bool normals, bool y_up, const char *note, FILE *out,
-                      tn_error *error)
+tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, const tn_mesh_style *style, FILE *out, tn_error *error)
 {
-    tn_mesh_style style = {.notes = &note, .note_count = 1, .normals = normals, .y_up = y_up};
     switch (format) {
     case TN_OUT_OBJ:
-        return tn_mesh_write_obj(mesh, &style, out, error);
+        return tn_mesh_write_obj(mesh, style, out, error);
     case TN_OUT_PLY:
-        return tn_mesh_write_ply(mesh, &style, out, error);
+        return tn_mesh_write_ply(mesh, style, out, error);
     case TN_OUT_GLB:
-        return tn_mesh_write_glb(mesh, &style, out, error);
+        return tn_mesh_write_glb(mesh, style, out, error);
+    case TN_OUT_3MF:
+        return tn_mesh_write_3mf(mesh, style, out, error);
     case TN_OUT_DXF:
-        return tn_mesh_write_dxf(mesh, &style, out, error);
+        return tn_mesh_write_dxf(mesh, style, out, error);
     case TN_OUT_SCAD:
-        return tn_mesh_write_scad(mesh, &style, out, error);
+        return tn_mesh_write_scad(mesh, style, out, error);
     default:
-        return write_by_openmesh(mesh, format, style.y_up, out, error);
+        return write_by_openmesh(mesh, format, style->y_up, out, error);
     }
 }

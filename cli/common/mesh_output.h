@@ -3,7 +3,7 @@
 #define TARTAN_CLI_COMMON_MESH_OUTPUT_H
 
 #include "cli/common/options.h"
-#include "runtime/geometry/mesh.h"
+#include "runtime/geometry/write.h"
 
 /* What -o writes; the order of the words of `tartan grow --format`, which knows those up to PDF. */
 typedef enum tn_out_format {
@@ -19,6 +19,7 @@ typedef enum tn_out_format {
     TN_OUT_PNG,
     TN_OUT_PDF,
     TN_OUT_SCAD,
+    TN_OUT_3MF,
     TN_OUT_FORMAT_COUNT
 } tn_out_format;
 
@@ -34,8 +35,7 @@ typedef struct tn_out_changes {
 /* Does these in this order, and what the format needs. */
 tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_mesh *mesh, tn_error *error);
 
-/* Writes a mesh; note: how it was made. */
-tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, bool normals, bool y_up, const char *note, FILE *out,
+tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, const tn_mesh_style *style, FILE *out,
                       tn_error *error);
 
 #endif

@@ -1,3 +1,4 @@
+/* Reads a command line by a table of options. */
 #include "cli/common/options.h"
 
 #include <stdlib.h>

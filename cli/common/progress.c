@@ -1,3 +1,4 @@
+/* Shows on a terminal how far long work is. */
 #include "cli/common/progress.h"
 
 #include <stdio.h>
@@ -60,4 +61,38 @@ void tn_progress_end(tn_progress *progress)
     if (progress->shown)
         fputs("\r\033[K", stderr);
     progress->shown = false;
+}
+
+static bool draw(void *context, double done, double total)
+{
+    tn_progress *progress = context;
+    double time = now();
+    if (time - progress->last < SECONDS_BETWEEN)
+        return true;
+    progress->last = time;
+    progress->shown = true;
+    if (total > 0)
+        fprintf(stderr, "\r\033[K%s: %.0f of %.0f", progress->what, done, total);
+    else
+        fprintf(stderr, "\r\033[K%s: %.0f s", progress->what, time - progress->start);
+    fflush(stderr);
+    return true;
+}
+
+void tn_progress_watch(tn_progress *progress, const char *what, tn_watch *watch)
+{
+    tn_progress_begin(progress, what, 0, 0);
+    if (!progress->shows)
+        return;
+    watch->done = watch->total = 0;
+    watch->context = progress;
+    watch->caller = pthread_self();
+    watch->go_on = draw;
+}
+
+void tn_progress_unwatch(tn_progress *progress, tn_watch *watch)
+{
+    if (progress->shows)
+        watch->go_on = NULL;
+    tn_progress_end(progress);
 }

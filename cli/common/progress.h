@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "runtime/base/watch.h"
+
 typedef struct tn_progress {
     const char *what;   /* "plans" */
     double before;      /* done before this run began: no part of its rate */
@@ -17,6 +19,12 @@ void tn_progress_begin(tn_progress *progress, const char *what, double done, dou
 
 /* Says how much is done, with what was before; draws a few times a second at most. */
 void tn_progress_update(tn_progress *progress, double done);
+
+/* For work that asks a watch whether it may go on, and tells it how far it is: draws "what: 3 of 12", or, where it
+ * tells nothing, for how long it has been at work. The watch is this thread's until tn_progress_unwatch, which wipes
+ * the line. */
+void tn_progress_watch(tn_progress *progress, const char *what, tn_watch *watch);
+void tn_progress_unwatch(tn_progress *progress, tn_watch *watch);
 
 /* Wipes the line. */
 void tn_progress_end(tn_progress *progress);

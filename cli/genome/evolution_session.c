@@ -1,3 +1,4 @@
+/* Opens a study and the run that it is to make, for `evolve` and `breed`. */
 #include "cli/genome/evolution_session.h"
 
 #include <stdlib.h>

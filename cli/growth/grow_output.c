@@ -137,7 +137,10 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format fo
     if (status == TN_OK)
         status = tn_out_rework(&changes, format, &mesh, &error);
     if (status == TN_OK && tn_job_output(job, path, &output)) {
-        status = tn_out_mesh(&mesh, format, settings->normals, settings->up == 1, note, output.stream, &error);
+        const char *notes = note;
+        tn_mesh_style style = {
+            .notes = &notes, .note_count = 1, .normals = settings->normals, .y_up = settings->up == 1};
+        status = tn_out_mesh(&mesh, format, &style, output.stream, &error);
         if (status == TN_OK)
             tn_job_commit(job, &output);
         else

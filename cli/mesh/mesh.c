@@ -6,13 +6,14 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "runtime/field/normals.h"
 
 /* ---- writing */
 
 /* The formats of --format's words. */
 static const tn_out_format formats[] = {TN_OUT_NONE, TN_OUT_OBJ, TN_OUT_PLY,  TN_OUT_STL, TN_OUT_OFF,
-                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_DXF};
-#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|dxf"
+                                        TN_OUT_OM,   TN_OUT_GLB, TN_OUT_SCAD, TN_OUT_3MF, TN_OUT_DXF};
+#define FORMAT_WORDS "auto|obj|ply|stl|off|om|glb|scad|3mf|dxf"
 
 static tn_out_format format_of(const tn_mesh_settings *s)
 {
@@ -33,16 +34,17 @@ static bool check_format(tn_job *job, tn_out_format *format)
     if (*format == TN_OUT_NONE) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say which mesh is to be written", s->output);
         tn_help(tn_job_diagnostics(job), d,
-                "end its name in .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf, or say --format");
+                "end its name in .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf, or say --format");
         return false;
     }
     bool normals = *format == TN_OUT_OBJ || *format == TN_OUT_PLY || *format == TN_OUT_GLB;
-    if ((s->normals && !normals) || (s->up && *format == TN_OUT_GLB)) {
+    if ((s->normals && !normals) || (s->up && (*format == TN_OUT_GLB || *format == TN_OUT_3MF))) {
         tn_diagnostic *d =
             tn_job_usage(job, "--%s does nothing for this kind of file", s->normals && !normals ? "normals" : "up");
         tn_help(tn_job_diagnostics(job), d,
-                s->normals && !normals ? "only .obj, .ply and .glb hold normals of vertices"
-                                       : "a .glb has y up always");
+                s->normals && !normals  ? "only .obj, .ply and .glb hold normals of vertices"
+                : *format == TN_OUT_GLB ? "a .glb has y up always"
+                                        : "a .3mf has z up always");
         return false;
     }
     if (s->exact && *format != TN_OUT_STL) {
@@ -100,14 +102,20 @@ void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size)
              producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
 }
 
-void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char *note)
+void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
+    tn_mesh_style style = {
+        .notes = &file->note, .note_count = 1, .normals = s->normals, .y_up = s->up == 1, .unit = file->unit};
+    double *normals = NULL;
     tn_output output;
     tn_error error;
-    tn_status status = tn_out_rework(&s->changes, format, mesh, &error);
+    tn_status status = tn_out_rework(&s->changes, file->format, mesh, &error);
+    if (status == TN_OK && s->normals && file->field)
+        status = tn_field_normals(file->field, mesh, file->spacing, &normals, &error);
+    style.vertex_normals = normals;
     if (status == TN_OK && tn_job_output(job, s->output, &output)) {
-        status = tn_out_mesh(mesh, format, s->normals, s->up == 1, note, output.stream, &error);
+        status = tn_out_mesh(mesh, file->format, &style, output.stream, &error);
         if (status == TN_OK)
             tn_job_commit(job, &output);
         else
@@ -115,6 +123,7 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char 
     }
     if (status != TN_OK)
         tn_job_fail(job, &error);
+    free(normals);
 }
 
 static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
@@ -165,7 +174,8 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
         if (s->output) {
             char note[240];
             tn_mesh_note(job, open->field.record->name, note, sizeof note);
-            tn_mesh_write(job, &contour.mesh, format, note);
+            tn_mesh_file file = {format, note, (tn_mesh_unit)open->field.record->unit, &open->field, contour.spacing};
+            tn_mesh_write(job, &contour.mesh, &file);
         }
     }
     tn_contour_clear(&contour);
@@ -206,7 +216,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 static const tn_option options[] = {
     TEXT("output", 'o', "FILE", output,
-         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .scad or .dxf; - is standard output"),
+         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf; - is standard output"),
     CHOICE("format", 'f', "FORMAT", format, FORMAT_WORDS, "what is written, where the name of FILE does not say it"),
     TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
@@ -225,7 +235,8 @@ static const tn_option options[] = {
            "where the field jumps: closed (the default) makes a wall, open leaves it out"),
     FLAG("normals", 0, normals, "write normals of the vertices (OBJ, PLY, GLB)"),
     CHOICE("up", 0, "AXIS", up, "z|y",
-           "which axis points up in the file (default z; GLB is always y; designs of boxes are written with y up)"),
+           "which axis points up in the file (default z; GLB is always y, 3MF always z; designs of boxes are written "
+           "with y up)"),
     NUMBER("subdivide", 0, "N", changes.subdivide, 1, 8, "subdivide the finished mesh N times (Loop)"),
     NUMBER("smooth", 0, "N", changes.smooth, 1, 10000, "smooth the finished mesh N times (Laplace; the outline stays)"),
     NUMBER("decimate", 0, "FACES", changes.decimate, 1, UINT32_MAX,

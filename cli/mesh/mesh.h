@@ -29,8 +29,17 @@ static inline const tn_mesh_settings *tn_mesh_settings_of(const tn_job *job)
 /* One line on how a mesh was made, for its file. */
 void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size);
 
+/* What a mesh's file says beside the mesh. */
+typedef struct tn_mesh_file {
+    tn_out_format format;
+    const char *note; /* how it was made */
+    tn_mesh_unit unit;
+    const tn_field *field; /* whose gradient gives the normals, or NULL */
+    double spacing;        /* of its grid */
+} tn_mesh_file;
+
 /* Reworks a mesh as the options say, and writes it to -o. */
-void tn_mesh_write(tn_job *job, tn_mesh *mesh, tn_out_format format, const char *note);
+void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file);
 
 /* Meshes a design of boxes of the file that is open, and reports what fails. */
 void tn_job_mesh_solid(tn_job *job, tn_out_format format);

@@ -7,7 +7,7 @@
 
 /* How counts are printed: all zero as `tartan count` does without options. */
 typedef struct tn_count_options {
-    bool json, mirror;
+    bool json, mirror, no_effects;
 } tn_count_options;
 
 /* Writes what `tartan count` prints of a library; path: NULL is standard output. */

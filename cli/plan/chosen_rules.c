@@ -1,3 +1,4 @@
+/* Finds the rules that a command line names. */
 #include "cli/plan/chosen_rules.h"
 
 #include <stdlib.h>

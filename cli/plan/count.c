@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
 #include "driver/house/judge.h"
@@ -97,19 +99,30 @@ static tn_status count_clause(counts *c, tn_opened *opened, uint32_t i, tn_error
     return TN_OK;
 }
 
-static tn_status count_all(counts *c, tn_opened *opened, tn_error *error)
+static tn_status count_lengths(counts *c, tn_error *error)
 {
     const tn_library *library = c->ready->library;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i <= c->length_count; i++) {
+        if (tn_interrupt_check(error) != TN_OK)
+            return TN_STOPPED;
         uint32_t length = i == c->length_count ? TN_ALL_LENGTHS : c->low + (uint32_t)i;
         tn_library_kept(library, length, c->lengths[i].kept);
         status = tn_library_generated(library, length, c->lengths[i].generated, error);
         if (status == TN_OK && c->mirror)
             status = tn_library_kept_mirror(library, length, c->lengths[i].mirror, error);
     }
+    return status;
+}
+
+static tn_status count_clauses(counts *c, tn_opened *opened, tn_error *error)
+{
+    tn_progress progress;
+    tn_status status = TN_OK;
+    tn_progress_watch(&progress, "clauses counted", tn_interrupt_waiting());
     for (uint32_t i = 0; status == TN_OK && i < c->clause_count; i++)
         status = count_clause(c, opened, i, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     return status;
 }
 
@@ -137,7 +150,7 @@ static void write_lengths(const counts *c, FILE *out)
     if (c->mirror)
         fprintf(out, "  %*s", mirror, "up to mirror");
     fputc('\n', out);
-    for (size_t i = 0; i <= c->length_count; i++) {
+    for (size_t i = 0; i <= c->length_count && !tn_interrupted(); i++) {
         if (i < c->length_count)
             fprintf(out, "%8zu", c->low + i);
         else
@@ -167,7 +180,7 @@ static void write_clauses(const counts *c, bool prunes, const char *what, const 
     }
     if (any)
         fprintf(out, "\n%-*s  %*s  %*s  %6s\n", names, what, outs, out_heading, onlys, "only by it", "states");
-    for (uint32_t i = 0; i < c->clause_count; i++) {
+    for (uint32_t i = 0; i < c->clause_count && !tn_interrupted(); i++) {
         if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
             continue;
         fprintf(out, "%-*s", names, clause_name(c, i));
@@ -193,8 +206,6 @@ static void write_text(const counts *c, FILE *out)
     free(text);
     mpz_clear(pruned);
     write_lengths(c, out);
-    write_clauses(c, false, "requirement", "keeps out", out);
-    write_clauses(c, true, "rule", "prunes", out);
 }
 
 static void set_number(json_t *object, const char *key, const mpz_t number)
@@ -207,7 +218,7 @@ static void set_number(json_t *object, const char *key, const mpz_t number)
 static json_t *lengths_json(const counts *c)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < c->length_count; i++) {
+    for (size_t i = 0; i < c->length_count && !tn_interrupted(); i++) {
         json_t *item = json_object();
         json_object_set_new(item, "length", json_integer((json_int_t)(c->low + i)));
         set_number(item, "generated", c->lengths[i].generated);
@@ -235,7 +246,7 @@ static json_t *clauses_json(const counts *c, bool prunes, const char *out_key)
     return list;
 }
 
-static void write_json(const counts *c, FILE *out)
+static void write_json(const counts *c, bool effects, FILE *out)
 {
     const length_counts *total = &c->lengths[c->length_count];
     char hash[33];
@@ -254,12 +265,35 @@ static void write_json(const counts *c, FILE *out)
     if (c->mirror)
         set_number(root, "mirror", total->mirror);
     json_object_set_new(root, "by_length", lengths_json(c));
-    json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
-    json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
+    if (effects)
+        json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
+    if (effects)
+        json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
     json_dumpf(root, out, JSON_INDENT(2));
     fputc('\n', out);
     json_decref(root);
     mpz_clear(pruned);
+}
+
+/* The counts first, and then what each clause does, which may take far longer. */
+static tn_status write_counts(tn_job *job, counts *c, const tn_count_options *options, FILE *out, tn_error *error)
+{
+    tn_status status = TN_OK;
+    if (!options->json)
+        write_text(c, out);
+    if (!options->json && !options->no_effects)
+        fflush(out);
+    if (!options->no_effects)
+        status = count_clauses(c, &job->opened, error);
+    if (status != TN_OK)
+        return status;
+    if (options->json) {
+        write_json(c, !options->no_effects, out);
+    } else if (!options->no_effects) {
+        write_clauses(c, false, "requirement", "keeps out", out);
+        write_clauses(c, true, "rule", "prunes", out);
+    }
+    return TN_OK;
 }
 
 void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path)
@@ -273,11 +307,15 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
         return;
     }
     tn_job_show(job);
-    if (count_all(&c, &job->opened, &error) != TN_OK) {
+    if (count_lengths(&c, &error) != TN_OK) {
         tn_job_fail(job, &error);
     } else if (tn_job_output(job, path, &output)) {
-        (options->json ? write_json : write_text)(&c, output.stream);
-        tn_job_commit(job, &output);
+        tn_status status = write_counts(job, &c, options, output.stream, &error);
+        if (status == TN_OK)
+            status = tn_interrupt_check(&error); /* long plans have long numbers, and take long to write */
+        if (status != TN_OK)
+            tn_job_fail(job, &error);
+        tn_job_close(job, &output, status == TN_OK);
     }
     counts_free(&c);
 }
@@ -323,6 +361,8 @@ static const tn_option options[] = {
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
     NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
+    FLAG("no-effects", 0, count.no_effects,
+         "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     OPTION_OUTPUT,
@@ -332,17 +372,21 @@ static const tn_option options[] = {
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage = "FILE [--library NAME] [--json] [--mirror]\nFILE --by MEASURE [--step S | --bins N] [--json]\nFILE "
-             "--library HOUSES [--plan PLAN] [--json]",
+    .usage =
+        "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]\n"
+        "FILE --library HOUSES [--plan PLAN] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
         "these lengths that it keeps out. For both it counts how many more plans there would be without that "
-        "clause. Counts are exact, whatever their size. They are computed from the library's automaton, without "
-        "listing plans. "
-        "Of a library of houses (docs/houses.md) it says how many plans there are and how many have a house, how many "
-        "choices of section and functions, how many with openings, and how many houses. They are counted plan by "
-        "plan; --plan counts those of one plan.",
+        "clause. The counts are written first. What each clause does may take far longer for hundreds of clauses, so "
+        "each clause has an equal share of the work, and one that needs more is not counted, with a note. "
+        "--no-effects leaves this out.\n\n"
+        "Counts are exact, whatever their size. They are computed from the library's automaton, without "
+        "listing plans.\n\n"
+        "For a library of houses (docs/houses.md) it counts the plans, those that have a house, the choices of section "
+        "and functions, those with openings, and the houses. They are counted plan by plan; --plan counts those of one "
+        "plan.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

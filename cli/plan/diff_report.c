@@ -1,3 +1,4 @@
+/* Writes the differences of two libraries as text and as JSON. */
 #include "cli/plan/diff_report.h"
 
 #include <jansson.h>

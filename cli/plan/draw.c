@@ -1,9 +1,10 @@
-/* tartan draw: plans as a picture sheet, rules as a picture. */
+/* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/mesh/draw_surface.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
 #include "cli/solid/solid.h"
@@ -22,10 +23,10 @@ typedef struct draw_settings {
     tn_option_list rules;
     tn_option_number sample, scale, columns, dpi, max_plans;
     /* of forms */
-    const char *solid;
+    const char *solid, *surface;
     bool sheet, before, exploded;
     tn_option_real azimuth, elevation;
-    tn_option_number width, max_boxes;
+    tn_option_number width, max_boxes, grid;
 } draw_settings;
 
 static const draw_settings *settings_of(const tn_job *job)
@@ -315,9 +316,9 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "draw either rules or plans, not both");
     else if (is_sampled(settings) && settings->common.operands.count > 1)
         tn_job_usage(job, "draw either a file of plans or a --sample, not both");
-    else if (!is_sampled(settings) &&
-             (settings->sampled.seed.given || settings->sampled.length.given || settings->plans.trays.given))
-        tn_job_usage(job, "--seed, --length and --trays say what is sampled: give --sample N too");
+    else if (!is_sampled(settings) && (settings->sampled.seed.given || settings->sampled.length.given ||
+                                       settings->sampled.diverse || settings->plans.trays.given))
+        tn_job_usage(job, "--seed, --length, --diverse and --trays say what is sampled: give --sample N too");
     else
         return true;
     return false;
@@ -325,34 +326,56 @@ static bool check_options(tn_job *job)
 
 /* ---- forms */
 
-/* Options that say something about plans only, or about forms only. */
-static bool check_use(tn_job *job, bool form)
+/* What a file says: plans, a design of boxes, or a surface. */
+typedef enum subject { PLANS, SOLID, FIELD, SUBJECT_COUNT } subject;
+
+static subject subject_of(const tn_job *job)
 {
+    return tn_job_has_surface(job) ? FIELD : job->opened.module->SOLID_count > 0 ? SOLID : PLANS;
+}
+
+/* Options that say something about one or two of the subjects only. */
+static bool check_use(tn_job *job, subject asked)
+{
+    enum { OF_PLANS = 1 << PLANS, OF_SOLIDS = 1 << SOLID, OF_FIELDS = 1 << FIELD };
+    static const char *const subjects[] = {"plans and rules", "a design of boxes", "a field"};
+    static const char *const files[] = {"",
+                                        "plans (.plan)",
+                                        "designs of boxes (.solid)",
+                                        "plans and designs of boxes",
+                                        "fields (.field)",
+                                        "plans and fields",
+                                        "designs of boxes and fields"};
     const draw_settings *s = settings_of(job);
     const struct {
-        bool given, form;
+        bool given;
+        unsigned of;
         const char *name;
     } uses[] = {
-        {s->plans.library != NULL, false, "library"},
-        {s->paper != NULL, false, "paper"},
-        {s->scale.given, false, "scale"},
-        {s->max_plans.given, false, "max-plans"},
-        {s->solid != NULL, true, "solid"},
-        {s->sheet, true, "sheet"},
-        {s->before, true, "before"},
-        {s->exploded, true, "exploded"},
-        {s->azimuth.given, true, "azimuth"},
-        {s->elevation.given, true, "elevation"},
-        {s->width.given, true, "width"},
-        {s->max_boxes.given, true, "max-boxes"},
+        {s->rules.count > 0, OF_PLANS, "rule"},
+        {s->plans.library != NULL, OF_PLANS, "library"},
+        {s->sample.given, OF_PLANS, "sample"},
+        {s->sampled.per_length.given, OF_PLANS, "per-length"},
+        {s->paper != NULL, OF_PLANS, "paper"},
+        {s->scale.given, OF_PLANS, "scale"},
+        {s->max_plans.given, OF_PLANS, "max-plans"},
+        {s->columns.given, OF_PLANS | OF_SOLIDS, "columns"},
+        {s->solid != NULL, OF_SOLIDS, "solid"},
+        {s->sheet, OF_SOLIDS, "sheet"},
+        {s->before, OF_SOLIDS, "before"},
+        {s->exploded, OF_SOLIDS, "exploded"},
+        {s->max_boxes.given, OF_SOLIDS, "max-boxes"},
+        {s->azimuth.given, OF_SOLIDS | OF_FIELDS, "azimuth"},
+        {s->elevation.given, OF_SOLIDS | OF_FIELDS, "elevation"},
+        {s->width.given, OF_SOLIDS | OF_FIELDS, "width"},
+        {s->surface != NULL, OF_FIELDS, "surface"},
+        {s->grid.given, OF_FIELDS, "grid"},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        if (!uses[i].given || uses[i].form == form)
+        if (!uses[i].given || uses[i].of >> asked & 1)
             continue;
-        tn_diagnostic *d =
-            tn_job_usage(job, "--%s does nothing for %s", uses[i].name, form ? "a design of boxes" : "plans and rules");
-        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
-                form ? "plans (.plan)" : "designs of boxes (.solid)");
+        tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, subjects[asked]);
+        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name, files[uses[i].of]);
         return false;
     }
     if (s->sheet + s->before + s->exploded > 1) {
@@ -362,33 +385,52 @@ static bool check_use(tn_job *job, bool form)
     return true;
 }
 
-static void draw_form(tn_job *job)
+static tn_camera camera_of(const draw_settings *settings)
+{
+    tn_camera camera = tn_camera_default();
+    if (settings->azimuth.given)
+        camera.azimuth = settings->azimuth.value;
+    if (settings->elevation.given)
+        camera.elevation = settings->elevation.value;
+    if (settings->width.given)
+        camera.width = (double)settings->width.value;
+    return camera;
+}
+
+static void draw_solid(tn_job *job)
 {
     const draw_settings *s = settings_of(job);
     tn_solid_drawing drawing = {.views = s->sheet      ? TN_SOLID_SHEET
                                          : s->before   ? TN_SOLID_BEFORE
                                          : s->exploded ? TN_SOLID_EXPLODED
                                                        : TN_SOLID_VIEW,
-                                .camera = tn_camera_default(),
+                                .camera = camera_of(s),
                                 .title = s->title,
                                 .columns = (uint32_t)s->columns.value,
                                 .dpi = (uint32_t)s->dpi.value,
                                 .most = (uint32_t)s->max_boxes.value};
-    if (s->azimuth.given)
-        drawing.camera.azimuth = s->azimuth.value;
-    if (s->elevation.given)
-        drawing.camera.elevation = s->elevation.value;
-    if (s->width.given)
-        drawing.camera.width = (double)s->width.value;
-    if (check_use(job, true))
-        tn_job_draw_solid(job, s->solid, &drawing, s->output);
+    tn_job_draw_solid(job, s->solid, &drawing, s->output);
 }
 
-static bool opens_form(tn_job *job)
+static void draw_field(tn_job *job)
 {
-    const draw_settings *settings = settings_of(job);
-    return settings->common.operands.count == 1 && settings->rules.count == 0 && !is_sampled(settings) &&
-           tn_job_open(job, settings->common.operands.items[0]) && job->opened.module->SOLID_count > 0;
+    const draw_settings *s = settings_of(job);
+    tn_mesh_picture picture = {.camera = camera_of(s),
+                               .title = s->title,
+                               .dpi = (uint32_t)s->dpi.value,
+                               .threads = (int)s->plans.threads.value};
+    tn_job_draw_surface(job, s->surface, (uint32_t)s->grid.value, &picture, s->output);
+}
+
+static void draw_plans(tn_job *job)
+{
+    const char *path = is_sampled(settings_of(job)) ? NULL : tn_job_plans_path(job);
+    if (settings_of(job)->rules.count)
+        draw_rules(job);
+    else if (path)
+        draw_file(job, path);
+    else if (job->exit_code == TN_EXIT_DONE)
+        draw_sample(job);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -397,21 +439,12 @@ static int run(const tn_command *command, const tn_settings *common)
     const draw_settings *settings = (const draw_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_options(&job))
+    if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         return tn_job_end(&job);
-    if (opens_form(&job)) {
-        draw_form(&job);
-    } else if (job.exit_code != TN_EXIT_DONE || !check_use(&job, false)) {
-        return tn_job_end(&job);
-    } else if (settings->rules.count) {
-        draw_rules(&job);
-    } else {
-        const char *path = is_sampled(settings) ? NULL : tn_job_plans_path(&job);
-        if (path)
-            draw_file(&job, path);
-        else if (job.exit_code == TN_EXIT_DONE)
-            draw_sample(&job);
-    }
+    static void (*const draw[SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
+    subject asked = subject_of(&job);
+    if (check_use(&job, asked))
+        draw[asked](&job);
     return tn_job_end(&job);
 }
 
@@ -424,6 +457,7 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    OPTION_DIVERSE,
     TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
     TEXT("paper", 0, "SIZE", paper,
          "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
@@ -431,6 +465,9 @@ static const tn_option options[] = {
     NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    TEXT("surface", 0, "NAME", surface, "of fields: which surface (default: the last)"),
+    NUMBER("grid", 'n', "N", grid, 2, 8192,
+           "of fields: samples on the longest side of the box (default: what the file says, or 50)"),
     TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
     FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
     FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),
@@ -446,9 +483,11 @@ static const tn_option options[] = {
 
 const tn_command tn_command_draw = {
     .name = "draw",
-    .summary = "draw plans, rules or a design of boxes",
-    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
-             "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg",
+    .summary = "draw plans, rules or a form in space",
+    .usage =
+        "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] [--diverse] -o SHEET.pdf\nFILE --rule NAME -o RULE.svg\n"
+        "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg\n"
+        "FILE.field [--surface NAME] [--grid N] -o FORM.png",
     .description =
         "Draws plans on one sheet: from a file, from standard input, or sampled from the library. Each plan is "
         "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
@@ -457,9 +496,12 @@ const tn_command tn_command_draw = {
         "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
         "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
         "their zones.\n\n"
-        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.",
+        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.\n\n"
+        "Of a field (.field), a surface is meshed and drawn, shaded: as a PNG of any number of triangles, as an SVG or "
+        "a PDF of at most 300,000.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
-               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf",
+               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
+               "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),

@@ -1,7 +1,10 @@
+/* Opens the library that a command line names, within the limits of its options. */
 #include "cli/plan/library_job.h"
 
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
@@ -39,7 +42,10 @@ static bool ready_library(tn_job *job, const char *path, const tn_plan_settings 
     *ready = (tn_ready_library){0};
     if (!open_asking(job, path, plans, pattern))
         return false;
+    tn_progress progress;
+    tn_progress_watch(&progress, "clauses combined", tn_interrupt_waiting());
     tn_status status = tn_library_ready(&job->opened, plans->library, options, ready);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
     return status == TN_OK;
 }

@@ -1,3 +1,4 @@
+/* Opens the files of plans that a command line names. */
 #include "cli/plan/plan_input.h"
 
 #include <inttypes.h>

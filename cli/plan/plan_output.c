@@ -1,3 +1,4 @@
+/* Writes plans in the format that the options ask for. */
 #include "cli/plan/plan_output.h"
 
 #include <inttypes.h>

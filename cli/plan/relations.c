@@ -1,3 +1,4 @@
+/* Prints how each two rules relate. */
 #include "cli/plan/relations.h"
 
 #include <stdlib.h>

@@ -5,8 +5,11 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/library_job.h"
+#include "driver/open/findings.h"
 #include "driver/report/report.h"
+#include "runtime/plan/library/alone.h"
 
 typedef struct report_settings {
     tn_settings common;
@@ -53,14 +56,23 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *folde
                                  .max_states = (uint32_t)settings->plans.max_states.value};
     const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
                                           .max_states = options.max_states,
+                                          .automaton = ready->library,
                                           .imported = true};
     const tn_plan_analysis_options analysis = {
         .max_states = options.max_states, .library = ready->library, .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses = {0};
     tn_covered covered = {0};
-    tn_status status = tn_plan_analyse(&job->opened, &analysis, &analyses);
+    tn_progress progress;
+    tn_progress_watch(&progress, "clauses counted", tn_interrupt_waiting());
+    tn_status status = tn_library_find_alone(ready->library, &error);
+    if (status != TN_OK)
+        tn_finding_error(&job->opened, &error);
+    else
+        status = tn_plan_analyse(&job->opened, &analysis, &analyses);
+    progress.what = "rules measured";
     if (status == TN_OK)
         status = tn_coverage_measure(&job->opened, &coverage, &covered);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
     if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &covered, &options, &page, &error) == TN_OK)
         write_page(job, path, &page);

@@ -53,7 +53,8 @@ static void describe(const sample_settings *settings, size_t wanted, char *text,
     int used = settings->sampled.per_length.given
                    ? snprintf(text, size, "sample --per-length %" PRIu64, settings->sampled.per_length.value)
                    : snprintf(text, size, "sample %zu", wanted);
-    used += snprintf(text + used, size - (size_t)used, " --seed %" PRIu64, settings->sampled.seed.value);
+    used += snprintf(text + used, size - (size_t)used, "%s --seed %" PRIu64,
+                     settings->sampled.diverse ? " --diverse" : "", settings->sampled.seed.value);
     if (settings->sampled.length.given)
         snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->sampled.length.value);
 }
@@ -122,6 +123,7 @@ static const tn_option options[] = {
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
            "N plans of each number of trays, instead of N in all"),
+    OPTION_DIVERSE,
     OPTION_PLAN_FORMAT,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
@@ -131,11 +133,14 @@ static const tn_option options[] = {
 const tn_command tn_command_sample = {
     .name = "sample",
     .summary = "choose random plans of a library",
-    .usage = "FILE N [--seed S] [--length L]\nFILE --per-length N [--seed S]",
+    .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]",
     .description =
         "Draws N different plans of the library at random, each with the same probability, and writes them in the "
         "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
-        "samples do too; --length and --per-length draw plans of other lengths. The same file, seed and options "
+        "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
+        "plan is the one of 1,000 fresh draws that is "
+        "farthest from those before. A changed field counts 1, a tray more or less counts as many as it has fields. "
+        "The same file, seed and options "
         "give the same plans on every machine.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,

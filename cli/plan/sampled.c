@@ -1,3 +1,4 @@
+/* Draws ranks of a library, as --seed, --length and --per-length say. */
 #include "cli/plan/sampled.h"
 
 #include <stdio.h>
@@ -5,6 +6,7 @@
 
 #include "cli/common/interrupt.h"
 #include "runtime/base/array.h"
+#include "runtime/plan/library/diverse.h"
 
 static bool out_of_memory(tn_job *job)
 {
@@ -39,6 +41,10 @@ static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
     return wanted;
 }
 
+/* tn_library_sample, or tn_library_diverse. */
+typedef tn_status choose_ranks(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,
+                               size_t *found, tn_error *error);
+
 /* A rank is drawn in limbs, marked as drawn, and given as an integer: said beforehand, as it is all at once. */
 static tn_status check_memory(const tn_library *library, uint32_t length, size_t count, tn_error *error)
 {
@@ -60,6 +66,7 @@ typedef struct drawing {
     const tn_library *library;
     uint64_t seed;
     tn_sampled *sampled;
+    choose_ranks *choose;
 } drawing;
 
 static bool draw(const drawing *d, uint32_t length, size_t wanted)
@@ -75,7 +82,7 @@ static bool draw(const drawing *d, uint32_t length, size_t wanted)
     }
     if (!grow(sampled, count))
         return out_of_memory(job);
-    if (tn_library_sample(library, d->seed, length, count, sampled->ranks + sampled->count, &found, &error) != TN_OK) {
+    if (d->choose(library, d->seed, length, count, sampled->ranks + sampled->count, &found, &error) != TN_OK) {
         tn_job_fail(job, &error);
         return false;
     }
@@ -92,12 +99,24 @@ static bool draw(const drawing *d, uint32_t length, size_t wanted)
     return true;
 }
 
+static bool may_be_diverse(tn_job *job, const tn_sampled_settings *settings, size_t wanted)
+{
+    if (settings->per_length.given)
+        tn_job_usage(job, "--diverse and --per-length exclude each other: give --length for plans of one length");
+    else if (wanted > TN_DIVERSE_MAX)
+        tn_job_usage(job, "--diverse chooses at most %u plans, not %zu", TN_DIVERSE_MAX, wanted);
+    return !settings->per_length.given && wanted <= TN_DIVERSE_MAX;
+}
+
 bool tn_job_sample(tn_job *job, const tn_ready_library *ready, const tn_sampled_settings *settings, size_t wanted,
                    tn_sampled *sampled)
 {
     const tn_library *library = ready->library;
     *sampled = (tn_sampled){0};
-    const drawing d = {job, library, settings->seed.value, sampled};
+    if (settings->diverse && !may_be_diverse(job, settings, wanted))
+        return false;
+    const drawing d = {job, library, settings->seed.value, sampled,
+                       settings->diverse ? tn_library_diverse : tn_library_sample};
     if (settings->per_length.given) {
         for (uint32_t length = tn_library_min(library); length <= tn_library_max(library); length++)
             if (!draw(&d, length, (size_t)settings->per_length.value))

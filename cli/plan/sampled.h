@@ -10,7 +10,11 @@
 /* Which ranks are drawn. Commands embed it as `sampled`. */
 typedef struct tn_sampled_settings {
     tn_option_number seed, length, per_length;
+    bool diverse; /* plans that differ, instead of even chances */
 } tn_sampled_settings;
+
+#define OPTION_DIVERSE                                                                                                 \
+    FLAG("diverse", 0, sampled.diverse, "plans that differ from one another, instead of each as likely as each")
 
 typedef struct tn_sampled {
     mpz_t *ranks; /* ascending */

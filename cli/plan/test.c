@@ -2,7 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/solid/solid.h"
 #include "driver/plan/coverage.h"
@@ -70,7 +72,10 @@ static void write_coverage(tn_job *job, test_report *report)
     tn_buffer text = {0};
     tn_output output;
     tn_error error;
+    tn_progress progress;
+    tn_progress_watch(&progress, "rules measured", tn_interrupt_waiting());
     tn_status status = tn_coverage_measure(&job->opened, &options, &covered);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
     bool json = settings_of(job)->json, written = true;
     if (status == TN_OK && json)

@@ -1,8 +1,10 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
 #include "cli/solid/solid.h"
@@ -87,7 +89,10 @@ static void analyse(tn_job *job, const tn_library *library)
                                               .library = library,
                                               .threads = tn_job_threads(&settings->plans)};
     tn_plan_analyses analyses;
+    tn_progress progress;
+    tn_progress_watch(&progress, "analysing the rules", tn_interrupt_waiting());
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
     if (status == TN_OK && settings->relations)
         write_relations(job, &analyses);

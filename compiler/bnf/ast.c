@@ -1,3 +1,4 @@
+/* Makes the syntax tree of grammars (.bnf). */
 #include "compiler/bnf/ast.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Writes a checked grammar (.bnf) into a module. */
 #include "compiler/bnf/bnf.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Checks a grammar (.bnf): names, rules that never end, what cannot be reached, what repair needs. */
 #include "compiler/bnf/check.h"
 
 #include <stdlib.h>

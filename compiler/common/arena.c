@@ -1,3 +1,4 @@
+/* Allocates memory that is freed all at once. */
 #include "compiler/common/arena.h"
 
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* Collects errors, warnings and notes. */
 #include "compiler/common/diagnostic.h"
 
 #include <stdlib.h>

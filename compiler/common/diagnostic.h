@@ -33,6 +33,7 @@ typedef struct tn_diagnostic {
     char *message;
     tn_diagnostic_note *notes;
     size_t note_count;
+    bool limit;        /* it says what was not found out since that passes a limit */
     char *help;        /* or NULL */
     char *replacement; /* a text that, put in the span's place, applies the help; or NULL */
     /* a place in an input that is not a source (a plan file): path and line as text; line 0 where it has none */

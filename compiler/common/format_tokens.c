@@ -1,3 +1,4 @@
+/* Lays out tokens in the ways that several notations share. */
 #include "compiler/common/format_tokens.h"
 
 #include <string.h>

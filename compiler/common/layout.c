@@ -1,3 +1,4 @@
+/* Writes tokens as lines of a given width, with their comments. */
 #include "compiler/common/layout.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Reads texts in quotes and numbers, and checks that a source is UTF-8, for all lexers. */
 #include "compiler/common/lexical.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Keeps names and what they stand for in a hash table. */
 #include "compiler/common/names.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Keeps source texts and finds lines and columns in them. */
 #include "compiler/common/source.h"
 
 #include <stdlib.h>

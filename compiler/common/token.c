@@ -1,3 +1,4 @@
+/* Keeps the tokens that a lexer leaves for formatting and for editors. */
 #include "compiler/common/token.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Compiles the expressions and open plans that a command line gives. */
 #include "compiler/plan/ask.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Finds the new lines of the clauses that tests name by line, when a .plan file is formatted. */
 #include "compiler/plan/format_clauses.h"
 
 #include <stdio.h>

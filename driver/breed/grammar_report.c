@@ -1,3 +1,4 @@
+/* Reports what analysing a grammar finds, at its places. */
 #include "driver/breed/grammar_report.h"
 
 #include <stdlib.h>

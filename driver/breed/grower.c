@@ -1,3 +1,4 @@
+/* Scores bred rewrite systems by the surfaces that they grow. */
 #include "driver/breed/grower.h"
 
 #include <math.h>

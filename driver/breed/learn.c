@@ -1,3 +1,4 @@
+/* Scores bred pruning rules by examples of good and bad plans. */
 #include "driver/breed/learn.h"
 
 #include <stdio.h>

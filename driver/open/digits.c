@@ -1,3 +1,4 @@
+/* Reads and writes numbers of any size as text. */
 #include "driver/open/digits.h"
 
 #include <stdlib.h>

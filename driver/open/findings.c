@@ -1,4 +1,7 @@
+/* Turns an engine's finding, a code offset, into a message at its place in the source. */
 #include "driver/open/findings.h"
+
+#include <string.h>
 
 bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)
 {
@@ -42,6 +45,29 @@ tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error)
     return diagnostic;
 }
 
+tn_diagnostic *tn_finding_limit(tn_opened *opened, const tn_error *error, const tn_span *otherwise)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_span span;
+    bool has_span = tn_code_span(opened, error->code_offset, &span);
+    if (!has_span && otherwise) {
+        span = *otherwise;
+        has_span = true;
+    }
+    for (size_t i = 0; i < list->count; i++) {
+        tn_diagnostic *known = &list->items[i];
+        if (known->limit && known->message && strcmp(known->message, error->message) == 0 &&
+            known->has_span == has_span && (!has_span || memcmp(&known->span, &span, sizeof span) == 0))
+            return known;
+    }
+    tn_diagnostic *note = tn_finding_note(opened, error);
+    note->limit = true;
+    note->has_span = has_span;
+    if (has_span)
+        note->span = span;
+    return note;
+}
+
 tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const tn_error *error)
 {
     tn_error note;
@@ -49,5 +75,5 @@ tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const
             error->message);
     tn_error_help(&note, "%s", error->help);
     note.code_offset = error->code_offset;
-    return tn_finding_note(opened, &note);
+    return tn_finding_limit(opened, &note, NULL);
 }

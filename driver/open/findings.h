@@ -11,6 +11,11 @@ tn_diagnostic *tn_finding_error(tn_opened *opened, const tn_error *error);
  * interpreter. */
 tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error);
 
+/* A note that something is not found out since that passes a limit; its place is `otherwise` (NULL: none) where the
+ * error has none. A limit that is there already, with the same sentence at the same place, is returned: each is said
+ * once. */
+tn_diagnostic *tn_finding_limit(tn_opened *opened, const tn_error *error, const tn_span *otherwise);
+
 /* The source span of the code at `offset`; false where the module does not say. */
 bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span);
 

@@ -1,3 +1,4 @@
+/* Finds the folders of the standard library. */
 #include "driver/open/stdlib_dirs.h"
 
 #include <limits.h>

@@ -1,3 +1,4 @@
+/* Finds a file of the standard library by its name. */
 #include "driver/open/stdlib_find.h"
 
 #include <dirent.h>

@@ -1,3 +1,4 @@
+/* Suggests a file for a path that does not exist. */
 #include "driver/open/suggest_file.h"
 
 #include <dirent.h>

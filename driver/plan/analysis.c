@@ -1,3 +1,4 @@
+/* Analyses the rules of a file and words what is found. */
 #include "driver/plan/analysis.h"
 
 #include <stdlib.h>
@@ -309,6 +310,7 @@ static tn_status tell_not_analysed(const teller *t)
     const char *name = is_rule ? rule_name(t, f->rule) : library_name(t);
     tn_diagnostic *d =
         tn_report_bare(list_of(t), TN_NOTE, TN_CODE_NONE, "`%s` is not analysed: %s", name, f->why->message);
+    d->limit = true;
     d->has_span = tn_code_span(t->opened, f->why->code_offset, &d->span);
     if (!d->has_span) {
         d->span = is_rule ? rule_span(t, f->rule) : library_span(t);

@@ -1,3 +1,4 @@
+/* Makes rules of a library's clauses, and tells which of them drop a plan. */
 #include "driver/plan/clauses.h"
 
 #include <stdlib.h>

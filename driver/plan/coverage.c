@@ -1,3 +1,4 @@
+/* Measures which parts of a file's rules its tests notice. */
 #include "driver/plan/coverage.h"
 
 #include <stdlib.h>
@@ -17,10 +18,11 @@ typedef struct measuring {
     uint32_t schema_index;
     const tn_coverage_options *options;
     tn_schema *schema;
-    tn_coverage *plans; /* of the library; without one, of the rule at hand */
-    tn_coverage *tests; /* of all rules and clauses that tests are of; NULL: there are none */
-    uint32_t *tested;   /* per test block: its first clause in `tests` */
-    bool *left_out;     /* per test block: not known, a clause of it passes a limit */
+    tn_library *automaton; /* of the library, where the caller has none */
+    tn_coverage *plans;    /* of the library; without one, of the rule at hand */
+    tn_coverage *tests;    /* of all rules and clauses that tests are of; NULL: there are none */
+    uint32_t *tested;      /* per test block: its first function in `tests` */
+    bool *left_out;        /* per test block: not known, a clause of it passes a limit */
     tn_covered *covered;
 } measuring;
 
@@ -30,21 +32,19 @@ static bool is_own_test(const measuring *m, size_t b)
     return !block->imported && block->schema == m->schema_index && !m->left_out[b];
 }
 
-/* ---- the two sets of clauses */
+/* ---- the two sets of functions */
 
 static tn_status cover_library(measuring *m, tn_error *error)
 {
-    tn_coverage_clause *clauses = calloc((size_t)m->library->clause_count + 1, sizeof *clauses);
-    if (!clauses)
-        return tn_fail_memory(error);
-    for (uint32_t i = 0; i < m->library->clause_count; i++) {
-        const tn_clause_record *clause = &m->module->CLAUSE_records[m->library->clause_first + i];
-        clauses[i] = (tn_coverage_clause){clause->holds, clause->kind != TN_CLAUSE_PRUNE};
+    const tn_library *library = m->options->automaton;
+    const tn_library_options options = {.max_states = m->options->max_states};
+    tn_status status = TN_OK;
+    if (!library) {
+        uint32_t index = (uint32_t)(m->library - m->module->LIBRARY_records);
+        status = tn_library_new(m->schema, index, &options, &m->automaton, error);
+        library = m->automaton;
     }
-    tn_status status = tn_coverage_new(m->schema, clauses, m->library->clause_count, m->library->trays_min,
-                                       m->library->trays_max, m->options->max_states, &m->plans, error);
-    free(clauses);
-    return status;
+    return status == TN_OK ? tn_coverage_of_library(library, &m->plans, error) : status;
 }
 
 static size_t clauses_of(const measuring *m, const tn_test_block *block)
@@ -52,11 +52,11 @@ static size_t clauses_of(const measuring *m, const tn_test_block *block)
     return block->is_library ? m->module->LIBRARY_records[block->index].clause_count : 1;
 }
 
-/* Appends the clauses of a block; those of a library are asked one by one. */
-static void add_clauses(const measuring *m, const tn_test_block *block, tn_coverage_clause *clauses, size_t *count)
+/* Appends the functions of a block; those of a library's clauses are asked one by one. */
+static void add_functions(const measuring *m, const tn_test_block *block, uint32_t *functions, size_t *count)
 {
     for (size_t i = 0; i < clauses_of(m, block); i++)
-        clauses[(*count)++].function =
+        functions[(*count)++] =
             block->is_library
                 ? m->module->CLAUSE_records[m->module->LIBRARY_records[block->index].clause_first + i].holds
                 : m->module->RULE_records[block->index].holds;
@@ -74,7 +74,7 @@ static size_t longest_case(const tn_program *program)
 
 /* All blocks together, or, where some clause passes a limit, each by itself: those with such a clause are left out, and
  * that is said. */
-static tn_status choose_blocks(measuring *m, tn_coverage_clause *clauses, size_t *count, tn_error *error)
+static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     uint32_t longest = (uint32_t)longest_case(program);
@@ -87,12 +87,12 @@ static tn_status choose_blocks(measuring *m, tn_coverage_clause *clauses, size_t
         m->tested[b] = (uint32_t)first;
         if (!is_own_test(m, b))
             continue;
-        add_clauses(m, block, clauses, count);
-        status = tn_coverage_new(m->schema, clauses + first, *count - first, 0, longest, m->options->max_states, &alone,
-                                 error);
+        add_functions(m, block, functions, count);
+        status = tn_coverage_new(m->schema, functions + first, *count - first, 0, longest, m->options->max_states,
+                                 &alone, error);
         tn_coverage_free(alone);
         if (status == TN_LIMIT) {
-            tn_diagnostic *note = tn_finding_note(m->opened, error);
+            tn_diagnostic *note = tn_finding_limit(m->opened, error, NULL);
             tn_note(&m->opened->compilation.diagnostics, note, NULL, "so whether tests of `%s` notice is not known",
                     block->subject);
             m->left_out[b] = true;
@@ -113,22 +113,22 @@ static tn_status cover_tests(measuring *m, tn_error *error)
         return tn_fail_memory(error);
     for (size_t b = 0; b < program->test_count; b++)
         all += clauses_of(m, &program->tests[b]);
-    tn_coverage_clause *clauses = calloc(all + 1, sizeof *clauses);
-    if (!clauses)
+    uint32_t *functions = calloc(all + 1, sizeof *functions);
+    if (!functions)
         return tn_fail_memory(error);
     for (size_t b = 0; b < program->test_count; b++) {
         m->tested[b] = (uint32_t)count;
         if (is_own_test(m, b))
-            add_clauses(m, &program->tests[b], clauses, &count);
+            add_functions(m, &program->tests[b], functions, &count);
     }
     uint32_t most = m->options->max_states, longest = (uint32_t)longest_case(program);
-    tn_status status = count ? tn_coverage_new(m->schema, clauses, count, 0, longest, most, &m->tests, error) : TN_OK;
+    tn_status status = count ? tn_coverage_new(m->schema, functions, count, 0, longest, most, &m->tests, error) : TN_OK;
     if (status == TN_LIMIT) {
-        status = choose_blocks(m, clauses, &count, error);
+        status = choose_blocks(m, functions, &count, error);
         if (status == TN_OK && count)
-            status = tn_coverage_new(m->schema, clauses, count, 0, longest, most, &m->tests, error);
+            status = tn_coverage_new(m->schema, functions, count, 0, longest, most, &m->tests, error);
     }
-    free(clauses);
+    free(functions);
     return status;
 }
 
@@ -295,13 +295,13 @@ static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
 /* All parts of a rule or clause; none where one of them passes a limit. */
 static tn_status try_subject(measuring *m, subject *s, tn_error *error)
 {
-    tn_coverage_clause alone = {s->function, false};
     size_t before = m->covered->count;
     tn_status status = TN_OK;
     if (!m->library) {
         tn_coverage_free(m->plans);
         m->plans = NULL;
-        status = tn_coverage_new(m->schema, &alone, 1, 1, TN_COVERAGE_TRAYS, m->options->max_states, &m->plans, error);
+        status =
+            tn_coverage_new(m->schema, &s->function, 1, 1, TN_COVERAGE_TRAYS, m->options->max_states, &m->plans, error);
     }
     if (status == TN_OK)
         status = tn_parts_read(m->module, s->function, &s->trees[0], error);
@@ -321,9 +321,12 @@ static tn_status measure_subject(measuring *m, subject s, tn_error *error)
     tn_status status = try_subject(m, &s, error);
     if (status != TN_LIMIT)
         return status;
-    if (error->code_offset == TN_NO_OFFSET)
+    if (error->code_offset == TN_NO_OFFSET && !m->library)
         error->code_offset = m->module->FUNCTION_records[s.function].code_begin;
-    tn_diagnostic *note = tn_finding_note(m->opened, error);
+    tn_span library = {0};
+    if (m->library)
+        library = (tn_span){m->library->file, m->library->begin, m->library->end};
+    tn_diagnostic *note = tn_finding_limit(m->opened, error, m->library ? &library : NULL);
     tn_note(&m->opened->compilation.diagnostics, note, NULL, "`%s` is not analysed", s.name);
     return TN_OK;
 }
@@ -341,6 +344,7 @@ static tn_status measure_rules(measuring *m, tn_error *error)
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->module->RULE_count; i++) {
         const tn_rule_record *rule = &m->module->RULE_records[i];
+        tn_watch_tell(m->module->watch, i, (double)m->module->RULE_count);
         bool wanted = !(rule->flags & TN_IMPORTED) || (m->options->imported && is_named(m, rule));
         if (wanted && rule->schema == m->schema_index)
             status = measure_subject(
@@ -417,6 +421,7 @@ tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *opti
         tn_finding_error(opened, &error);
     tn_coverage_free(m.plans);
     tn_coverage_free(m.tests);
+    tn_library_free(m.automaton);
     tn_schema_free(m.schema);
     free(m.tested);
     free(m.left_out);

@@ -7,6 +7,7 @@
 #include <gmp.h>
 
 #include "driver/open/findings.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/text/text.h"
 
 /* Without a library, plans are all of 1 to so many trays. */
@@ -36,7 +37,9 @@ typedef struct tn_covered {
 typedef struct tn_coverage_options {
     const char *library; /* NULL: the only one of the file, if it has one */
     uint32_t max_states; /* 0: the default */
-    bool imported;       /* also rules of used files that the library's clauses name */
+    /* The library made ready, with its own lengths; NULL: measuring makes its own. */
+    const tn_library *automaton;
+    bool imported; /* also rules of used files that the library's clauses name */
 } tn_coverage_options;
 
 /* Measures the rules of the file itself and the clauses written out in its library. What passes the state limit is

@@ -1,3 +1,4 @@
+/* Explains a plan by the rules or the library of a file. */
 #include "driver/plan/explain.h"
 
 #include <stdlib.h>

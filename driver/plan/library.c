@@ -1,3 +1,4 @@
+/* Chooses a library of a file by name and makes it ready. */
 #include "driver/plan/library.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Puts what several threads write into order. */
 #include "driver/plan/relay.h"
 
 #include <stdlib.h>

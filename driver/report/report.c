@@ -1,3 +1,4 @@
+/* Writes the report of a library: the page, its counts and its warnings. */
 #include "driver/report/report.h"
 
 #include <stdlib.h>
@@ -82,7 +83,7 @@ static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
     return good && tn_report_html(r, "</div>\n");
 }
 
-/* The warnings of checking, and notes on what could not be analysed. */
+/* The warnings of checking, and its notes but for limits. */
 static bool put_findings(const tn_reporting *r)
 {
     tn_diagnostics *found = &r->opened->compilation.diagnostics;
@@ -90,12 +91,58 @@ static bool put_findings(const tn_reporting *r)
     tn_diagnostics_sort(found);
     for (size_t i = 0; good && i < found->count; i++) {
         const tn_diagnostic *item = &found->items[i];
-        if ((item->severity != TN_WARNING && item->severity != TN_NOTE) || !item->message)
+        if ((item->severity != TN_WARNING && item->severity != TN_NOTE) || item->limit || !item->message)
             continue;
         good = put_finding(r, item);
         any = true;
     }
     return good && (any || tn_report_html(r, "<p class=\"quiet\">`tartan check` has no warnings.</p>\n"));
+}
+
+/* ---- limits */
+
+/* Has an earlier limit the same place? Then it has the same cause. */
+static bool is_told(const tn_diagnostics *found, size_t i)
+{
+    const tn_diagnostic *item = &found->items[i];
+    for (size_t k = 0; k < i; k++) {
+        const tn_diagnostic *other = &found->items[k];
+        if (other->limit && other->has_span && item->has_span &&
+            memcmp(&other->span, &item->span, sizeof item->span) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool put_limit(const tn_reporting *r, const tn_diagnostic *item)
+{
+    bool good =
+        tn_report_html(r, "<li>") && put_place(r, item->has_span, item->span) && tn_report_text(r, item->message);
+    for (size_t n = 0; good && n < item->note_count; n++)
+        good = tn_report_html(r, n ? ", " : " (") && tn_report_text(r, item->notes[n].text ? item->notes[n].text : "");
+    good = good && (item->note_count == 0 || tn_report_html(r, ")"));
+    if (good && item->help)
+        good = tn_report_html(r, "<br><span class=\"quiet\">") && tn_report_text(r, item->help) &&
+               tn_report_html(r, "</span>");
+    return good && tn_report_html(r, "</li>\n");
+}
+
+/* What was not found out: below everything else, each limit once. */
+static bool put_limits(const tn_reporting *r)
+{
+    tn_diagnostics *found = &r->opened->compilation.diagnostics;
+    bool good = true, any = false;
+    tn_diagnostics_sort(found);
+    for (size_t i = 0; good && i < found->count; i++) {
+        const tn_diagnostic *item = &found->items[i];
+        if (!item->limit || !item->message || is_told(found, i))
+            continue;
+        if (!any)
+            good = tn_report_html(r, "<h2 id=\"limits\">What was not found out</h2>\n<ul>\n");
+        good = good && put_limit(r, item);
+        any = true;
+    }
+    return good && (!any || tn_report_html(r, "</ul>\n"));
 }
 
 /* ---- the page */
@@ -137,5 +184,5 @@ tn_status tn_report_page(tn_opened *opened, const tn_ready_library *ready, const
         status = tn_report_rules(&r);
     if (status == TN_OK)
         status = tn_report_plans(&r);
-    return status == TN_OK ? tn_report_written(&r, put_foot(&r)) : status;
+    return status == TN_OK ? tn_report_written(&r, put_limits(&r) && put_foot(&r)) : status;
 }

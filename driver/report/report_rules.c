@@ -244,7 +244,7 @@ static tn_status put_witness_alone(tn_reporting *r, const card *c)
         tn_shown_plan plan;
         if (r->analyses->schemas[a]->record != r->ready->schema->record || (r->ready->record->flags & TN_IMPORTED))
             continue;
-        status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->index, c->index, &plan, r->error);
+        status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->library, c->index, &plan, r->error);
         if (status == TN_OK && plan.shown)
             status = put_alone(r, c, &plan);
         else if (status == TN_LIMIT)

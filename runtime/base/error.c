@@ -1,3 +1,4 @@
+/* Fills in errors. */
 #include "runtime/base/error.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* Reads files, and writes them beside their target before they are renamed. */
 #include "runtime/base/file.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Words the errors of files. */
 #include "runtime/base/file_error.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Reads lengths with units, exactly. */
 #include "runtime/base/length.h"
 
 #include <stdio.h>

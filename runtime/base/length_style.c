@@ -1,3 +1,4 @@
+/* Writes lengths in the unit that an author uses. */
 #include "runtime/base/length_style.h"
 
 #include <inttypes.h>

@@ -1,3 +1,4 @@
+/* Checks UTF-8, measures its width, and escapes what must not reach a terminal. */
 #include "runtime/base/utf8.h"
 
 #include <string.h>

@@ -88,7 +88,7 @@ tn_status tn_watch_check(tn_watch *watch, tn_error *error)
 
 void tn_watch_tell(tn_watch *watch, double done, double total)
 {
-    if (!watch)
+    if (!watch || !pthread_equal(watch->caller, pthread_self()))
         return;
     watch->done = done;
     watch->total = total;

@@ -39,6 +39,12 @@ void tn_watch_begin(tn_watch *watch, tn_go_on *go_on, void *context);
 /* Is it over? On the watch's own thread the callback is asked first, some thirty times a second. NULL: never. */
 bool tn_watch_stopped(tn_watch *watch);
 
+/* The same for long loops: asked at every so manieth item. */
+static inline bool tn_watch_stopped_at(tn_watch *watch, size_t item)
+{
+    return item % 4096 == 0 && tn_watch_stopped(watch);
+}
+
 /* The same as a status: TN_OK, or TN_STOPPED with a sentence. */
 tn_status tn_watch_check(tn_watch *watch, tn_error *error);
 
@@ -52,7 +58,7 @@ void tn_watch_measure(tn_watch *watch);
  * the system does not have them. `what` begins a sentence. The watch may be NULL. */
 tn_status tn_watch_room(const tn_watch *watch, uint64_t bytes, const char *what, tn_error *error);
 
-/* Says how far the work is, on the watch's own thread. NULL is fine. */
+/* Says how far the work is; on any other thread than the watch's own it says nothing. NULL is fine. */
 void tn_watch_tell(tn_watch *watch, double done, double total);
 
 #endif

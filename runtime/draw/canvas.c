@@ -1,3 +1,4 @@
+/* Makes pictures as SVG, PNG or PDF by cairo. */
 #include "runtime/draw/canvas.h"
 
 #include <cairo-pdf.h>

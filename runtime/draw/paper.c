@@ -1,3 +1,4 @@
+/* Knows the sizes of paper and the usual scales. */
 #include "runtime/draw/paper.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* Numbers the ids of an SVG afresh, so that the same picture has the same bytes. */
 #include "runtime/draw/svg_ids.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* Makes an SVG smaller, for an HTML page. */
 #include "runtime/draw/svg_page.h"
 
 #include <stdbool.h>

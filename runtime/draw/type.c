@@ -1,3 +1,4 @@
+/* Sets lettering. */
 #include "runtime/draw/type.h"
 
 #include <math.h>

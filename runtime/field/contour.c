@@ -99,7 +99,7 @@ static tn_status drop_unused(tn_mesh *mesh, tn_error *error)
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error)
 {
-    *contour = (tn_contour){0};
+    *contour = (tn_contour){.mesh.watch = field->module->watch};
     for (int axis = 0; axis < 3; axis++)
         contour->spacing = fmax(contour->spacing, (grid->high[axis] - grid->low[axis]) / (grid->count[axis] - 1));
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};

@@ -1,3 +1,4 @@
+/* Checks and writes the settings of an evolution by their table. */
 #include "runtime/genome/settings.h"
 #include "runtime/base/number_text.h"
 

@@ -1,3 +1,4 @@
+/* Answers what is inside of a boundary mesh and what meets it, by a tree of its triangles. */
 #include "runtime/geometry/boundary_mesh.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Finds the order in which faces are painted. */
 #include "runtime/geometry/hidden.h"
 
 #include <math.h>

@@ -1,8 +1,15 @@
+/* Keeps meshes as arrays. */
 #include "runtime/geometry/mesh.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "runtime/base/watch.h"
+tn_status tn_mesh_check(const tn_mesh *mesh, tn_error *error)
+{
+    return tn_watch_check(mesh->watch, error);
+}
 
 void tn_mesh_clear(tn_mesh *mesh)
 {

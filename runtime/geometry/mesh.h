@@ -27,6 +27,9 @@ typedef struct tn_mesh {
 
 void tn_mesh_clear(tn_mesh *mesh);
 
+/* Does its watch say that work on it is to end? TN_OK or TN_STOPPED. */
+tn_status tn_mesh_check(const tn_mesh *mesh, tn_error *error);
+
 /* Room for so many; TN_MEMORY. Groups and lines are not made. */
 tn_status tn_mesh_new(size_t vertices, size_t faces, size_t corners, tn_mesh *mesh, tn_error *error);
 

@@ -1,3 +1,4 @@
+/* Finds out whether a polygon crosses itself. */
 #include "runtime/geometry/outline.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, polyhedra for OpenSCAD, and
+/* Mesh files written by us: OBJ and PLY in doubles (OpenMesh would write floats), GLB, 3MF, polyhedra for OpenSCAD, and
  * lines or faces as DXF. */
 #ifndef TARTAN_GEOMETRY_WRITE_H
 #define TARTAN_GEOMETRY_WRITE_H
@@ -7,12 +7,28 @@
 
 #include "runtime/geometry/mesh.h"
 
+/* What one unit of length is; the order of a field's units. */
+typedef enum tn_mesh_unit {
+    TN_MESH_UNIT_NONE,
+    TN_MESH_UNIT_MM,
+    TN_MESH_UNIT_CM,
+    TN_MESH_UNIT_M,
+    TN_MESH_UNIT_IN,
+    TN_MESH_UNIT_FT,
+    TN_MESH_UNIT_COUNT
+} tn_mesh_unit;
+
 typedef struct tn_mesh_style {
     const char *const *notes; /* how it was made: a comment line each, where the format has comments */
     size_t note_count;
     bool normals;
-    bool y_up; /* turn z up to y up (GLB always is) */
+    const double *vertex_normals; /* [vertex_count][3]; NULL: the faces' means (tn_mesh_normals) */
+    bool y_up;                    /* turn z up to y up (GLB always is, 3MF never) */
+    tn_mesh_unit unit;            /* only 3MF says it */
 } tn_mesh_style;
+
+/* The normals that the style asks for, or NULL. The caller frees them. TN_MEMORY. */
+tn_status tn_mesh_style_normals(const tn_mesh *mesh, const tn_mesh_style *style, double **normals, tn_error *error);
 
 /* Text; coordinates to twelve digits of the largest one. Groups are `g` and lines `l`. */
 tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
@@ -23,6 +39,10 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
 /* glTF 2.0 in one file: metres and y up by its specification, floats; faces are triangles; a primitive and a material
  * for each group. */
 tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
+
+/* 3MF: millimetres where there is no unit; an object for each group of faces. Faces are triangles. TN_LIMIT (E0804)
+ * from 4 GB on. */
+tn_status tn_mesh_write_3mf(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* DXF, release 12, a layer for each group. A mesh with lines: these as polylines; where exactly two lines of a layer
  * meet they are one polyline, so that an outline is one closed line. Level ones are plane, others are in space. A mesh

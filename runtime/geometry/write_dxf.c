@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/watch.h"
 #include "runtime/geometry/crease.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
@@ -240,7 +241,8 @@ static void write_face(tn_text_out *out, const tn_mesh *mesh, uint32_t face, con
 
 static void write_lines(tn_text_out *out, joining *j, bool y_up)
 {
-    for (uint32_t line = 0; line < j->mesh->line_count && !out->failed; line++) {
+    for (uint32_t line = 0; line < j->mesh->line_count && !out->failed && !tn_watch_stopped_at(j->mesh->watch, line);
+         line++) {
         bool closed;
         if (j->done[line])
             continue;
@@ -264,7 +266,8 @@ static void write_all(tn_text_out *out, joining *j, const bool *creases, const t
     write_pair(out, "0", "SECTION");
     write_pair(out, "2", "ENTITIES");
     if (creases)
-        for (uint32_t face = 0; face < j->mesh->face_count && !out->failed; face++)
+        for (uint32_t face = 0;
+             face < j->mesh->face_count && !out->failed && !tn_watch_stopped_at(j->mesh->watch, face); face++)
             write_face(out, j->mesh, face, creases, style->y_up);
     else
         write_lines(out, j, style->y_up);
@@ -292,5 +295,5 @@ tn_status tn_mesh_write_dxf(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     free(creases);
     clear_joining(&j);
     free(out);
-    return status;
+    return status == TN_OK ? tn_watch_check(mesh->watch, error) : status;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
 
 typedef struct text {
@@ -107,7 +108,7 @@ static void fill(const tn_mesh *mesh, const double *normals, const size_t *count
                  float low[3], float high[3])
 {
     uint8_t *to = binary;
-    for (size_t v = 0; v < mesh->vertex_count; v++) {
+    for (size_t v = 0; v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
         float q[3];
         turned(mesh->positions + 3 * v, q);
         for (int k = 0; k < 3; k++) {
@@ -116,13 +117,13 @@ static void fill(const tn_mesh *mesh, const double *normals, const size_t *count
         }
         put_floats(&to, q, 3);
     }
-    for (size_t v = 0; normals && v < mesh->vertex_count; v++) {
+    for (size_t v = 0; normals && v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
         float q[3];
         turned(normals + 3 * v, q);
         put_floats(&to, q, 3);
     }
     for (uint32_t g = 0; g < groups; g++) {
-        for (size_t f = 0; counts[g] && f < mesh->face_count; f++) {
+        for (size_t f = 0; counts[g] && f < mesh->face_count && !tn_watch_stopped_at(mesh->watch, f); f++) {
             if (mesh->face_group && mesh->face_group[f] != g)
                 continue;
             for (int i = 0; i < 3; i++, to += 4)
@@ -176,7 +177,9 @@ static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style
         say_notes(&json, style);
         say_primitives(&json, counts, groups, normals != NULL);
         say_accessors(&json, mesh, low, high, counts, groups, normals != NULL);
-        status = write_chunks(out, &json, binary, size, error);
+        status = tn_watch_check(mesh->watch, error);
+        if (status == TN_OK)
+            status = write_chunks(out, &json, binary, size, error);
     }
     free(json.bytes);
     free(counts);
@@ -190,7 +193,7 @@ tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     for (size_t f = 0; f < mesh->face_count; f++)
         if (mesh->face_first[f + 1] - mesh->face_first[f] != 3)
             return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a GLB file takes triangles only");
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK)
         status = write_triangles(mesh, style, normals, out, error);
     free(normals);

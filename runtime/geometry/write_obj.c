@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 
@@ -55,17 +56,17 @@ static void write_all(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style
         tn_text_flush(out, false);
     }
     tn_text_add(out, style->y_up ? "# up: y\n" : "# up: z\n");
-    for (size_t v = 0; v < mesh->vertex_count && !out->failed; v++)
+    for (size_t v = 0; v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++)
         write_point(out, "v ", mesh->positions + 3 * v, style->y_up);
-    for (size_t v = 0; normals && v < mesh->vertex_count && !out->failed; v++)
+    for (size_t v = 0; normals && v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++)
         write_point(out, "vn ", normals + 3 * v, style->y_up);
-    for (size_t f = 0; f < mesh->face_count && !out->failed; f++) {
+    for (size_t f = 0; f < mesh->face_count && !out->failed && !tn_watch_stopped_at(mesh->watch, f); f++) {
         if (mesh->face_group)
             write_group(out, mesh, mesh->face_group[f], "", &last);
         write_face(out, mesh, f, normals != NULL);
     }
     last = UINT32_MAX;
-    for (size_t l = 0; l < mesh->line_count && !out->failed; l++) {
+    for (size_t l = 0; l < mesh->line_count && !out->failed && !tn_watch_stopped_at(mesh->watch, l); l++) {
         if (mesh->line_group)
             write_group(out, mesh, mesh->line_group[l], "edges_", &last);
         tn_text_add(out, "l ");
@@ -84,7 +85,7 @@ tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     tn_text_out *out = malloc(sizeof *out);
     if (!out)
         return tn_fail_memory(error);
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
         largest = fmax(largest, fabs(mesh->positions[i]));
     tn_text_begin(out, stream, largest);
@@ -92,5 +93,5 @@ tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FIL
         write_all(out, mesh, style, normals);
     free(normals);
     free(out);
-    return status;
+    return status == TN_OK ? tn_watch_check(mesh->watch, error) : status;
 }

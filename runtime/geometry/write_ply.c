@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
+#include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
 
 typedef struct byte_out {
@@ -80,17 +81,17 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     out->stream = stream;
     out->failed = false;
     out->used = 0;
-    tn_status status = style->normals ? tn_mesh_normals(mesh, &normals, error) : TN_OK;
+    tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK) {
         write_header(mesh, style, stream, large);
-        for (size_t v = 0; v < mesh->vertex_count && !out->failed; v++) {
+        for (size_t v = 0; v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++) {
             put_point(out, mesh->positions + 3 * v, style->y_up);
             if (normals)
                 put_point(out, normals + 3 * v, style->y_up);
         }
-        for (size_t f = 0; f < mesh->face_count && !out->failed; f++)
+        for (size_t f = 0; f < mesh->face_count && !out->failed && !tn_watch_stopped_at(mesh->watch, f); f++)
             write_face(out, mesh, f, large);
-        for (size_t l = 0; l < mesh->line_count && !out->failed; l++) {
+        for (size_t l = 0; l < mesh->line_count && !out->failed && !tn_watch_stopped_at(mesh->watch, l); l++) {
             tn_put_u32(room(out, 4), mesh->lines[2 * l]);
             tn_put_u32(room(out, 4), mesh->lines[2 * l + 1]);
             if (mesh->line_group)
@@ -100,5 +101,5 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
     }
     free(normals);
     free(out);
-    return status;
+    return status == TN_OK ? tn_watch_check(mesh->watch, error) : status;
 }

@@ -1,3 +1,4 @@
+/* Writes numbers as text, quickly and the same everywhere. */
 #include "runtime/geometry/write_text.h"
 
 #include <math.h>

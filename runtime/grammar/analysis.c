@@ -1,3 +1,4 @@
+/* Analyses a grammar: depths, numbers of derivations, growth of sentences. */
 #include "runtime/grammar/analysis.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Reads a grammar from a module. */
 #include "runtime/grammar/grammar.h"
 
 #include <stdlib.h>

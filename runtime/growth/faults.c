@@ -1,3 +1,4 @@
+/* Counts faces that cross themselves or are turned over. */
 #include "runtime/growth/faults.h"
 
 #include <stdlib.h>

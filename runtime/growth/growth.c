@@ -1,3 +1,4 @@
+/* Grows a surface step by step. */
 #include "runtime/growth/growth.h"
 
 #include <stdlib.h>

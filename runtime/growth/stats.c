@@ -1,3 +1,4 @@
+/* Measures a grown surface: counts and fitness terms. */
 #include "runtime/growth/stats.h"
 
 #include <stdlib.h>

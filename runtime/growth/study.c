@@ -1,3 +1,4 @@
+/* Reads from a module how a surface is to be grown. */
 #include "runtime/growth/study.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Makes a mesh of a grown surface. */
 #include "runtime/growth/surface.h"
 
 #include <stdio.h>

@@ -20,6 +20,7 @@ extern "C" {
 #include <OpenMesh/Core/System/omstream.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
@@ -96,6 +97,18 @@ template <class mesh_type> tn_status out_of(const mesh_type &from, tn_mesh *to, 
     return TN_OK;
 }
 
+/* Ends a decimation that nobody waits for any more. */
+class patience : public OpenMesh::Decimater::Observer {
+public:
+    explicit patience(const tn_mesh *mesh) : Observer(1000), mesh(mesh) {}
+    void notify(size_t) override { stopped = tn_mesh_check(mesh, nullptr) != TN_OK; }
+    bool abort() const override { return stopped; }
+
+private:
+    const tn_mesh *mesh;
+    bool stopped = false;
+};
+
 bool all_triangles(const tn_mesh *mesh)
 {
     for (size_t f = 0; f < mesh->face_count; f++)
@@ -129,6 +142,7 @@ template <class mesh_type> tn_status replace(const mesh_type &from, tn_mesh *mes
     tn_status status = out_of(from, &made, error);
     if (status != TN_OK)
         return status;
+    made.watch = mesh->watch;
     tn_mesh_clear(mesh);
     *mesh = made;
     return TN_OK;
@@ -142,9 +156,13 @@ template <class mesh_type, class subdivider> tn_status subdivide(tn_mesh *mesh, 
     subdivider tool;
     if (!tool.attach(m))
         return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh cannot be subdivided");
-    tool(rounds);
+    tn_status status = TN_OK;
+    for (unsigned round = 0; status == TN_OK && round < rounds; round++) {
+        tool(1);
+        status = tn_mesh_check(mesh, error);
+    }
     tool.detach();
-    return replace(m, mesh, error);
+    return status == TN_OK ? replace(m, mesh, error) : status;
 }
 
 } // namespace
@@ -234,7 +252,12 @@ extern "C" tn_status tn_openmesh_smooth(tn_mesh *mesh, unsigned iterations, tn_e
         typedef OpenMesh::Smoother::JacobiLaplaceSmootherT<tri_mesh> smoother;
         smoother tool(m);
         tool.initialize(smoother::Tangential_and_Normal, smoother::C1);
-        tool.smooth(iterations);
+        for (unsigned i = 0; i < iterations; i++) {
+            tool.smooth(1);
+            status = tn_mesh_check(mesh, error);
+            if (status != TN_OK)
+                return status;
+        }
         for (auto vertex : m.vertices()) {
             const auto &p = m.point(vertex);
             for (int k = 0; k < 3; k++)
@@ -269,7 +292,12 @@ extern "C" tn_status tn_openmesh_decimate(tn_mesh *mesh, size_t faces, tn_error 
         tool.module(quadric).unset_max_err();
         if (!tool.initialize())
             return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh cannot be decimated");
+        patience waits(mesh);
+        tool.set_observer(&waits);
         tool.decimate_to_faces(0, faces);
+        status = tn_mesh_check(mesh, error);
+        if (status != TN_OK)
+            return status;
         m.garbage_collection();
         return replace(m, mesh, error);
     });

@@ -1,3 +1,4 @@
+/* Builds a module's bytes. */
 #include "runtime/module/builder.h"
 
 #include <stdlib.h>

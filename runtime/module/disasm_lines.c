@@ -1,3 +1,4 @@
+/* Finds the source lines that a listing shows beside instructions. */
 #include "runtime/module/disasm_lines.h"
 
 #include <stdlib.h>

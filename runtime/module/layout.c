@@ -1,3 +1,4 @@
+/* Reads and writes a module's header and table of sections. */
 #include "runtime/module/layout.h"
 
 #include <string.h>

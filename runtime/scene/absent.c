@@ -1,11 +1,6 @@
 /* Pictures of faces in space in a build without the part `draw`: there are none. */
 #include "runtime/base/part.h"
-#include "runtime/scene/view.h"
-
-tn_camera tn_camera_default(void)
-{
-    return (tn_camera){0};
-}
+#include "runtime/scene/draw_mesh.h"
 
 tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error)
 {
@@ -48,4 +43,10 @@ tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_optio
 {
     (void)views, (void)count, (void)options, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
+}
+
+tn_status tn_mesh_draw(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
+{
+    (void)mesh, (void)picture, (void)to;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a mesh", error);
 }

@@ -9,11 +9,6 @@
 #include "runtime/numeric/numeric.h"
 #include "runtime/scene/view_parts.h"
 
-tn_camera tn_camera_default(void)
-{
-    return (tn_camera){-60, 30, 480};
-}
-
 void tn_view_free(tn_view *view)
 {
     if (!view)
@@ -54,25 +49,6 @@ void tn_sight_clear(tn_sight *sight)
 
 /* ---- before the eye */
 
-typedef struct viewpoint {
-    tn_vector right, up, towards;
-} viewpoint;
-
-static viewpoint place_eye(const tn_camera *camera)
-{
-    double ca = tn_cos_degrees(camera->azimuth), sa = tn_sin_degrees(camera->azimuth);
-    double ce = tn_cos_degrees(camera->elevation), se = tn_sin_degrees(camera->elevation);
-    return (viewpoint){{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
-}
-
-/* Light from over the eye's left shoulder; both sides of a surface are lit. */
-static float light_on(const viewpoint *eye, tn_vector normal)
-{
-    tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
-    double facing = tn_dot(normal, eye->towards) < 0 ? -1 : 1;
-    return (float)(0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp)));
-}
-
 /* A surface as it lies before the eye; its points are those of the sight, moved and scaled. */
 typedef struct prospect {
     const tn_sight *sight;
@@ -82,14 +58,12 @@ typedef struct prospect {
 } prospect;
 
 /* Turns the corners of a face before the eye; returns its normal, of unit length. */
-static tn_vector turn_face(const viewpoint *eye, double (*points)[3], uint32_t count)
+static tn_vector turn_face(const tn_eye *eye, double (*points)[3], uint32_t count)
 {
     tn_vector normal = {0, 0, 0}, origin = tn_vector_at(points[0]), before = {0};
     for (uint32_t c = 0; c < count; c++) {
         tn_vector p = tn_vector_at(points[c]), r = tn_sub(p, origin);
-        points[c][0] = tn_dot(p, eye->right);
-        points[c][1] = tn_dot(p, eye->up);
-        points[c][2] = tn_dot(p, eye->towards);
+        tn_vector_put(points[c], tn_eye_sees(eye, p));
         normal = tn_add(normal, tn_cross(before, r));
         before = r;
     }
@@ -97,7 +71,7 @@ static tn_vector turn_face(const viewpoint *eye, double (*points)[3], uint32_t c
 }
 
 /* Turns all faces, and moves those that can be seen to the front of the sight's arrays. */
-static void turn_faces(tn_sight *sight, const viewpoint *eye, float *light)
+static void turn_faces(tn_sight *sight, const tn_eye *eye, float *light)
 {
     uint32_t kept = 0, corners = 0, begin = sight->first[0];
     for (uint32_t f = 0; f < sight->face_count; f++) {
@@ -108,7 +82,7 @@ static void turn_faces(tn_sight *sight, const viewpoint *eye, float *light)
             memmove(sight->edges + corners, sight->edges + begin, count * sizeof *sight->edges);
             if (sight->groups)
                 sight->groups[kept] = sight->groups[f];
-            light[kept] = light_on(eye, normal);
+            light[kept] = (float)tn_eye_light(eye, normal);
             sight->first[kept++] = corners;
             corners += count;
         }
@@ -137,7 +111,7 @@ static void measure(prospect *seen, uint32_t corners)
             seen->scene.points[c][k] = (seen->scene.points[c][k] - seen->middle[k]) / seen->size;
 }
 
-static tn_status look(tn_sight *sight, const viewpoint *eye, prospect *seen, tn_error *error)
+static tn_status look(tn_sight *sight, const tn_eye *eye, prospect *seen, tn_error *error)
 {
     float *light = malloc((sight->face_count + 1u) * sizeof *light);
     *seen = (prospect){.sight = sight, .light = light};
@@ -204,7 +178,7 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
         return tn_fail_memory(error);
     view->width = camera->width > 0 ? camera->width : 480;
     view->step = sight->step;
-    viewpoint eye = place_eye(camera);
+    tn_eye eye = tn_camera_eye(camera);
     prospect seen;
     tn_painting painting = {0};
     tn_status status = look(sight, &eye, &seen, error);

@@ -7,18 +7,10 @@
 
 #include "runtime/base/picture.h"
 #include "runtime/base/watch.h"
+#include "runtime/geometry/camera.h"
 #include "runtime/geometry/mesh.h"
 
 #define TN_DRAWN_FACES_MAX 2000000u
-
-typedef struct tn_camera {
-    double azimuth;   /* degrees about z, from the x axis; the camera looks from there */
-    double elevation; /* degrees above the ground: 90 looks straight down */
-    double width;     /* of a view, in points */
-} tn_camera;
-
-/* Azimuth -60, elevation 30, 480 points wide. */
-tn_camera tn_camera_default(void);
 
 /* What an edge is drawn as: the colour of its label, dark, or not at all. */
 #define TN_EDGE_NONE UINT16_MAX

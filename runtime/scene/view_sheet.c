@@ -161,8 +161,10 @@ static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
 }
 
 /* `label` is written below the view; NULL for none. */
-static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double x, double y, const char *label)
+static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet *s, double x, double y,
+                       const char *label)
 {
+    cairo_t *cr = tn_canvas_context(canvas);
     double wide = (view->high[0] - view->low[0]) * s->scale, high = (view->high[1] - view->low[1]) * s->scale;
     double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (label ? LABEL_HEIGHT : 0) - high) / 2;
     double line = 0.8;
@@ -174,7 +176,7 @@ static void paint_view(cairo_t *cr, const tn_view *view, const sheet *s, double 
     cairo_translate(cr, -view->low[0], -view->low[1]);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    for (size_t f = 0; f < view->face_count; f++)
+    for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
         paint_face(cr, view, &view->faces[f], line / s->scale, HAIRLINE / s->scale);
     cairo_restore(cr);
     if (label) {
@@ -221,9 +223,10 @@ static void write_foot(cairo_t *cr, const sheet *s, const tn_view_options *optio
     }
 }
 
-static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const sheet *s,
+static void paint_sheet(const tn_canvas *canvas, tn_view *const *views, size_t count, const sheet *s,
                         const tn_view_options *options)
 {
+    cairo_t *cr = tn_canvas_context(canvas);
     double top = 0;
     if (options->title && options->title[0]) {
         tn_type_face(cr, 12, false);
@@ -236,8 +239,8 @@ static void paint_sheet(cairo_t *cr, tn_view *const *views, size_t count, const 
             snprintf(label, sizeof label, "%s", options->labels[i]);
         else
             snprintf(label, sizeof label, "step %u", views[i]->step);
-        paint_view(cr, views[i], s, (double)(i % s->columns) * s->cell[0], top + (double)(i / s->columns) * s->cell[1],
-                   options->labels || count > 1 ? label : NULL);
+        paint_view(canvas, views[i], s, (double)(i % s->columns) * s->cell[0],
+                   top + (double)(i / s->columns) * s->cell[1], options->labels || count > 1 ? label : NULL);
     }
     write_foot(cr, s, options);
 }
@@ -256,7 +259,7 @@ tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_optio
     tn_canvas *canvas;
     tn_status status = tn_canvas_open(to, &canvas_options, &canvas, error);
     if (status == TN_OK) {
-        paint_sheet(tn_canvas_context(canvas), views, count, &s, options);
+        paint_sheet(canvas, views, count, &s, options);
         status = tn_canvas_commit(canvas, error);
         tn_canvas_free(canvas);
     }

@@ -45,6 +45,9 @@ for x in 1 10 100; do echo "plans $x $x"; done >"$scratch/points"
 for scene in square triangle forces boundary; do
     runs growth "$scene" 2 2 1
 done
+runs solid crowded 30 1
+runs solid sphere 30 1
+runs solid tables 10 1
 runs openmesh cc 2 1
 runs openmesh loop 2 1
 finish

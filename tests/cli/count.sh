@@ -6,6 +6,8 @@ name=count
 golden text 'tartan count sheds.plan --library sheds'
 golden mirror 'tartan count sheds.plan --library sheds --mirror'
 golden json 'tartan count sheds.plan --library sheds --json --mirror | sed "s/\"hash\": \"[0-9a-f]*\"/\"hash\": \"HASH\"/"'
+golden no_effects 'tartan count sheds.plan --library sheds --no-effects'
+golden no_effects_json 'tartan count sheds.plan --library sheds --no-effects --json | sed "s/\"hash\": \"[0-9a-f]*\"/\"hash\": \"HASH\"/"'
 golden no_rules 'tartan count sheds.plan --library any-sheds'
 golden trays 'tartan count sheds.plan --library sheds --trays 40..42'
 golden state_limit 'tartan count sheds.plan --library sheds --max-states 1'

@@ -15,6 +15,7 @@ for library in blown joint; do
     golden "report_$library" "tartan report blow-up.plan --library $library $limit -o $scratch/report"
     golden "coverage_$library" "tartan test blow-up.plan --coverage --library $library $limit"
 done
+golden report_limits "sed -n '/id=.limits/,/<.ul>/p' $scratch/report/index.html"
 golden count_demanding 'tartan count blow-up.plan --library demanding --max-states 30'
 golden count_demanding_json 'tartan count blow-up.plan --library demanding --max-states 30 --json 2>/dev/null | sed -n "/requirements/,\$p"'
 golden check 'tartan check blow-up.plan'
@@ -22,4 +23,8 @@ golden check_small 'tartan check blow-up.plan --max-states 3'
 golden relations 'tartan check blow-up.plan --relations --max-states 3'
 golden regex 'tartan export blow-up.plan --regex --rule far'
 golden match "printf '%s\\n' \"$plan | $plan\" | tartan match blow-up.plan --rule far --format bits"
+# Within the library's lengths, so many states are enough for all questions about it; over plans of any length they are not.
+golden ward_count 'tartan count ward-strip.plan --max-states 45000'
+golden ward_check 'tartan check ward-strip.plan --max-states 45000'
+golden ward_coverage 'tartan test ward-strip.plan --coverage --max-states 45000'
 finish

@@ -62,10 +62,46 @@ golden werror "tartan mesh primitives --surface heart --grid 12 --werror --stats
 "$TARTAN" mesh ball.field -o hull.obj || fail "a mesh is not written"
 golden shell "tartan mesh $scratch/shell.field --grid 40"
 "$TARTAN" build ball.field -o ball.tnb
-for format in obj ply stl off om glb; do
+for format in obj ply stl off om glb 3mf; do
     "$TARTAN" mesh ball.field --grid 20 -o a.$format && "$TARTAN" mesh ball.tnb --grid 20 -o b.$format
     cmp a.$format b.$format || fail "the module gives another $format"
     printf 'abs(distance("a.%s")) - 0.3\n' "$format" >again.field
-    [ "$format" = glb ] || exits 0 "$TARTAN" mesh again.field --grid 10
+    [ "$format" = glb ] || [ "$format" = 3mf ] || exits 0 "$TARTAN" mesh again.field --grid 10
 done
+
+# A 3MF is a sound archive with the mesh and its unit; of a design of boxes with --cells, each box is an object.
+printf 'surface ball = x*x + y*y + z*z - 9 unit cm' >unit.field
+"$TARTAN" mesh unit.field --grid 20 -o unit.3mf
+"$TARTAN" mesh unit.field --grid 20 -o unit.obj --normals
+python3 - unit.3mf unit.obj <<'PYTHON' || fail "a wrong 3MF"
+import sys, xml.etree.ElementTree as tree, zipfile
+archive = zipfile.ZipFile(sys.argv[1])
+assert archive.testzip() is None and archive.namelist()[0] == "[Content_Types].xml"
+name = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+model = tree.fromstring(archive.read("3D/3dmodel.model"))
+assert model.get("unit") == "centimeter" and len(model.findall(f".//{name}item")) == 1
+places = sorted(tuple(float(v.get(axis)) for axis in "xyz") for v in model.iter(name + "vertex"))
+triangles = [tuple(int(t.get(v)) for v in ("v1", "v2", "v3")) for t in model.iter(name + "triangle")]
+lines = [line.split() for line in open(sys.argv[2])]
+wanted = sorted(tuple(map(float, line[1:])) for line in lines if line[0] == "v")
+assert places == wanted and len(triangles) == sum(line[0] == "f" for line in lines)
+assert max(map(max, triangles)) == len(places) - 1
+# Normals are by differentiation: on a ball they point from its middle.
+vertices = [list(map(float, line[1:])) for line in lines if line[0] == "v"]
+normals = [list(map(float, line[1:])) for line in lines if line[0] == "vn"]
+assert len(normals) == len(vertices)
+assert max(abs(v / 3 - n) for at, normal in zip(vertices, normals) for v, n in zip(at, normal)) < 1e-7
+PYTHON
+# Where the box closes a form, the normal is the wall's.
+printf 'x*x + y*y - 4' >cut.field
+"$TARTAN" mesh cut.field --grid 31 --normals -o cut.obj 2>/dev/null
+python3 - cut.obj <<'PYTHON' || fail "wrong normals at the box"
+import sys
+lines = [line.split() for line in open(sys.argv[1])]
+vertices = [list(map(float, line[1:])) for line in lines if line[0] == "v"]
+normals = [list(map(float, line[1:])) for line in lines if line[0] == "vn"]
+caps = [n for v, n in zip(vertices, normals) if v[2] > 6.9 and v[0] ** 2 + v[1] ** 2 < 2]
+assert len(caps) > 20 and all(n[2] > 0.999 for n in caps), len(caps)
+PYTHON
+golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
 finish

@@ -15,6 +15,9 @@ with open(f"{scratch}/outline.hemls", "w") as out:
 with open(f"{scratch}/long.bnf", "w") as out:
     out.write("<s> ::= <s> <s> | a | b\n")
 
+with open(f"{scratch}/cells.pcfg", "w") as out:
+    out.write("Start -> 'PlaceBoundingBox(4,4,4)' 'Place(3003)' 'FillRectNoCheck(2000,2000,200)'\n")
+
 # What each command is given, and the name of its output. Every one takes a second or more, or is quick and is met late.
 LIBRARY = "lahave-houses"
 COMMANDS = [
@@ -38,6 +41,12 @@ COMMANDS = [
     ("grow", ["grow", "outline.hemls", "-n", "6", "-t", "-o", "@/surface.obj"], "surface.obj"),
     ("grow a picture", ["grow", "outline.hemls", "-n", "5", "-o", "@/surface.png"], "surface.png"),
     ("grow to GLB", ["grow", "square", "-n", "9", "-o", "@/square.glb"], "square.glb"),
+    ("mesh", ["mesh", "primitives", "--surface", "torus", "--grid", "200", "-o", "@/torus.obj"], "torus.obj"),
+    ("mesh, smoothed", ["mesh", "primitives", "--surface", "torus", "--grid", "60", "--subdivide", "1", "--smooth", "3",
+                        "--decimate", "1000", "-o", "@/torus.stl"], "torus.stl"),
+    ("house", ["house", "cottage", "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; wall window wall",
+               "-o", "@/house.obj"], "house.obj"),
+    ("place", ["place", "cells.pcfg", "-o", "@/cells.ldr"], "cells.ldr"),
     ("export", ["export", LIBRARY, "--prolog"], None),
     ("map", ["map", "long.bnf", "--random", "200000", "-o", "@/sentences.txt"], "sentences.txt"),
     ("evolve", ["evolve", f"{examples}/breeding-surfaces/breed.study", "-o", "@/run"], None),

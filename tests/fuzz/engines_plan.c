@@ -23,6 +23,7 @@ enum {
     SCHEMAS = 8,
     CODES = 4096,
     RULES = 12,
+    CLAUSES = 4,
     LIBRARIES = 3,
     PARTS = 6,
     PLANS = 6,
@@ -312,19 +313,15 @@ static void cover_parts(const tn_module *module, tn_coverage *coverage, uint32_t
     mpz_clear(flips);
 }
 
-static void cover(const tn_schema *schema, const tn_library_record *library)
+static void cover(const tn_library *library)
 {
-    tn_coverage_clause clauses[RULES];
+    const tn_module *module = tn_library_schema(library)->module;
+    const tn_library_record *record = tn_library_record_of(library);
     tn_coverage *coverage;
-    uint32_t count = library->clause_count < RULES ? library->clause_count : RULES;
-    for (uint32_t i = 0; i < count; i++) {
-        const tn_clause_record *clause = &schema->module->CLAUSE_records[library->clause_first + i];
-        clauses[i] = (tn_coverage_clause){clause->holds, clause->kind != TN_CLAUSE_PRUNE};
-    }
-    if (count == 0 || tn_coverage_new(schema, clauses, count, library->trays_min, library->trays_max, STATES, &coverage,
-                                      NULL) != TN_OK)
+    if (record->clause_count == 0 || tn_coverage_of_library(library, &coverage, NULL) != TN_OK)
         return;
-    cover_parts(schema->module, coverage, clauses[0].function);
+    for (uint32_t i = 0; i < record->clause_count && i < CLAUSES; i++)
+        cover_parts(module, coverage, module->CLAUSE_records[record->clause_first + i].holds);
     tn_coverage_free(coverage);
 }
 
@@ -341,7 +338,7 @@ static void use_library(const tn_opened *opened, const tn_schema *schema, uint32
     compare(library, library);
     if (before)
         compare(before, library);
-    cover(schema, tn_library_record_of(library));
+    cover(library);
     tn_library_free(library);
 }
 

@@ -1,3 +1,4 @@
+/* Checks .plan files: schemas, rules, libraries and tests, in the order of their uses. */
 #include "compiler/plan/check/check.h"
 
 #include "compiler/plan/check/expand.h"

@@ -1,3 +1,4 @@
+/* Writes a checked .plan program into a module. */
 #include "compiler/plan/emit/emit.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Makes the syntax tree of .plan files. */
 #include "compiler/plan/syntax/ast.h"
 
 #include "compiler/common/limits.h"

@@ -1,3 +1,4 @@
+/* Words the syntax errors of .plan files. */
 #include "compiler/plan/syntax/syntax_error.h"
 
 #include <ctype.h>

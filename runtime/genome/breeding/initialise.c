@@ -1,3 +1,4 @@
+/* Makes first populations. */
 #include "runtime/genome/breeding/initialise.h"
 
 #include <stdlib.h>

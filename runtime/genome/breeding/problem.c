@@ -1,3 +1,4 @@
+/* Scores sentences: matching a text, and fitting data. */
 #include "runtime/genome/breeding/problem.h"
 
 #include <math.h>

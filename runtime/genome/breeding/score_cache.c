@@ -1,3 +1,4 @@
+/* Remembers the scores of sentences. */
 #include "runtime/genome/breeding/score_cache.h"
 
 #include <stdlib.h>

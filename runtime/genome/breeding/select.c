@@ -1,3 +1,4 @@
+/* Selects parents. */
 #include "runtime/genome/breeding/select.h"
 
 #include <math.h>

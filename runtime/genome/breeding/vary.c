@@ -1,3 +1,4 @@
+/* Crosses and mutates genomes. */
 #include "runtime/genome/breeding/vary.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Keeps genomes, and reads and writes them as text. */
 #include "runtime/genome/mapping/genome.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Finds a genome for a sentence. */
 #include "runtime/genome/mapping/invert.h"
 
 #include <stdio.h>

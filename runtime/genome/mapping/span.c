@@ -1,3 +1,4 @@
+/* Finds the stretches of a genome that the subtrees of its derivation read. */
 #include "runtime/genome/mapping/span.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Makes a tree of a derivation, and writes it as a table, as text and as JSON. */
 #include "runtime/genome/mapping/tree.h"
 
 #include <inttypes.h>

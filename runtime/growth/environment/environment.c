@@ -1,3 +1,4 @@
+/* Moves vertices by forces, and stops them at boundaries. */
 #include "runtime/growth/environment/environment.h"
 
 #include "runtime/numeric/numeric.h"

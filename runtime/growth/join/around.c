@@ -1,3 +1,4 @@
+/* Finds what lies around a vertex of the old map. */
 #include "runtime/growth/join/around.h"
 
 /* A dart on its way round a vertex of the old map. Hubs have very many faces, and faces very many vertices: of two ways

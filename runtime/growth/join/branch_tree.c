@@ -1,3 +1,4 @@
+/* Finds the nearest branch among many, by a tree. */
 #include "runtime/growth/join/branch_tree.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Decides which branches of each face join. */
 #include "runtime/growth/join/decide.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Cuts a face into loops along its joined branches. */
 #include "runtime/growth/join/face_cut.h"
 
 #include <stdlib.h>

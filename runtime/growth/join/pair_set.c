@@ -1,3 +1,4 @@
+/* Keeps the pairs of vertices that are linked. */
 #include "runtime/growth/join/pair_set.h"
 
 #include <stdlib.h>

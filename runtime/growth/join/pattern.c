@@ -1,3 +1,4 @@
+/* Works out faces that are alike only once. */
 #include "runtime/growth/join/pattern.h"
 
 #include <stdlib.h>

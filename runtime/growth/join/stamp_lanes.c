@@ -1,3 +1,4 @@
+/* Writes several darts of the new map at once, by AVX-512. */
 #include "runtime/growth/join/stamp_lanes.h"
 
 #if defined(__x86_64__)

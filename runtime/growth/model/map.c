@@ -1,3 +1,4 @@
+/* Keeps the half-edge map of a surface. */
 #include "runtime/growth/model/map.h"
 
 #include <stdlib.h>

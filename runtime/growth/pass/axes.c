@@ -1,3 +1,4 @@
+/* Finds the directions of branches in rows of edges. */
 #include "runtime/growth/pass/axes.h"
 
 #include <stdbool.h>

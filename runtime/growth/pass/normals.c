@@ -1,3 +1,4 @@
+/* Finds the normals of faces in rows. */
 #include "runtime/growth/pass/normals.h"
 
 #define FLAT                                                                                                           \

@@ -1,3 +1,4 @@
+/* Keeps arrays that are used again from step to step. */
 #include "runtime/growth/pass/pages.h"
 
 #include <stdint.h>

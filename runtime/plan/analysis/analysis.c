@@ -273,6 +273,8 @@ tn_status tn_plan_analysis_new(const tn_schema *schema, const tn_plan_analysis_o
         return tn_fail_memory(error);
     analysis->schema = schema;
     analysis->schema_index = (uint32_t)(schema->record - schema->module->SCHEMA_records);
+    analysis->asked_states = max_states;
+    analysis->threads = options->threads;
     analysis->max_states = max_states ? max_states : TN_STATES_DEFAULT;
     analysis->max_joint = max_states ? max_states : JOINT_STATES_DEFAULT;
     analysis->library = options->library;

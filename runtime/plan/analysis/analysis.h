@@ -69,10 +69,10 @@ size_t tn_plan_analysis_count(const tn_plan_analysis *analysis);
 const tn_plan_analysis_finding *tn_plan_analysis_get(const tn_plan_analysis *analysis, size_t i);
 
 /* The shortest plan of the library's lengths that clause i of it keeps out and no other clause does; not shown where
- * there is none. For libraries of the named file. TN_LIMIT as in tn_plan_analysis_new. Free with tn_shown_plan_clear.
- */
-tn_status tn_plan_analysis_alone(const tn_plan_analysis *analysis, uint32_t library, size_t i, tn_shown_plan *plan,
-                                 tn_error *error);
+ * there is none. The library is of the analysis's schema. TN_LIMIT as in tn_library_effect. Free with
+ * tn_shown_plan_clear. */
+tn_status tn_plan_analysis_alone(const tn_plan_analysis *analysis, const tn_library *library, uint32_t i,
+                                 tn_shown_plan *plan, tn_error *error);
 
 /* ---- relations of rules */
 

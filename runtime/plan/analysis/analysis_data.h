@@ -23,6 +23,8 @@ typedef struct tn_plan_analysed_rule {
 struct tn_plan_analysis {
     const tn_schema *schema;
     uint32_t schema_index;
+    uint32_t asked_states;     /* of the options: 0 for the defaults */
+    unsigned threads;          /* likewise */
     uint32_t max_states;       /* of a rule's automata */
     uint32_t max_joint;        /* tuples of a search over the clauses of a library */
     const tn_library *library; /* as in tn_plan_analysis_options, while the analysis is made */

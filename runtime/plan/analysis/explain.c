@@ -1,3 +1,4 @@
+/* Explains why a rule matches a plan or does not. */
 #include "runtime/plan/analysis/explain.h"
 
 #include <stdlib.h>

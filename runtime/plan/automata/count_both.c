@@ -9,13 +9,13 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/plan/automata/count.h"
+#include "runtime/plan/automata/count_pairs.h"
 #include "runtime/plan/automata/numbering.h"
 
 #define TABLE_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB, of which only the pages used take memory */
+#define SWEEP_LIMBS_MAX (UINT64_C(1) << 25)   /* 256 MB, likewise */
 #define NEVER UINT32_MAX
 #define NO_ROW SIZE_MAX
-#define NEAR 4 /* steps or edges back that are looked at for one to the same place */
 
 typedef struct tn_both_edge {
     uint32_t target;
@@ -44,14 +44,8 @@ typedef struct tn_both_front {
 } tn_both_front;
 
 typedef struct tn_both {
-    const tn_sparse *a;
-    const tn_dfa *b;
-    bool agree; /* b must accept (otherwise: must not) */
-    uint32_t max;
-    size_t limbs;
-    tn_splits splits;
-    uint64_t *weights; /* [splits.columns] */
-    uint32_t *away_a;  /* [states]: symbols to acceptance, or NEVER */
+    tn_agreement of;
+    uint32_t *away_a; /* [states]: symbols to acceptance, or NEVER */
     uint32_t *away_b;
     uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
     tn_numbering numbers;
@@ -70,7 +64,7 @@ typedef struct tn_both {
 
 static bool nearer_a(const tn_both *both, uint32_t state, uint32_t symbols)
 {
-    const tn_sparse *a = both->a;
+    const tn_sparse *a = both->of.a;
     for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
         if (both->away_a[a->target[e]] < symbols)
             return true;
@@ -79,8 +73,8 @@ static bool nearer_a(const tn_both *both, uint32_t state, uint32_t symbols)
 
 static bool nearer_b(const tn_both *both, uint32_t state, uint32_t symbols)
 {
-    const uint32_t *row = both->b->delta + (size_t)state * both->b->columns;
-    for (uint32_t c = 0; c < both->b->columns; c++)
+    const uint32_t *row = both->of.b->delta + (size_t)state * both->of.b->columns;
+    for (uint32_t c = 0; c < both->of.b->columns; c++)
         if (both->away_b[row[c]] < symbols)
             return true;
     return false;
@@ -91,7 +85,7 @@ static void find_away(const tn_both *both, uint32_t *away, uint32_t states,
                       bool (*nearer)(const tn_both *, uint32_t, uint32_t))
 {
     bool any = true;
-    for (uint32_t symbols = 1; any && symbols <= both->max; symbols++) {
+    for (uint32_t symbols = 1; any && symbols <= both->of.max; symbols++) {
         any = false;
         for (uint32_t s = 0; s < states; s++) {
             if (away[s] != NEVER || !nearer(both, s, symbols))
@@ -102,18 +96,27 @@ static void find_away(const tn_both *both, uint32_t *away, uint32_t states,
     }
 }
 
-static tn_status look_ahead(tn_both *both, tn_error *error)
+static tn_status look_ahead_a(tn_both *both, tn_error *error)
 {
-    both->away_a = malloc(((size_t)both->a->states + 1) * sizeof *both->away_a);
-    both->away_b = malloc(((size_t)both->b->states + 1) * sizeof *both->away_b);
-    if (!both->away_a || !both->away_b)
+    const tn_sparse *a = both->of.a;
+    both->away_a = malloc(((size_t)a->states + 1) * sizeof *both->away_a);
+    if (!both->away_a)
         return tn_fail_memory(error);
-    for (uint32_t s = 0; s < both->a->states; s++)
-        both->away_a[s] = both->a->accept[s] ? 0 : NEVER;
-    for (uint32_t s = 0; s < both->b->states; s++)
-        both->away_b[s] = (both->b->accept[s] != 0) == both->agree ? 0 : NEVER;
-    find_away(both, both->away_a, both->a->states, nearer_a);
-    find_away(both, both->away_b, both->b->states, nearer_b);
+    for (uint32_t s = 0; s < a->states; s++)
+        both->away_a[s] = a->accept[s] ? 0 : NEVER;
+    find_away(both, both->away_a, a->states, nearer_a);
+    return TN_OK;
+}
+
+static tn_status look_ahead_b(tn_both *both, tn_error *error)
+{
+    const tn_dfa *b = both->of.b;
+    both->away_b = malloc(((size_t)b->states + 1) * sizeof *both->away_b);
+    if (!both->away_b)
+        return tn_fail_memory(error);
+    for (uint32_t s = 0; s < b->states; s++)
+        both->away_b[s] = (b->accept[s] != 0) == both->of.agree ? 0 : NEVER;
+    find_away(both, both->away_b, b->states, nearer_b);
     return TN_OK;
 }
 
@@ -121,16 +124,16 @@ static tn_status look_ahead(tn_both *both, tn_error *error)
 
 static tn_status make_steps(tn_both *both, tn_error *error)
 {
-    both->steps_first = malloc(((size_t)both->a->states + 1) * sizeof *both->steps_first);
-    both->steps_end = malloc(((size_t)both->a->states + 1) * sizeof *both->steps_end);
-    for (uint32_t s = 0; both->steps_first && s < both->a->states; s++)
+    both->steps_first = malloc(((size_t)both->of.a->states + 1) * sizeof *both->steps_first);
+    both->steps_end = malloc(((size_t)both->of.a->states + 1) * sizeof *both->steps_end);
+    for (uint32_t s = 0; both->steps_first && s < both->of.a->states; s++)
         both->steps_first[s] = NO_ROW;
     return both->steps_first && both->steps_end ? TN_OK : tn_fail_memory(error);
 }
 
 static bool reserve_steps(tn_both *both)
 {
-    return tn_array_reserve_from(&both->steps, &both->step_capacity, 1024, both->step_count, both->splits.columns,
+    return tn_array_reserve_from(&both->steps, &both->step_capacity, 1024, both->step_count, both->of.splits.columns,
                                  sizeof *both->steps);
 }
 
@@ -141,7 +144,7 @@ static void add_step(tn_both *both, size_t first, uint32_t target, uint32_t colu
     size_t count = both->step_count;
     if (weight == 0)
         return;
-    for (size_t i = count; i > first && count - i < NEAR; i--)
+    for (size_t i = count; i > first && count - i < TN_BOTH_NEAR; i--)
         if (both->steps[i - 1].target == target && both->steps[i - 1].column == column) {
             both->steps[i - 1].weight += weight;
             return;
@@ -152,8 +155,8 @@ static void add_step(tn_both *both, size_t first, uint32_t target, uint32_t colu
 /* Works out the steps of a state of a, at the first pair that has it. */
 static bool find_steps(tn_both *both, uint32_t state)
 {
-    const tn_sparse *a = both->a;
-    const tn_splits *splits = &both->splits;
+    const tn_sparse *a = both->of.a;
+    const tn_splits *splits = &both->of.splits;
     if (both->steps_first[state] != NO_ROW)
         return true;
     if (!reserve_steps(both))
@@ -161,7 +164,7 @@ static bool find_steps(tn_both *both, uint32_t state)
     size_t first = both->steps_first[state] = both->step_count;
     for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
         for (size_t i = splits->first[a->label[e]]; i < splits->first[a->label[e] + 1]; i++)
-            add_step(both, first, a->target[e], splits->splits[i].other, both->weights[splits->splits[i].label]);
+            add_step(both, first, a->target[e], splits->splits[i].other, both->of.weights[splits->splits[i].label]);
     both->steps_end[state] = both->step_count;
     return true;
 }
@@ -172,7 +175,7 @@ static bool grow(tn_both *both)
 {
     if (both->count < both->capacity)
         return true;
-    size_t capacity = tn_array_larger(both->capacity, 0, 256), limb_bytes = both->limbs * sizeof(mp_limb_t);
+    size_t capacity = tn_array_larger(both->capacity, 0, 256), limb_bytes = both->of.limbs * sizeof(mp_limb_t);
     if (!tn_array_resize(&both->pairs, capacity, sizeof *both->pairs))
         return false;
     for (int f = 0; f < 2; f++) {
@@ -180,7 +183,7 @@ static bool grow(tn_both *both)
         if (!tn_array_resize(&front->listed, capacity, sizeof *front->listed) ||
             !tn_array_resize(&front->value, capacity, limb_bytes))
             return false;
-        memset(front->value + both->capacity * both->limbs, 0, (capacity - both->capacity) * limb_bytes);
+        memset(front->value + both->capacity * both->of.limbs, 0, (capacity - both->capacity) * limb_bytes);
     }
     both->capacity = capacity;
     return true;
@@ -189,7 +192,7 @@ static bool grow(tn_both *both)
 /* The pair's number; UINT32_MAX where out of memory. */
 static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
 {
-    uint32_t *slot = both->table ? &both->table[(size_t)p * both->b->states + q] : NULL;
+    uint32_t *slot = both->table ? &both->table[(size_t)p * both->of.b->states + q] : NULL;
     uint32_t found = slot ? *slot - 1 : tn_number(&both->numbers, (uint64_t)p << 32 | q);
     if (slot ? *slot != 0 : found < both->count || found == UINT32_MAX)
         return found;
@@ -203,14 +206,14 @@ static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
 
 static bool reserve_edges(tn_both *both)
 {
-    return tn_array_reserve_from(&both->edges, &both->edge_capacity, 1024, both->edge_count, both->splits.columns,
+    return tn_array_reserve_from(&both->edges, &both->edge_capacity, 1024, both->edge_count, both->of.splits.columns,
                                  sizeof *both->edges);
 }
 
 /* Adds symbols to the edge to a pair: as add_step. */
 static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weight)
 {
-    for (size_t e = both->edge_count; e > first && both->edge_count - e < NEAR; e--)
+    for (size_t e = both->edge_count; e > first && both->edge_count - e < TN_BOTH_NEAR; e--)
         if (both->edges[e - 1].target == target) {
             both->edges[e - 1].weight += weight;
             return;
@@ -221,8 +224,8 @@ static void add_edge(tn_both *both, size_t first, uint32_t target, uint64_t weig
 /* Works out the edges of a pair that words of `length` symbols lead to. */
 static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
 {
-    uint32_t p = both->pairs[pair].p, left = both->max - length - 1;
-    const uint32_t *row = both->b->delta + (size_t)both->pairs[pair].q * both->b->columns;
+    uint32_t p = both->pairs[pair].p, left = both->of.max - length - 1;
+    const uint32_t *row = both->of.b->delta + (size_t)both->pairs[pair].q * both->of.b->columns;
     if (!reserve_edges(both) || !find_steps(both, p))
         return false;
     size_t first = both->edge_count;
@@ -251,7 +254,7 @@ static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_
         mpz_t value;
         if (both->pairs[pair].away > 0)
             continue;
-        mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
+        mpz_roinit_n(value, front->value + pair * both->of.limbs, (mp_size_t)both->of.limbs);
         mpz_add(count, count, value);
     }
 }
@@ -260,24 +263,24 @@ static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_
 static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
 {
     tn_both_front *to = &both->fronts[!from];
-    mp_limb_t *value = both->fronts[from].value + pair * both->limbs;
+    mp_limb_t *value = both->fronts[from].value + pair * both->of.limbs;
     for (size_t e = both->pairs[pair].first; e < both->pairs[pair].end; e++) {
         tn_both_pair *target = &both->pairs[both->edges[e].target];
-        if (target->away > both->max - length - 1)
+        if (target->away > both->of.max - length - 1)
             continue;
         if (target->queued != length + 2) {
             target->queued = length + 2;
             to->listed[to->count++] = both->edges[e].target;
         }
-        tn_limbs_add(to->value + both->edges[e].target * both->limbs, value, both->limbs, both->edges[e].weight);
+        tn_limbs_add(to->value + both->edges[e].target * both->of.limbs, value, both->of.limbs, both->edges[e].weight);
     }
-    memset(value, 0, both->limbs * sizeof *value);
+    memset(value, 0, both->of.limbs * sizeof *value);
 }
 
 /* Trays that lead from a pair to one where both accept. */
 static uint64_t last_symbols(const tn_both *both, uint32_t p, uint32_t q)
 {
-    const uint32_t *row = both->b->delta + (size_t)q * both->b->columns;
+    const uint32_t *row = both->of.b->delta + (size_t)q * both->of.b->columns;
     uint64_t symbols = 0;
     for (size_t i = both->steps_first[p]; i < both->steps_end[p]; i++)
         if (both->away_a[both->steps[i].target] == 0 && both->away_b[row[both->steps[i].column]] == 0)
@@ -294,7 +297,7 @@ static tn_status count_last(tn_both *both, const tn_both_front *front, mpz_t cou
         mpz_t value;
         if (!find_steps(both, both->pairs[pair].p))
             return tn_fail_memory(error);
-        mpz_roinit_n(value, front->value + pair * both->limbs, (mp_size_t)both->limbs);
+        mpz_roinit_n(value, front->value + pair * both->of.limbs, (mp_size_t)both->of.limbs);
         mpz_addmul_ui(count, value, last_symbols(both, both->pairs[pair].p, both->pairs[pair].q));
     }
     return TN_OK;
@@ -319,8 +322,8 @@ static tn_status step(tn_both *both, uint32_t length, int from, const char *what
 
 static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
 {
-    uint64_t all = (uint64_t)both->a->states * both->b->states;
-    if (both->a->states == 0 || both->away_a[0] > both->max || both->away_b[0] > both->max)
+    uint64_t all = (uint64_t)both->of.a->states * both->of.b->states;
+    if (both->of.a->states == 0 || both->away_a[0] > both->of.max || both->away_b[0] > both->of.max)
         return TN_OK;
     if (all <= TABLE_ENTRIES_MAX && !(both->table = calloc(all, sizeof *both->table)))
         return tn_fail_memory(error);
@@ -332,9 +335,9 @@ static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *
         int from = (int)(length & 1);
         if (length >= min)
             count_accepted(both, &both->fronts[from], count);
-        if (length == both->max)
+        if (length == both->of.max)
             return TN_OK;
-        if (length + 1 == both->max)
+        if (length + 1 == both->of.max)
             return count_last(both, &both->fronts[from], count, error);
         tn_status status = step(both, length, from, what, bounds, error);
         if (status != TN_OK)
@@ -344,8 +347,8 @@ static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *
 
 static void both_clear(tn_both *both)
 {
-    tn_splits_clear(&both->splits);
-    free(both->weights);
+    tn_splits_clear(&both->of.splits);
+    free(both->of.weights);
     free(both->away_a);
     free(both->away_b);
     free(both->table);
@@ -374,34 +377,65 @@ static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_opera
     return status;
 }
 
+/* State by state, where the first automaton has no cycle and all its plans are of min..max trays; *swept: is it so? */
+static tn_status try_sweep(const tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, bool *swept,
+                           mpz_t count, tn_error *error)
+{
+    const tn_agreement *of = &both->of;
+    tn_status status = TN_OK;
+    *swept = false;
+    if (!of->a->folded || (uint64_t)of->a->states * of->b->states * of->limbs > SWEEP_LIMBS_MAX)
+        return TN_OK;
+    uint32_t *shortest = malloc(((size_t)of->a->states + 1) * 2 * sizeof *shortest);
+    if (!shortest)
+        return tn_fail_memory(error);
+    uint32_t *longest = shortest + of->a->states;
+    tn_sweep_measure(of->a, shortest, longest);
+    *swept = shortest[0] >= min && longest[0] <= of->max;
+    if (*swept)
+        status = tn_sweep_count(of, longest, both->away_b, what, bounds, count, error);
+    free(shortest);
+    return status;
+}
+
+static tn_status walk_pairs(tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, mpz_t count,
+                            tn_error *error)
+{
+    tn_status status = look_ahead_a(both, error);
+    if (status == TN_OK)
+        status = make_steps(both, error);
+    return status == TN_OK ? walk(both, min, what, bounds, count, error) : status;
+}
+
 /* Counts pair by pair. */
 static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min, const char *what, tn_bounds *bounds,
                              bool *fits, mpz_t count, tn_error *error)
 {
-    tn_status status = tn_splits_make(&both->splits, both->a, both->b) ? TN_OK : tn_fail_memory(error);
+    tn_agreement *of = &both->of;
+    bool swept = false;
+    tn_status status = tn_splits_make(&of->splits, of->a, of->b) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_column_weights(sizes, both->a->letters, both->splits.column, both->splits.columns, &both->weights,
-                                   error);
-    uint64_t limbs = status == TN_OK ? tn_count_limbs(both->weights, both->splits.columns, both->max) : 0;
+        status = tn_column_weights(sizes, of->a->letters, of->splits.column, of->splits.columns, &of->weights, error);
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(of->weights, of->splits.columns, of->max) : 0;
     *fits = limbs <= TN_FORWARD_LIMBS_MAX;
     if (status != TN_OK || !*fits)
         return status;
-    both->limbs = (size_t)limbs;
-    status = look_ahead(both, error);
+    of->limbs = (size_t)limbs;
+    status = look_ahead_b(both, error);
     if (status == TN_OK)
-        status = make_steps(both, error);
-    return status == TN_OK ? walk(both, min, what, bounds, count, error) : status;
+        status = try_sweep(both, min, what, bounds, &swept, count, error);
+    return status == TN_OK && !swept ? walk_pairs(both, min, what, bounds, count, error) : status;
 }
 
 /* Pairs that pass the bounds may still make an automaton within them, where that is folded as it is made. */
 tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
                         uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
 {
-    tn_both both = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
+    tn_both both = {.of = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max}};
     tn_bounds own = *bounds;
     bool fits = true;
     mpz_set_ui(count, 0);
-    if (min > max || (b->states == 1 && (b->accept[0] != 0) != both.agree))
+    if (min > max || a->states == 0 || (b->states == 1 && (b->accept[0] != 0) != both.of.agree))
         return TN_OK;
     tn_status status = count_pairs(&both, sizes, min, what, &own, &fits, count, error);
     both_clear(&both);

@@ -1,3 +1,4 @@
+/* Keeps complete automata: products, complements, joined columns. */
 #include "runtime/plan/automata/dfa.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Makes an automaton by exploring a construction's states from the start. */
 #include "runtime/plan/automata/explore.h"
 
 #include <stdlib.h>

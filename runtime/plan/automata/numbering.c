@@ -1,3 +1,4 @@
+/* Gives numbers to keys, in the order in which they are first met. */
 #include "runtime/plan/automata/numbering.h"
 
 #include <stdlib.h>

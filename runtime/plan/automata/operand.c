@@ -1,3 +1,4 @@
+/* Makes an automaton ready for subset constructions, and drops members that others include. */
 #include "runtime/plan/automata/operand.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Refines a partition of states, for minimising. */
 #include "runtime/plan/automata/partition.h"
 
 #include <stdlib.h>

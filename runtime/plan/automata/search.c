@@ -1,3 +1,4 @@
+/* Searches for the shortest word that some automata accept and others do not. */
 #include "runtime/plan/automata/search.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Keeps automata without their dead state, and combines them. */
 #include "runtime/plan/automata/sparse.h"
 
 #include <stdlib.h>

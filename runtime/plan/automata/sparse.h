@@ -23,7 +23,7 @@ typedef struct tn_sparse {
     uint32_t *label;  /* columns; each at most once in a row */
     uint32_t *target;
     uint8_t *accept; /* [states] */
-    bool folded;     /* minimal, and without a cycle */
+    bool folded;     /* minimal, and without a cycle: every edge leads to a state behind its own */
 } tn_sparse;
 
 void tn_sparse_free(tn_sparse *sparse);

@@ -232,10 +232,36 @@ tn_status tn_sparse_copy(const tn_sparse *sparse, tn_sparse **out, tn_error *err
     return TN_OK;
 }
 
-/* Has it no cycle? Counts, state by state, the edges into it that have been passed (Kahn: Topological sorting of large
- * networks, 1962). *acyclic is the answer. */
-static tn_status find_cycle(const tn_sparse *sparse, bool *acyclic, tn_error *error)
+/* Puts the states in this order; first is the start, which no edge leads to. `rank` is room for a number a state. */
+static tn_status put_in_order(tn_sparse **sparse, const uint32_t *order, uint32_t *rank, tn_error *error)
 {
+    const tn_sparse *old = *sparse;
+    size_t edges = 0;
+    tn_sparse *made = tn_sparse_new(old->letters, old->columns, old->states, old->first[old->states]);
+    if (!made)
+        return tn_fail_memory(error);
+    memcpy(made->column, old->column, old->letters * sizeof *old->column);
+    for (uint32_t i = 0; i < old->states; i++)
+        rank[order[i]] = i;
+    for (uint32_t i = 0; i < old->states; i++) {
+        made->accept[i] = old->accept[order[i]];
+        for (size_t e = old->first[order[i]]; e < old->first[order[i] + 1]; e++) {
+            made->label[edges] = old->label[e];
+            made->target[edges++] = rank[old->target[e]];
+        }
+        made->first[i + 1] = edges;
+    }
+    made->folded = true;
+    tn_sparse_free(*sparse);
+    *sparse = made;
+    return TN_OK;
+}
+
+/* Has it no cycle? Then its edges are made to lead forward. Counts, state by state, the edges into it that have been
+ * passed (Kahn: Topological sorting of large networks, 1962). */
+static tn_status find_order(tn_sparse **out, tn_error *error)
+{
+    const tn_sparse *sparse = *out;
     uint32_t n = sparse->states, count = 0;
     uint32_t *into = calloc((size_t)n + 1, sizeof *into), *order = malloc(((size_t)n + 1) * sizeof *order);
     bool made = into && order;
@@ -248,10 +274,12 @@ static tn_status find_cycle(const tn_sparse *sparse, bool *acyclic, tn_error *er
         for (size_t e = sparse->first[order[i]]; e < sparse->first[order[i] + 1]; e++)
             if (--into[sparse->target[e]] == 0)
                 order[count++] = sparse->target[e];
-    *acyclic = count == n;
+    tn_status status = made ? TN_OK : tn_fail_memory(error);
+    if (made && count == n)
+        status = put_in_order(out, order, into, error);
     free(into);
     free(order);
-    return made ? TN_OK : tn_fail_memory(error);
+    return status;
 }
 
 tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error *error)
@@ -278,7 +306,7 @@ tn_status tn_sparse_minimise(const tn_sparse *sparse, tn_sparse **out, tn_error 
     }
     refiner_clear(&refiner);
     if (status == TN_OK)
-        status = find_cycle(made, &made->folded, error);
+        status = find_order(&made, error);
     if (status != TN_OK) {
         tn_sparse_free(made);
         made = NULL;

@@ -1,3 +1,4 @@
+/* Compares two libraries. */
 #include "runtime/plan/library/diff.h"
 
 #include <stdlib.h>

@@ -1,25 +1,14 @@
-/* How many plans each clause of a library keeps out, and how many only it keeps out.
- *
- * Only clause i, applied as number i, keeps out what the clauses before it keep, it does not, and those after it keep.
- * So each count starts from an automaton that is needed anyway, and goes on with other plans than the library's: an
- * automaton of its own a clause. Most are soon smaller, and of hundreds of prunes most run empty early. What the
- * clauses after it keep is combined beforehand where that is small (sequence.h), and the last of it is met in a walk
- * that counts and makes nothing. The clauses are independent of one another and go over the threads.
+/* How many plans each clause of a library keeps out, and how many only it keeps out (others.h). The clauses are
+ * independent of one another and go over the threads.
  */
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/crew.h"
-#include "runtime/plan/library/library_data.h"
-#include "runtime/plan/library/sequence.h"
-
-typedef struct tn_counting_alone {
-    const tn_library *library;
-    size_t *order;        /* [applied_count]: the clauses as they are applied here */
-    tn_bounds bounds;     /* of each automaton's making */
-    tn_sequence sequence; /* of the clauses in that order */
-    tn_effect *effects;
-} tn_counting_alone;
+#include "runtime/plan/automata/shortest.h"
+#include "runtime/plan/library/alone.h"
+#include "runtime/plan/library/others.h"
 
 static tn_dfa_operation dropping(const tn_library *library, size_t clause)
 {
@@ -35,71 +24,6 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
                          &bounds, count, error);
 }
 
-static tn_status save(tn_counting_alone *counting, size_t to, tn_bounds *bounds, tn_error *error)
-{
-    const tn_library *library = counting->library;
-    for (size_t i = 0; i < library->applied_count; i++) {
-        size_t clause = counting->order[i];
-        counting->sequence.clauses[i] =
-            (tn_sequence_clause){library->clauses[clause], tn_library_keeping(library, clause)};
-    }
-    return tn_sequence_save(&counting->sequence, to, bounds, error);
-}
-
-/* Totals come first, since they bound the plans; what they leave tells how the other requirements are ordered. Prunes
- * are applied as the library does. */
-static tn_status begin(tn_counting_alone *counting, bool within, tn_error *error)
-{
-    const tn_library *library = counting->library;
-    tn_sequence *sequence = &counting->sequence;
-    size_t count = library->applied_count, required = library->required_count, totals = 0, next = 0;
-    tn_bounds bounds = counting->bounds;
-    tn_sparse *all = NULL;
-    counting->order = malloc((count + 1) * sizeof *counting->order);
-    if (!counting->order)
-        return tn_fail_memory(error);
-    for (size_t i = 0; i < required; i++)
-        if (tn_library_clause(library, library->applied[i])->kind == TN_CLAUSE_TOTAL)
-            counting->order[totals++] = library->applied[i];
-    next = totals;
-    for (size_t i = 0; i < count; i++)
-        if (tn_library_clause(library, library->applied[i])->kind != TN_CLAUSE_TOTAL)
-            counting->order[next++] = library->applied[i];
-    tn_status status = tn_library_everything(library, within, &all, error);
-    if (status == TN_OK)
-        status = tn_sequence_make(sequence, count, all, library->within ? "library, of its lengths alone," : "library",
-                                  error);
-    if (status == TN_OK && count)
-        status = save(counting, totals < count ? totals : count - 1, &bounds, error);
-    if (status == TN_OK)
-        status = tn_library_order(library, sequence->after[sequence->saved], counting->order + totals,
-                                  required - totals, error);
-    if (status == TN_OK && count)
-        status = save(counting, count - 1, &bounds, error);
-    return status == TN_OK ? tn_sequence_make_runs(sequence, &counting->bounds, error) : status;
-}
-
-/* Of the clause applied as this number. */
-static tn_status count_only(const tn_counting_alone *counting, size_t number, mpz_t only, tn_error *error)
-{
-    const tn_library *library = counting->library;
-    const tn_sequence *sequence = &counting->sequence;
-    const tn_dfa *clause = sequence->clauses[number].dfa;
-    tn_dfa_operation operation = dropping(library, counting->order[number]);
-    tn_bounds bounds = counting->bounds, last = tn_library_bounds(library);
-    tn_sparse *base = NULL;
-    tn_status status = tn_sequence_before(sequence, number, &bounds, &base, error);
-    if (status == TN_OK && number + 1 == sequence->count)
-        status = count_with(library, base, clause, operation, only, error);
-    else if (status == TN_OK)
-        status = tn_sparse_apply(&base, clause, operation, sequence->what, &bounds, error);
-    if (status == TN_OK && number + 1 < sequence->count)
-        status = tn_sequence_count(sequence, number + 1, library->classes->size, library->min, library->max, &bounds,
-                                   &last, &base, only, error);
-    tn_sparse_free(base);
-    return status;
-}
-
 /* Where, and what to do about it. */
 static void show_limit(const tn_library *library, size_t clause, tn_error *error)
 {
@@ -107,51 +31,6 @@ static void show_limit(const tn_library *library, size_t clause, tn_error *error
         error->code_offset =
             library->schema->module->FUNCTION_records[tn_library_clause(library, clause)->holds].code_begin;
     tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-states");
-}
-
-typedef struct resting {
-    tn_counting_alone *counting;
-    tn_status started; /* TN_OK, or why no clause can be counted */
-    tn_error failure;
-} resting;
-
-static void count_clause(void *context, uint32_t i)
-{
-    const resting *r = context;
-    const tn_library *library = r->counting->library;
-    size_t clause = r->started == TN_OK ? r->counting->order[i] : library->applied[i];
-    tn_effect *effect = &r->counting->effects[clause];
-    if (effect->status != TN_LIMIT)
-        return;
-    effect->status = r->started;
-    if (r->started == TN_OK)
-        effect->status = count_only(r->counting, i, effect->only, &effect->error);
-    else
-        effect->error = r->failure;
-    if (effect->status == TN_LIMIT)
-        show_limit(library, clause, &effect->error);
-}
-
-/* What is not counted yet, in at most so many steps a clause as the bounds have. */
-static tn_status count_rest(tn_counting_alone *counting, bool within, tn_error *error)
-{
-    const tn_library *library = counting->library;
-    resting r = {.counting = counting};
-    tn_crew *crew = tn_crew_new(library->threads, library->schema->module->watch);
-    if (!crew)
-        return tn_fail_memory(error);
-    r.started = begin(counting, within, &r.failure);
-    tn_status status = tn_crew_share(crew, (uint32_t)library->applied_count, count_clause, &r, error);
-    tn_crew_free(crew);
-    for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
-        const tn_effect *effect = &counting->effects[library->applied[i]];
-        if (effect->status == TN_OK || effect->status == TN_LIMIT)
-            continue;
-        status = effect->status;
-        if (error)
-            *error = effect->error;
-    }
-    return status;
 }
 
 static bool is_counted(const tn_library *library, const tn_effect *effects)
@@ -162,16 +41,80 @@ static bool is_counted(const tn_library *library, const tn_effect *effects)
     return true;
 }
 
-static tn_status try_only(const tn_library *library, bool within, uint64_t work, tn_effect *effects, tn_error *error)
+/* Counting what is not counted yet. */
+typedef struct tn_counting_rest {
+    const tn_library *library;
+    tn_effect *effects;
+    const tn_others *others;
+    tn_status started; /* TN_OK, or why no clause can be counted */
+    tn_error failure;
+    bool keeping;
+    pthread_mutex_t lock; /* held while an automaton is kept */
+    atomic_uint done;
+} tn_counting_rest;
+
+/* Counts from the automaton, and keeps that. */
+static tn_status count_kept(tn_counting_rest *rest, size_t number, tn_effect *effect, tn_error *error)
 {
-    tn_counting_alone counting = {.library = library, .bounds = tn_library_bounds(library), .effects = effects};
+    const tn_library *library = rest->library;
+    tn_sparse *plans = NULL;
+    tn_status status = tn_others_alone(rest->others, number, &plans, error);
+    if (status == TN_OK)
+        status = tn_count_range(plans, library->classes->size, library->min, library->max, effect->only,
+                                library->schema->module->watch, error);
+    if (status == TN_OK)
+        status = tn_sparse_shortest(plans, library->min, library->max, &effect->shortest, &effect->looked, error);
+    effect->looked = status == TN_OK;
+    if (status == TN_OK) {
+        pthread_mutex_lock(&rest->lock);
+        if (tn_library_keep_alone(library, rest->others->order[number], plans))
+            plans = NULL;
+        pthread_mutex_unlock(&rest->lock);
+    }
+    tn_sparse_free(plans);
+    return status;
+}
+
+static void count_clause(void *context, uint32_t i)
+{
+    tn_counting_rest *rest = context;
+    const tn_library *library = rest->library;
+    size_t clause = rest->started == TN_OK ? rest->others->order[i] : library->applied[i];
+    tn_effect *effect = &rest->effects[clause];
+    if (effect->status == TN_LIMIT && rest->started != TN_OK) {
+        effect->status = rest->started;
+        effect->error = rest->failure;
+    } else if (effect->status == TN_LIMIT) {
+        effect->status = rest->keeping ? count_kept(rest, i, effect, &effect->error)
+                                       : tn_others_count_alone(rest->others, i, effect->only, &effect->error);
+    }
+    if (effect->status == TN_LIMIT)
+        show_limit(library, clause, &effect->error);
+    tn_watch_tell(library->schema->module->watch, atomic_fetch_add(&rest->done, 1) + 1, (double)library->applied_count);
+}
+
+static tn_status try_only(const tn_library *library, bool within, bool keeping, tn_effect *effects, tn_error *error)
+{
+    tn_counting_rest rest = {.library = library, .effects = effects, .keeping = keeping};
     if (is_counted(library, effects))
         return TN_OK;
-    if (work < counting.bounds.max_work)
-        counting.bounds.max_work = work;
-    tn_status status = count_rest(&counting, within, error);
-    tn_sequence_clear(&counting.sequence);
-    free(counting.order);
+    tn_crew *crew = tn_crew_new(library->threads, library->schema->module->watch);
+    if (!crew || pthread_mutex_init(&rest.lock, NULL) != 0) {
+        tn_crew_free(crew);
+        return tn_fail_memory(error);
+    }
+    rest.started = tn_others_make(library, within, &rest.others, &rest.failure);
+    tn_status status = tn_crew_share(crew, (uint32_t)library->applied_count, count_clause, &rest, error);
+    tn_crew_free(crew);
+    pthread_mutex_destroy(&rest.lock);
+    for (size_t i = 0; status == TN_OK && i < library->applied_count; i++) {
+        const tn_effect *effect = &effects[library->applied[i]];
+        if (effect->status == TN_OK || effect->status == TN_LIMIT)
+            continue;
+        status = effect->status;
+        if (error)
+            *error = effect->error;
+    }
     return status;
 }
 
@@ -192,16 +135,16 @@ static tn_status count_out(const tn_library *library, const tn_sparse *everythin
     return status;
 }
 
-static tn_status find_effects(const tn_library *library, tn_effect *effects, tn_error *error)
+static tn_status find_effects(const tn_library *library, bool keeping, tn_effect *effects, tn_error *error)
 {
     tn_sparse *everything = NULL;
     tn_status status = tn_library_everything(library, library->within, &everything, error);
     for (size_t i = 0; status == TN_OK && i < library->applied_count; i++)
         status = count_out(library, everything, library->applied[i], &effects[library->applied[i]], error);
     tn_sparse_free(everything);
-    if (status == TN_OK && !library->within)
-        status = try_only(library, false, library->max_eager, effects, error);
-    return status == TN_OK ? try_only(library, true, UINT64_MAX, effects, error) : status;
+    if (status == TN_OK && !tn_others_bounded(library))
+        status = try_only(library, false, keeping, effects, error);
+    return status == TN_OK ? try_only(library, true, keeping, effects, error) : status;
 }
 
 /* ---- counts kept from before */
@@ -281,24 +224,25 @@ static tn_status recall_counts(const tn_library *library, tn_memory_key key, tn_
     return TN_OK;
 }
 
-static tn_status recall_or_find(const tn_library *library, tn_effect *effects, tn_error *error)
+static tn_status recall_or_find(const tn_library *library, bool keeping, tn_effect *effects, tn_error *error)
 {
     tn_memory_key key;
     bool found = false;
-    if (!library->memory)
-        return find_effects(library, effects, error);
+    if (!library->memory || keeping)
+        return find_effects(library, keeping, effects, error);
     tn_status status = make_key(library, &key, error);
     if (status == TN_OK)
         status = recall_counts(library, key, effects, &found, error);
     if (status != TN_OK || found)
         return status;
-    status = find_effects(library, effects, error);
+    status = find_effects(library, false, effects, error);
     if (status == TN_OK)
         keep_counts(library, key, effects);
     return status;
 }
 
-static tn_status add_effects(const tn_library *library, tn_error *error)
+/* keeping: keep also the automata of what clauses alone keep out. */
+static tn_status add_effects(const tn_library *library, bool keeping, tn_error *error)
 {
     size_t count = library->record->clause_count;
     tn_effect *effects = calloc(count + 1, sizeof *effects);
@@ -308,7 +252,7 @@ static tn_status add_effects(const tn_library *library, tn_error *error)
         mpz_inits(effects[i].out, effects[i].only, NULL);
         effects[i].status = TN_LIMIT; /* not counted yet */
     }
-    tn_status status = recall_or_find(library, effects, error);
+    tn_status status = recall_or_find(library, keeping, effects, error);
     if (status == TN_OK)
         library->late->effects = effects;
     else
@@ -318,17 +262,30 @@ static tn_status add_effects(const tn_library *library, tn_error *error)
 
 void tn_effects_free(tn_effect *effects, size_t count)
 {
-    for (size_t i = 0; effects && i < count; i++)
+    for (size_t i = 0; effects && i < count; i++) {
         mpz_clears(effects[i].out, effects[i].only, NULL);
+        free(effects[i].shortest.data);
+    }
     free(effects);
+}
+
+static tn_status ready_effects(const tn_library *library, bool keeping, tn_error *error)
+{
+    pthread_mutex_lock(&library->late->lock);
+    tn_status status = library->late->effects ? TN_OK : add_effects(library, keeping, error);
+    pthread_mutex_unlock(&library->late->lock);
+    return status;
+}
+
+tn_status tn_library_find_alone(const tn_library *library, tn_error *error)
+{
+    return ready_effects(library, true, error);
 }
 
 tn_status tn_library_effect(const tn_library *library, uint32_t i, mpz_t out, mpz_t only, uint32_t *states,
                             tn_error *error)
 {
-    pthread_mutex_lock(&library->late->lock);
-    tn_status status = library->late->effects ? TN_OK : add_effects(library, error);
-    pthread_mutex_unlock(&library->late->lock);
+    tn_status status = ready_effects(library, false, error);
     if (status != TN_OK)
         return status;
     const tn_effect *effect = &library->late->effects[i];

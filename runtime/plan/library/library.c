@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/plan/library/others.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/rules.h"
 
@@ -231,8 +232,11 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
                                   library->applied_count - required, error);
     if (status == TN_OK)
         status = tn_sparse_copy(library->generator, &library->live, error);
-    for (size_t i = required; status == TN_OK && i < library->applied_count; i++)
+    for (size_t i = required; status == TN_OK && i < library->applied_count; i++) {
+        tn_watch_tell(library->schema->module->watch, (double)i, (double)library->applied_count);
         status = apply_clause(library, library->applied[i], &library->live, error);
+    }
+    tn_watch_tell(library->schema->module->watch, 0, 0);
     return status;
 }
 
@@ -352,7 +356,14 @@ static void free_late(tn_library *library)
     tn_library_late *late = library->late;
     if (!late)
         return;
-    tn_effects_free(late->effects, library->record ? library->record->clause_count : 0);
+    size_t clauses = library->record ? library->record->clause_count : 0;
+    tn_effects_free(late->effects, clauses);
+    for (size_t i = 0; late->alone && i < clauses; i++)
+        tn_sparse_free(late->alone[i]);
+    free(late->alone);
+    tn_sparse_free(late->asked);
+    tn_others_free(late->others[0].others);
+    tn_others_free(late->others[1].others);
     tn_integers_free(late->mirror, (size_t)library->max + 1);
     pthread_mutex_destroy(&late->lock);
     free(late);

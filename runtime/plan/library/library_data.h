@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 #include "runtime/plan/automata/count.h"
+#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/automata/sparse.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
@@ -19,14 +20,31 @@
 typedef struct tn_effect {
     mpz_t out;        /* as in tn_library_effect; negative: not counted */
     mpz_t only;       /* where status is TN_OK */
+    tn_key shortest;  /* the first of the shortest plans that only it keeps out, as letters; empty: there is none */
+    bool looked;      /* is that known? */
     tn_status status; /* TN_LIMIT: not counted, or not yet */
     tn_error error;   /* why not */
 } tn_effect;
 
+typedef struct tn_others tn_others; /* others.h */
+
+/* The clauses in a row, or why they could not be put in one. */
+typedef struct tn_kept_others {
+    bool made;
+    tn_others *others;
+    tn_status status; /* TN_OK or TN_LIMIT */
+    tn_error error;
+} tn_kept_others;
+
 /* Found on demand, by whichever thread asks first (`lock` is held while it does): what only some commands need. */
 typedef struct tn_library_late {
     pthread_mutex_t lock;
-    tn_effect *effects; /* [record->clause_count], NULL: not found yet */
+    tn_effect *effects;       /* [record->clause_count], NULL: not found yet */
+    tn_kept_others others[2]; /* of plans of any length, and within the library's */
+    tn_sparse **alone;        /* [record->clause_count]: what each clause alone keeps out; NULL: not kept */
+    uint64_t alone_edges;     /* of those */
+    tn_sparse *asked;         /* what was asked last and is not kept, */
+    size_t asked_of;          /* of this clause */
     bool mirror_found;
     mpz_t *mirror; /* [max + 1]: plans of a length less the second ones of mirror pairs */
 } tn_library_late;
@@ -128,6 +146,10 @@ tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse
 /* An array of zeroed integers; NULL where out of memory. */
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);
+
+/* Keeps the plans that clause i alone keeps out, if the memory for that holds them; false: they stay the caller's. One
+ * thread at a time (alone.c). */
+bool tn_library_keep_alone(const tn_library *library, size_t i, tn_sparse *plans);
 
 /* Free `effects` of so many clauses; NULL is fine (effects.c). */
 void tn_effects_free(tn_effect *effects, size_t count);

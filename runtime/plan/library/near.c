@@ -1,3 +1,4 @@
+/* Finds the plans of a library that are nearest to a plan. */
 #include "runtime/plan/library/near.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Evaluates conditions on a number, and finds where they repeat. */
 #include "runtime/plan/match/condition.h"
 
 #include <stdlib.h>

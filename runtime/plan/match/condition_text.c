@@ -1,3 +1,4 @@
+/* Writes conditions as text. */
 #include "runtime/plan/match/condition_text.h"
 
 #include <stdio.h>

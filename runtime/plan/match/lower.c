@@ -1,3 +1,4 @@
+/* Lowers rule functions to automata. */
 #include "runtime/plan/match/lower.h"
 
 #include <stdlib.h>

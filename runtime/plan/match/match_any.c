@@ -1,3 +1,4 @@
+/* Matches whether any of some rules matches. */
 #include "runtime/plan/match/match_any.h"
 
 #include <stdlib.h>

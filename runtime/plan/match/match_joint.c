@@ -1,3 +1,4 @@
+/* Matches several rules by joined tables. */
 #include "runtime/plan/match/match_joint.h"
 
 #include <stdlib.h>

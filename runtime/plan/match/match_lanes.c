@@ -1,3 +1,4 @@
+/* Lays eight plans side by side for matching. */
 #include "runtime/plan/match/match_lanes.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Matches many rules at once by byte shuffles. */
 #include "runtime/plan/match/match_shuffle.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Reads a rule's tree of parts back from its code. */
 #include "runtime/plan/match/parts.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Makes rules ready for matching, and matches plans. */
 #include "runtime/plan/match/rules.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Interprets the code of rules over a plan. */
 #include "runtime/plan/match/vm.h"
 
 #include <stdlib.h>

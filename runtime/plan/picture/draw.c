@@ -1,3 +1,4 @@
+/* Draws plans on sheets. */
 #include "runtime/plan/picture/draw.h"
 
 #include <math.h>

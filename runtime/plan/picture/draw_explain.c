@@ -1,3 +1,4 @@
+/* Draws why a plan is kept or dropped. */
 #include "runtime/plan/picture/draw_explain.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Draws rules in the manner of the paper. */
 #include "runtime/plan/picture/draw_rule.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Describes sets of trays as boxes of values. */
 #include "runtime/plan/schema/boxes.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Sorts trays into classes that no rule tells apart. */
 #include "runtime/plan/schema/classes.h"
 
 #include <stdlib.h>

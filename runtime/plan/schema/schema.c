@@ -1,3 +1,4 @@
+/* Makes a schema ready: its legal trays and their numbers. */
 #include "runtime/plan/schema/schema.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Finds the values of fields in the words of an input text. */
 #include "runtime/plan/schema/value.h"
 
 #include <stdio.h>

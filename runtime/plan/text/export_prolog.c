@@ -1,3 +1,4 @@
+/* Writes rules as a Prolog program. */
 #include "runtime/plan/text/export_prolog.h"
 
 #include <inttypes.h>

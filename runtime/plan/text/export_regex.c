@@ -1,3 +1,4 @@
+/* Writes a rule as a regular expression. */
 #include "runtime/plan/text/export_regex.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Packs trays into bytes. */
 #include "runtime/plan/text/pack.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Holds the beginning of exported Prolog programs, and the names that they may not define. */
 #include "runtime/plan/text/prolog_prelude.h"
 
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Reads files of plans: finds out their format and buffers their input. */
 #include "runtime/plan/text/reader.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Scans the text of plans. */
 #include "runtime/plan/text/scanner.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Reads and writes plan lines. */
 #include "runtime/plan/text/text.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Writes plans in each format. */
 #include "runtime/plan/text/writer.h"
 
 #include <errno.h>

@@ -117,8 +117,7 @@ static size_t cover_rule(const char *text)
     size_t compared = 0;
     assert_true(compile(text, &with));
     const tn_rule_record *rule = &with.opened.module->RULE_records[0];
-    const tn_coverage_clause clause = {rule->holds, false};
-    if (tn_coverage_new(with.schema, &clause, 1, 1, LONGEST, 2000, &coverage, &error) == TN_OK) {
+    if (tn_coverage_new(with.schema, &rule->holds, 1, 1, LONGEST, 2000, &coverage, &error) == TN_OK) {
         test_ok(tn_parts_read(with.opened.module, rule->holds, &trees[0], &error), &error);
         test_ok(tn_parts_read(with.opened.module, rule->whole, &trees[1], &error), &error);
         for (uint32_t part = 0; part < trees[0].count; part++)

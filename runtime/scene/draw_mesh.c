@@ -1,0 +1,166 @@
+/* Draws a mesh on a page with a title and a line at the foot. */
+#include "runtime/scene/draw_mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/draw/canvas.h"
+#include "runtime/draw/type.h"
+#include "runtime/geometry/render.h"
+
+#define MARGIN 14.0
+#define TITLE_HEIGHT 26.0
+#define FOOT_HEIGHT 18.0
+#define DPI 150u
+
+typedef struct page {
+    tn_eye eye;
+    double low[2], high[2]; /* of the mesh, before the eye */
+    double scale;           /* points a unit */
+    double top;             /* of the view */
+    double size[2];         /* points */
+} page;
+
+static page lay_out(const tn_mesh *mesh, const tn_mesh_picture *picture)
+{
+    page p = {.eye = tn_camera_eye(&picture->camera), .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        tn_vector seen = tn_eye_sees(&p.eye, tn_vector_at(mesh->positions + 3 * v));
+        p.low[0] = fmin(p.low[0], seen.x);
+        p.high[0] = fmax(p.high[0], seen.x);
+        p.low[1] = fmin(p.low[1], seen.y);
+        p.high[1] = fmax(p.high[1], seen.y);
+    }
+    for (int k = 0; k < 2 && mesh->vertex_count == 0; k++)
+        p.low[k] = p.high[k] = 0;
+    double extent[2] = {p.high[0] - p.low[0], p.high[1] - p.low[1]};
+    double width = picture->camera.width > 0 ? picture->camera.width : tn_camera_default().width;
+    p.scale = (width - 2 * MARGIN) / fmax(fmax(extent[0], extent[1]), 1e-300);
+    p.top = MARGIN + (picture->title && picture->title[0] ? TITLE_HEIGHT : 0);
+    p.size[0] = width;
+    p.size[1] = p.top + extent[1] * p.scale + MARGIN + (picture->caption ? FOOT_HEIGHT : 0);
+    return p;
+}
+
+/* Where the view begins from the left: it stands in the middle. */
+static double left_of(const page *p)
+{
+    return (p->size[0] - (p->high[0] - p->low[0]) * p->scale) / 2;
+}
+
+/* ---- pixels */
+
+static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const page *p, uint32_t dpi, tn_error *error)
+{
+    double pixel = 72.0 / dpi; /* in points */
+    tn_render_frame frame = {.width = (uint32_t)ceil(p->size[0] / pixel),
+                             .height = (uint32_t)ceil(p->size[1] / pixel),
+                             .left = p->low[0] - left_of(p) / p->scale,
+                             .top = p->high[1] + p->top / p->scale,
+                             .pixel = pixel / p->scale};
+    double *normals;
+    uint32_t *image = NULL;
+    tn_status status = tn_mesh_normals(mesh, &normals, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_mesh_render(mesh, normals, &p->eye, &frame, &image, error);
+    free(normals);
+    if (status != TN_OK)
+        return status;
+    cairo_surface_t *surface = cairo_image_surface_create_for_data(
+        (unsigned char *)image, CAIRO_FORMAT_ARGB32, (int)frame.width, (int)frame.height, (int)(4 * frame.width));
+    cairo_save(cr);
+    cairo_scale(cr, pixel, pixel);
+    cairo_set_source_surface(cr, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    cairo_paint(cr);
+    cairo_restore(cr);
+    cairo_surface_destroy(surface);
+    free(image);
+    return TN_OK;
+}
+
+/* ---- vectors */
+
+static tn_status look_at(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_sight *sight, tn_error *error)
+{
+    tn_status status = tn_sight_new(mesh->face_count, 3 * mesh->face_count, false, sight, error);
+    if (status != TN_OK)
+        return status;
+    for (size_t i = 0; i < 3 * mesh->face_count; i++) {
+        memcpy(sight->points[i], mesh->positions + 3 * (size_t)mesh->corners[i], sizeof sight->points[i]);
+        sight->edges[i] = TN_EDGE_NONE;
+    }
+    for (size_t f = 0; f <= mesh->face_count; f++)
+        sight->first[f] = (uint32_t)(3 * f);
+    sight->face_count = (uint32_t)mesh->face_count;
+    sight->closed = true;
+    sight->threads = picture->threads;
+    sight->watch = picture->watch;
+    return TN_OK;
+}
+
+static tn_status draw_vectors(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
+{
+    tn_sight sight = {0};
+    tn_view *view = NULL;
+    tn_view_options options = {.title = picture->title, .caption = picture->caption};
+    tn_status status = look_at(mesh, picture, &sight, error);
+    if (status == TN_OK)
+        status = tn_view_take(&sight, &picture->camera, &view, error);
+    if (status == TN_OK)
+        status = tn_views_draw(&view, 1, &options, to, error);
+    tn_view_free(view);
+    tn_sight_clear(&sight);
+    return status;
+}
+
+/* ---- the page */
+
+static void write_words(cairo_t *cr, const page *p, const tn_mesh_picture *picture)
+{
+    if (picture->title && picture->title[0]) {
+        cairo_set_source_rgb(cr, 0, 0, 0);
+        tn_type_face(cr, 12, false);
+        tn_type_fit(cr, MARGIN, 18, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->title);
+    }
+    if (picture->caption) {
+        cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
+        tn_type_face(cr, 6.5, false);
+        tn_type_fit(cr, MARGIN, p->size[1] - 8, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->caption);
+    }
+}
+
+static tn_status draw_pixels(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
+{
+    page p = lay_out(mesh, picture);
+    tn_canvas_options options = {.width = p.size[0], .height = p.size[1], .dpi = picture->dpi, .title = picture->title};
+    tn_canvas *canvas;
+    tn_status status = tn_canvas_open(to, &options, &canvas, error);
+    if (status != TN_OK)
+        return status;
+    cairo_t *cr = tn_canvas_context(canvas);
+    status = paint_pixels(cr, mesh, &p, picture->dpi ? picture->dpi : DPI, error);
+    if (status == TN_OK) {
+        write_words(cr, &p, picture);
+        status = tn_canvas_commit(canvas, error);
+    }
+    tn_canvas_free(canvas);
+    return status;
+}
+
+tn_status tn_mesh_draw(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
+{
+    tn_canvas_format format;
+    tn_status status = tn_picture_format(to, &format, error);
+    if (status == TN_OK && format == TN_CANVAS_PNG)
+        return draw_pixels(mesh, picture, to, error);
+    if (status == TN_OK && mesh->face_count > TN_DRAWN_TRIANGLES_MAX) {
+        status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE,
+                         "a picture of %zu triangles would be too large; the limit is %u", mesh->face_count,
+                         TN_DRAWN_TRIANGLES_MAX);
+        tn_error_help(error, "a .png can show any number; for the others take a coarser --grid");
+    }
+    return status == TN_OK ? draw_vectors(mesh, picture, to, error) : status;
+}
