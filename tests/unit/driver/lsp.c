@@ -619,9 +619,10 @@ static void finish_live(live *l)
     close(l->input);
 }
 
-static const char related[] = "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
-                              "rule never = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
-                              "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n";
+static const char related[] =
+    "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
+    "rule never allow W019 = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
+    "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n";
 
 static void test_meaning(void **state)
 {
