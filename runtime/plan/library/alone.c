@@ -29,7 +29,7 @@ bool tn_library_keep_alone(const tn_library *library, size_t i, tn_sparse *plans
     uint64_t edges = plans->first[plans->states] + plans->states;
     if (!late->alone)
         late->alone = calloc((size_t)library->record->clause_count + 1, sizeof *late->alone);
-    if (!late->alone || late->alone_edges + edges > ALONE_EDGES)
+    if (!late->alone || late->alone[i] || late->alone_edges + edges > ALONE_EDGES)
         return false;
     late->alone[i] = plans;
     late->alone_edges += edges;

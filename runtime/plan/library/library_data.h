@@ -147,8 +147,8 @@ tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse
 mpz_t *tn_integers_new(size_t count);
 void tn_integers_free(mpz_t *integers, size_t count);
 
-/* Keeps the plans that clause i alone keeps out, if the memory for that holds them; false: they stay the caller's. One
- * thread at a time (alone.c). */
+/* Keeps the plans that clause i alone keeps out, if the memory for that holds them and they are not kept yet; false:
+ * they stay the caller's. One thread at a time (alone.c). */
 bool tn_library_keep_alone(const tn_library *library, size_t i, tn_sparse *plans);
 
 /* Free `effects` of so many clauses; NULL is fine (effects.c). */
