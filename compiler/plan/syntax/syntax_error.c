@@ -193,7 +193,7 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
     if (strcmp(found, "`|`") == 0 && parse->mode == TN_LEX_SCHEMA && expects(e, "`)`"))
         return "the depths of a fill are separated by commas: `dense(2m, 3m)`";
     if (strcmp(found, "`:`") == 0 && parse->mode == TN_LEX_TRAY)
-        return "leave it out: a value follows its field after a blank, `body dense`";
+        return "leave it out: a value follows its field after a blank";
     if (strcmp(found, "`|`") == 0 && parse->mode == TN_LEX_TRAY)
         return "values that a tray may have are joined by `or`: `tray(dense or light)`";
     if (strcmp(found, "`|`") == 0 && expects(e, "`or`"))
