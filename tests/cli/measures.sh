@@ -38,6 +38,7 @@ golden one_wish 'tartan pareto measures.plan -l strips --least cost'
 golden wrong_number 'tartan best 3 measures.plan --least cost'
 golden wrong_where 'tartan count measures.plan -l strips --where "area <= 20m"'
 golden wrong_where_word 'tartan count measures.plan -l strips --where "quantity(tray(stor)) > 1"'
+golden pattern_in_brackets 'tartan complete measures.plan -l strips "[room | ?]"'
 golden wrong_pattern 'tartan complete measures.plan -l strips "room | 5m"'
 golden half_pattern 'tartan complete measures.plan -l strips "room |"'
 

@@ -198,6 +198,8 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
         return "values that a tray may have are joined by `or`: `tray(dense or light)`";
     if (strcmp(found, "`|`") == 0 && expects(e, "`or`"))
         return "alternatives are joined by `or`: `tray(a or b)` for the values of a tray, `a or b` for rules";
+    if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
+        return "an open plan on the command line has no brackets: `dense | ? | ...`";
     if (strcmp(found, "`[`") == 0 && expects(e, "`{`"))
         return "cases stand in braces: `test NAME { match [...] }`";
     if (strcmp(found, "`[`") == 0 && parse->mode != TN_LEX_TRAY && expects(e, "`(`") && !expects(e, "`tray`"))
