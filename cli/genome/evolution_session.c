@@ -82,7 +82,7 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
     if (!tn_job_open(command, path))
         return false;
     if (!tn_evolution_study_of(command->opened.module, &study)) {
-        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
+        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s has no block `evolution { ... }`", path);
         tn_error_help(
             &error, "%s",
             tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")

@@ -199,7 +199,7 @@ static void report_bare(tn_check *check, const tn_ast_word *number)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, number->node.span, "`%s` has no unit", number->text);
     tn_help(check->diagnostics, d,
-            "a length has a unit, such as `%s'` or `%sm`; a value that is no length is a name, such as `one`",
+            "a length has a unit, such as `%s'` or `%sm`; a value that is not a length is a name, such as `one`",
             number->text, number->text);
 }
 
@@ -304,7 +304,7 @@ static void check_zone_value(tn_check *check, tn_checked_schema *schema, tn_chec
     }
     schema->broken = true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_ZONE_LENGTH, value->node.span,
-                                 "a zone's alternatives are fills, and this is none");
+                                 "a zone's alternatives are fills, and this is not one");
     tn_help(check->diagnostics, d, "write the fill and its depths: `open(%s)`", value->word->text);
 }
 

@@ -284,7 +284,7 @@ static void test_functions(void **state)
     REFUSED(FUNCTION, tn_function_record, 1, code_end = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 0, "function 0, code offset 0: its code is not the stretch");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 5, "LESS runs past its end");
-    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong into this kind of code");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong in this kind of code");
     tn_builder *builder = sample_builder();
     tn_builder_emit(builder, TN_OP_NOT, 0, 0);
     expect(builder, TN_INVALID, "code that belongs to no function or production");
@@ -316,7 +316,7 @@ static void test_operands(void **state)
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no spec 2");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "there is no function 5");
-    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is no part of a rule");
+    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is not part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_OCCURRENCES, 9, 0, RETURN)), TN_INVALID,
