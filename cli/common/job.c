@@ -199,11 +199,16 @@ int tn_job_end(tn_job *job)
     return job->exit_code;
 }
 
-bool tn_job_takes_text(tn_job *job, const char *path)
+bool tn_job_draws(const char *path)
 {
     tn_canvas_format format;
     tn_error error;
-    if (!path || !strrchr(path, '.') || tn_canvas_format_of(path, &format, &error) != TN_OK)
+    return path && strrchr(path, '.') && tn_canvas_format_of(path, &format, &error) == TN_OK;
+}
+
+bool tn_job_takes_text(tn_job *job, const char *path)
+{
+    if (!tn_job_draws(path))
         return true;
     tn_diagnostic *d = tn_job_usage(job, "%.200s is a picture's name, and what goes there is text", path);
     tn_help(tn_job_diagnostics(job), d, "end its name otherwise; plans and rules are drawn by `tartan draw`");

@@ -76,6 +76,9 @@ int tn_job_end(tn_job *job);
 /* The exit code for a status. */
 int tn_exit_code(tn_status status);
 
+/* Is the path (NULL: standard output) the name of a picture: .svg, .png or .pdf? */
+bool tn_job_draws(const char *path);
+
 /* Is the path of a text output (NULL: standard output) not the name of a picture? Otherwise wrong usage is recorded. */
 bool tn_job_takes_text(tn_job *job, const char *path);
 

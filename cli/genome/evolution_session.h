@@ -32,10 +32,12 @@ typedef struct tn_evolution_session {
     tn_evolution_job job;
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
+    bool remembers;
 } tn_evolution_session;
 
 /* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
- * command's exit code. */
-int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(tn_evolution_session *evolution));
+ * command's exit code. remembers: whoever was born can be chosen as a parent later. */
+int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,
+                             void (*work)(tn_evolution_session *evolution));
 
 #endif

@@ -79,7 +79,7 @@ tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture
     for (size_t i = 0; ok && i < explained->count; i++)
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
-    const tn_drawn_plan plan = {explained->trays, explained->length, NULL, NULL};
+    const tn_drawn_plan plan = {.trays = explained->trays, .length = explained->length};
     tn_status status = ok && !title.failed
                            ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
                            : tn_fail_memory(error);

@@ -465,7 +465,7 @@ bool tn_check_wanted(const tn_check *check, tn_code warning)
     for (TN_EACH(const tn_ast_word, word, check->allow))
         if (word->value == (int64_t)warning)
             return false;
-    return true;
+    return !check->quiet;
 }
 
 void tn_check_allowances(tn_check *check)

@@ -147,7 +147,7 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
         return;
     else if (expr->kind == TN_EXPR_TRAY) {
         tn_check_tests_of_numbers(check, expr);
-        expr->spec = tn_check_spec(check, check->schema, expr);
+        expr->spec = tn_check_spec(check, check->schema, expr->older, expr);
     } else
         expr->spec = tn_check_any(check, check->schema, expr->node.span);
 }

@@ -179,7 +179,8 @@ static void test_second_schema(void **state)
     tn_builder_add_SCHEMA(builder, &(tn_schema_record){.name = tn_builder_string(builder, "other"),
                                                        .field_first = 4,
                                                        .field_count = 1,
-                                                       .forbid_count = 1});
+                                                       .forbid_count = 1,
+                                                       .from = TN_NO_RECORD});
     sample_field(builder, "width", TN_FIELD_CHOICE, TN_ROLE_NONE);
     sample_value(builder, "a", "a", "", 0, 0);
     sample_value(builder, "b", "b", "", 0, 0);
@@ -194,6 +195,36 @@ static void test_second_schema(void **state)
     sample_value(builder, "a", "a", "", 0, 0);
     sample_value(builder, "b", "b", "", 0, 0);
     expect(builder, TN_INVALID, "two schemas have the same name");
+}
+
+/* A schema that is made from the first: the first field as it is there, or without its second value. */
+static void test_schema_made_from_another(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 4; count += 3) {
+        tn_builder *builder = sample_builder();
+        tn_schema_record schema = sample_SCHEMA(0);
+        schema.name = tn_builder_string(builder, "newer");
+        schema.from = 0;
+        schema.field_first = 4;
+        schema.field_count = count;
+        schema.forbid_count = 0;
+        tn_builder_add_SCHEMA(builder, &schema);
+        uint32_t value_first = 8;
+        for (uint32_t f = 0; f < count; f++) {
+            tn_field_record field = sample_FIELD(f);
+            field.value_first = value_first;
+            value_first += field.value_count;
+            tn_builder_add_FIELD(builder, &field);
+            for (uint32_t v = 0; v < field.value_count; v++) {
+                tn_value_record value = sample_VALUE(sample_FIELD(f).value_first + v);
+                tn_builder_add_VALUE(builder, &value);
+            }
+        }
+        expect(builder, count == 4 ? TN_OK : TN_INVALID,
+               count == 4 ? NULL : "schema 1 lacks a field or value of the schema it is made from");
+    }
+    REFUSED(SCHEMA, tn_schema_record, 0, from = 1, "schema 0: from is schema 1, which is not there");
 }
 
 static void test_specifiers(void **state)
@@ -378,6 +409,7 @@ int main(void)
         cmocka_unit_test(test_as_the_compiler),
         cmocka_unit_test(test_grammars_end),
         cmocka_unit_test(test_second_schema),
+        cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_specifiers),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_rules_and_libraries),
