@@ -62,7 +62,7 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
         return false;
     }
     if (!e->remembers && e->job.settings.kind && !e->job.scored) { /* a person chooses with `breed` */
-        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what is wanted");
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what to evolve towards");
         tn_error_help(error, "add a goal, as `fitness volume target 200`; or choose parents yourself: tartan breed %s",
                       path);
         tn_job_fail(e->command, error);
@@ -93,7 +93,7 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
     if (!tn_job_open(command, path))
         return false;
     if (!tn_evolution_study_of(command->opened.module, &study)) {
-        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
+        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s has no block `evolution { ... }`", path);
         tn_error_help(
             &error, "%s",
             tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")

@@ -78,7 +78,7 @@ static tn_status same_arithmetic(const tn_run *run, tn_error *error)
             "the run in %.200s was made with arithmetic %d, and this Tartan has arithmetic %d: sines and exponentials "
             "differ in their last digits",
             run->dir, was, TN_NUMERIC_VERSION);
-    tn_error_help(error, "go on with the Tartan that began it, or start another run with -o DIR");
+    tn_error_help(error, "continue with the version of Tartan that began it, or start another run with -o DIR");
     return TN_INVALID;
 }
 
@@ -180,7 +180,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     if (run->generations == 0 || !evaluator->adjust) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing, building and learning"
+        tn_error_help(error, run->generations ? "targets and weights are for growing, building and learning"
                                               : "change the study itself");
         return TN_INVALID;
     }
