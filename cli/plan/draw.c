@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/common/subject.h"
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
@@ -283,58 +284,32 @@ static bool check_options(tn_job *job)
 
 /* ---- forms */
 
-/* What a file says: plans, a design of boxes, or a surface. */
-typedef enum subject { PLANS, SOLID, FIELD, SUBJECT_COUNT } subject;
-
-static subject subject_of(const tn_job *job)
-{
-    return tn_job_has_surface(job) ? FIELD : job->opened.module->SOLID_count > 0 ? SOLID : PLANS;
-}
-
 /* Options that say something about one or two of the subjects only. */
-static bool check_use(tn_job *job, subject asked)
+static bool check_use(tn_job *job)
 {
-    enum { OF_PLANS = 1 << PLANS, OF_SOLIDS = 1 << SOLID, OF_FIELDS = 1 << FIELD };
-    static const char *const subjects[] = {"plans and rules", "a design of boxes", "a field"};
-    static const char *const files[] = {"",
-                                        "plans (.plan)",
-                                        "designs of boxes (.solid)",
-                                        "plans and designs of boxes",
-                                        "fields (.field)",
-                                        "plans and fields",
-                                        "designs of boxes and fields"};
     const draw_settings *s = settings_of(job);
-    const struct {
-        bool given;
-        unsigned of;
-        const char *name;
-    } uses[] = {
-        {s->rules.count > 0, OF_PLANS, "rule"},
-        {s->plans.library != NULL, OF_PLANS, "library"},
-        {s->sample.given, OF_PLANS, "sample"},
-        {s->sampled.per_length.given, OF_PLANS, "per-length"},
-        {s->paper != NULL, OF_PLANS, "paper"},
-        {s->scale.given, OF_PLANS, "scale"},
-        {s->max_plans.given, OF_PLANS, "max-plans"},
-        {s->columns.given, OF_PLANS | OF_SOLIDS, "columns"},
-        {s->solid != NULL, OF_SOLIDS, "solid"},
-        {s->sheet, OF_SOLIDS, "sheet"},
-        {s->before, OF_SOLIDS, "before"},
-        {s->exploded, OF_SOLIDS, "exploded"},
-        {s->max_boxes.given, OF_SOLIDS, "max-boxes"},
-        {s->azimuth.given, OF_SOLIDS | OF_FIELDS, "azimuth"},
-        {s->elevation.given, OF_SOLIDS | OF_FIELDS, "elevation"},
-        {s->width.given, OF_SOLIDS | OF_FIELDS, "width"},
-        {s->surface != NULL, OF_FIELDS, "surface"},
-        {s->grid.given, OF_FIELDS, "grid"},
+    const tn_option_use uses[] = {
+        {s->rules.count > 0, TN_OF_PLANS, "rule"},
+        {s->plans.library != NULL, TN_OF_PLANS, "library"},
+        {s->sample.given, TN_OF_PLANS, "sample"},
+        {s->sampled.per_length.given, TN_OF_PLANS, "per-length"},
+        {s->paper != NULL, TN_OF_PLANS, "paper"},
+        {s->scale.given, TN_OF_PLANS, "scale"},
+        {s->max_plans.given, TN_OF_PLANS, "max-plans"},
+        {s->columns.given, TN_OF_PLANS | TN_OF_SOLIDS, "columns"},
+        {s->solid != NULL, TN_OF_SOLIDS, "solid"},
+        {s->sheet, TN_OF_SOLIDS, "sheet"},
+        {s->before, TN_OF_SOLIDS, "before"},
+        {s->exploded, TN_OF_SOLIDS, "exploded"},
+        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
+        {s->azimuth.given, TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
+        {s->elevation.given, TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
+        {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
+        {s->surface != NULL, TN_OF_FIELDS, "surface"},
+        {s->grid.given, TN_OF_FIELDS, "grid"},
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        if (!uses[i].given || uses[i].of >> asked & 1)
-            continue;
-        tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, subjects[asked]);
-        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name, files[uses[i].of]);
+    if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
         return false;
-    }
     if (s->sheet + s->before + s->exploded > 1) {
         tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
         return false;
@@ -398,10 +373,9 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         return tn_job_end(&job);
-    static void (*const draw[SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
-    subject asked = subject_of(&job);
-    if (check_use(&job, asked))
-        draw[asked](&job);
+    static void (*const draw[TN_SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
+    if (check_use(&job))
+        draw[tn_job_subject(&job)](&job);
     return tn_job_end(&job);
 }
 

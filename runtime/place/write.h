@@ -14,7 +14,7 @@ void tn_place_write_ldraw(const tn_placed_model *model, FILE *out);
 /* Parts by name and colour, in the order of their first: part,colour,number. */
 tn_status tn_place_write_list(const tn_placed_model *model, FILE *out, tn_error *error);
 
-/* The steps that were taken (kept), as the grammar's author wrote them, parted by blanks. */
+/* The steps that were taken (kept), as the grammar's author wrote them, separated by blanks. */
 void tn_place_write_program(const tn_placed_model *model, const tn_place_rules *rules, FILE *out);
 
 /* A step as its author wrote it: `length` bytes of a source of the module; empty where the module does not say. */
