@@ -85,7 +85,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using constant operand spec_word literal_word clause_name expectation
+%type <word> doc role using from constant operand spec_word literal_word clause_name expectation
 %type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <list> by_kinds walk_by
@@ -122,8 +122,8 @@ items
 
 item
     : use STRING                                { $$ = tn_ast_use_new(parse, @$, $2); }
-    | schema NAME doc OPEN_BRACE body CLOSE_BRACE
-                                                { $$ = tn_ast_schema_new(parse, @$, $2, $3, $5); }
+    | schema NAME doc from OPEN_BRACE body CLOSE_BRACE
+                                                { $$ = tn_ast_schema_new(parse, @$, $2, $3, $4, $6); }
     | let NAME EQUAL expression                 { $$ = tn_ast_let_new(parse, @$, $2, $4); }
     | measure NAME doc using EQUAL additive     { $$ = tn_ast_measure_new(parse, @$, $2, $3, $4, $6); }
     | rule_head EQUAL expression                { $$ = tn_ast_rule_new(parse, @$, $1, $3); }
@@ -156,6 +156,11 @@ names
     ;
 
 /* ---- schemas */
+
+from
+    : %empty                                    { $$ = NULL; }
+    | FROM NAME                                 { $$ = $2; }
+    ;
 
 body
     : %empty                                    { $$ = (tn_ast_body){0}; }
@@ -209,6 +214,7 @@ value
     | LENGTH doc role                           { $$ = tn_ast_value_new(parse, @$, $1, NULL, $2, $3); }
     | NUMBER doc role                           { $$ = tn_ast_value_new(parse, @$, $1, NULL, $2, $3); }
     | NAME OPEN depths CLOSE doc role           { $$ = tn_ast_value_new(parse, @$, $1, &$3, $5, $6); }
+    | ELLIPSIS                                  { $$ = tn_ast_older_values(parse, @$); }
     ;
 
 depths

@@ -134,24 +134,39 @@ static void offer_values(cursor *c, const tn_symbol *field, const char *group)
     }
 }
 
+/* The fields that a schema declares, those that add values to an older one's included. */
+static void offer_declared(cursor *c, const tn_symbol *schema, const tn_symbol *field)
+{
+    for (const tn_symbol *s = schema->next; s && (s->parent == schema || s->kind == TN_SYMBOL_VALUE); s = s->next) {
+        if (s->kind != TN_SYMBOL_FIELD)
+            continue;
+        const tn_ast_field *ast = (const tn_ast_field *)s->ast;
+        bool named = field && strcmp(s->name, field->name) == 0;
+        if (!named && !ast->extends)
+            offer(c, s->name, KIND_FIELD, s->doc, "1");
+        if (named || ast->form == TN_FORM_VALUES)
+            offer_values(c, s, named ? "0" : "1");
+    }
+}
+
 static void complete_tray(cursor *c, bool literal)
 {
     static const char *const words[] = {"not", "or", NULL}, *const literal_words[] = {"not", NULL};
     const tn_symbol *schema = schema_here(c), *field = schema ? field_here(c, schema) : NULL;
-    if (field)
-        offer_values(c, field, "0");
-    for (const tn_symbol *s = schema ? schema->next : NULL; s && (s->parent == schema || s->kind == TN_SYMBOL_VALUE);
-         s = s->next) {
-        if (s->kind != TN_SYMBOL_FIELD || s == field)
-            continue;
-        offer(c, s->name, KIND_FIELD, s->doc, "1");
-        if (((const tn_ast_field *)s->ast)->form == TN_FORM_VALUES)
-            offer_values(c, s, "1");
-    }
+    for (const tn_symbol *s = schema; s; s = s->schema)
+        offer_declared(c, s, field);
     offer_words(c, literal ? literal_words : words);
 }
 
 /* ---- elsewhere */
+
+static void offer_fields(cursor *c, const char *group)
+{
+    for (const tn_symbol *schema = schema_here(c); schema; schema = schema->schema)
+        for (const tn_symbol *s = schema->next; s; s = s->next)
+            if (s->kind == TN_SYMBOL_FIELD && s->parent == schema && !((const tn_ast_field *)s->ast)->extends)
+                offer(c, s->name, KIND_FIELD, s->doc, group);
+}
 
 static void complete_expression(cursor *c)
 {
@@ -179,10 +194,7 @@ static void complete_in_call(cursor *c, size_t bracket)
         return;
     }
     if (bracket > 0 && is(c, bracket - 1, "sum") && bracket + 1 == c->count) {
-        const tn_symbol *schema = schema_here(c);
-        for (const tn_symbol *s = schema ? schema->next : NULL; s; s = s->next)
-            if (s->kind == TN_SYMBOL_FIELD && s->parent == schema)
-                offer(c, s->name, KIND_FIELD, s->doc, "1");
+        offer_fields(c, "1");
         return;
     }
     if (bracket > 0 && is(c, bracket - 1, "distance"))
@@ -228,10 +240,7 @@ static void complete_library(cursor *c)
     } else if (is(c, c->clause, "allow")) {
         complete_codes(c);
     } else if (is(c, c->clause, "total") && c->clause + 1 == c->count) {
-        const tn_symbol *schema = schema_here(c);
-        for (const tn_symbol *s = schema ? schema->next : NULL; s; s = s->next)
-            if (s->kind == TN_SYMBOL_FIELD && s->parent == schema)
-                offer(c, s->name, KIND_FIELD, s->doc, "0");
+        offer_fields(c, "0");
     }
 }
 

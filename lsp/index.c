@@ -57,7 +57,7 @@ const tn_symbol *tn_index_field(const tn_symbol *schema, const char *name)
          s = s->next)
         if (s->kind == TN_SYMBOL_FIELD && strcmp(s->name, name) == 0)
             return s;
-    return NULL;
+    return schema && schema->schema ? tn_index_field(schema->schema, name) : NULL;
 }
 
 const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field, const char *name)
@@ -65,13 +65,14 @@ const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field,
     const tn_symbol *found = NULL;
     for (const tn_symbol *s = schema ? schema->next : NULL; s && (s->parent == schema || s->kind == TN_SYMBOL_VALUE);
          s = s->next) {
-        if (s->kind != TN_SYMBOL_VALUE || strcmp(s->name, name) != 0 || (field && s->parent != field))
+        if (s->kind != TN_SYMBOL_VALUE || strcmp(s->name, name) != 0 ||
+            (field && strcmp(s->parent->name, field->name) != 0))
             continue;
         if (found)
             return NULL;
         found = s;
     }
-    return found;
+    return !found && schema && schema->schema ? tn_index_value(schema->schema, field, name) : found;
 }
 
 const tn_symbol *tn_index_schema(const tn_index *index, const char *owner)
@@ -224,6 +225,7 @@ static void use_item(tn_index *index, const tn_ast_top *item)
 {
     if (item->kind == TN_ITEM_SCHEMA) {
         const tn_ast_schema *schema = (const tn_ast_schema *)item;
+        use_name(index, &index->schemas, schema->from);
         for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
             use_specifier(index, own_symbol(index, &item->node), forbid->tray);
     } else if (item->kind == TN_ITEM_RULE) {
@@ -238,9 +240,15 @@ static void use_item(tn_index *index, const tn_ast_top *item)
 /* Which schema rules and libraries are about, as far as checking has found out. */
 static void set_schemas(tn_index *index, const tn_checked *checked)
 {
+    for (size_t i = 0; checked && i < checked->schema_count; i++) {
+        const tn_checked_schema *schema = checked->schemas[i];
+        tn_symbol *symbol = tn_names_get(&index->schemas, schema->name);
+        if (symbol && schema->base)
+            symbol->schema = tn_names_get(&index->schemas, schema->base->name);
+    }
     for (size_t i = 0; checked && i < checked->rule_count; i++) {
         const tn_checked_rule *rule = checked->rules[i];
-        tn_symbol *symbol = tn_names_get(&index->names, rule->name);
+        tn_symbol *symbol = rule->hidden ? NULL : tn_names_get(&index->names, rule->name);
         if (symbol && rule->schema)
             symbol->schema = tn_names_get(&index->schemas, rule->schema->name);
     }

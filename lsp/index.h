@@ -21,7 +21,7 @@ typedef struct tn_symbol {
     const char *name, *doc; /* doc may be NULL */
     tn_span name_span, span;
     const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library */
-    const struct tn_symbol *schema; /* of a rule or library; NULL where it is not known */
+    const struct tn_symbol *schema; /* of a rule or library, or what a schema is made from; NULL: none, or not known */
     const tn_ast_node *ast;
 } tn_symbol;
 

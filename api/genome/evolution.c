@@ -179,6 +179,16 @@ static bool recall(void *context, uint64_t id, tn_score *score)
     return true;
 }
 
+static tn_status choose(tn_evolution *engine, const uint32_t *places, size_t count, tn_error *error)
+{
+    tn_chosen *chosen = calloc(count + 1, sizeof *chosen);
+    for (size_t i = 0; chosen && i < count; i++)
+        chosen[i] = (tn_chosen){.number = places[i], .weight = 1};
+    tn_status status = chosen ? tn_evolution_choose(engine, chosen, count, error) : tn_fail_memory(error);
+    free(chosen);
+    return status;
+}
+
 static tn_status replay(tartan_evolution *e, tn_error *error)
 {
     recalling r = {.evolution = e};
@@ -188,7 +198,7 @@ static tn_status replay(tartan_evolution *e, tn_error *error)
     tn_evolution_recall(e->engine, recall, &r);
     for (uint32_t g = 0, at = 0; g < e->done && status == TN_OK; g++) {
         for (; at < e->choice_count && e->choices[at].generation == g && status == TN_OK; at++)
-            status = tn_evolution_choose(e->engine, e->choices[at].places, e->choices[at].count, error);
+            status = choose(e->engine, e->choices[at].places, e->choices[at].count, error);
         if (status == TN_OK)
             status = tn_evolution_step(e->engine, error);
     }
@@ -196,8 +206,8 @@ static tn_status replay(tartan_evolution *e, tn_error *error)
     if (status == TN_OK && r.missing)
         status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the scores are those of another run");
     if (status == TN_OK && e->chosen)
-        status = tn_evolution_choose(e->engine, e->choices[e->choice_count - 1].places,
-                                     e->choices[e->choice_count - 1].count, error);
+        status =
+            choose(e->engine, e->choices[e->choice_count - 1].places, e->choices[e->choice_count - 1].count, error);
     return status;
 }
 
@@ -268,7 +278,7 @@ tartan_status tartan_evolution_choose(tartan_evolution *e, const uint32_t *place
         return status;
     if (count == 0 || !places || e->done == 0)
         return tn_api_refuse(error, TARTAN_INVALID, e->done ? "nobody was chosen" : "there are no members yet");
-    if (tn_evolution_choose(e->engine, places, count, &found) != TN_OK)
+    if (choose(e->engine, places, count, &found) != TN_OK)
         return tn_api_fail(&found, error);
     if (e->chosen) /* instead of what was chosen before */
         free(e->choices[--e->choice_count].places);

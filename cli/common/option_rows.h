@@ -65,6 +65,9 @@
 #define OPTION_WERROR FLAG("werror", 0, common.werror, "treat warnings as errors")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
+#define OPTION_OUTPUT_OR_PICTURE                                                                                       \
+    TEXT("output", 'o', "FILE", output,                                                                                \
+         "write to FILE (beside it, then renamed over it); - is standard output; .svg, .png and .pdf make a picture")
 
 /* The field: where the command keeps it. */
 #define OPTION_MAX_BOXES(FIELD)                                                                                        \

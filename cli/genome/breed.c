@@ -6,50 +6,29 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
+#include "driver/breed/choice.h"
 #include "driver/breed/evolve_sheet.h"
-#include "runtime/base/array.h"
 
-#define TURNS_MAX 100u /* how often one individual may be chosen at once: N*100 */
-
-typedef struct choice {
-    uint32_t *places;
-    size_t count, capacity;
-} choice;
-
-static bool add(choice *c, uint64_t place, uint64_t times)
+/* Reads a line of choices and says what is wrong with it. */
+static bool read_choice(const char *line, size_t members, tn_choices *choices)
 {
-    for (uint64_t i = 0; i < times; i++) {
-        if (!tn_array_reserve(&c->places, &c->capacity, c->count, 1, sizeof *c->places))
-            return false;
-        c->places[c->count++] = (uint32_t)(place - 1);
-    }
-    return true;
-}
-
-/* Reads "3 7*2 12": places from 1, each perhaps with how much it counts. */
-static bool read_choice(char *line, size_t members, choice *c)
-{
-    c->count = 0;
-    for (char *word = strtok(line, " ,\t\r\n"); word; word = strtok(NULL, " ,\t\r\n")) {
-        char *end, *rest;
-        uint64_t place = strtoull(word, &end, 10), times = 1;
-        if (*end == '*') {
-            times = strtoull(end + 1, &rest, 10);
-            end = rest;
+    char wrong[40];
+    tn_error error;
+    tn_status status = tn_choices_read(line, choices, wrong, &error);
+    for (size_t i = 0; status == TN_OK && i < choices->count; i++)
+        if (!choices->items[i].by_id && choices->items[i].number >= members) {
+            snprintf(wrong, sizeof wrong, "%" PRIu64, choices->items[i].number + 1);
+            status = TN_INVALID;
         }
-        if (end == word || *end || place < 1 || place > members || times < 1 || times > TURNS_MAX) {
-            printf("`%s` is no choice: write numbers from 1 to %zu, as 3 7 12, or 3*2 to let one count twice\n", word,
-                   members);
-            return false;
-        }
-        if (!add(c, place, times))
-            return false;
-    }
-    return true;
+    if (status != TN_OK)
+        printf("`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it, "
+               "and #41 is the individual with that id\n",
+               wrong, members);
+    return status == TN_OK;
 }
 
 /* Asks until there is an answer; false at its end. */
-static bool ask(size_t members, choice *c)
+static bool ask(size_t members, tn_choices *c)
 {
     char *line = NULL;
     size_t capacity = 0;
@@ -73,7 +52,7 @@ static bool ask(size_t members, choice *c)
 static void breed(tn_evolution_session *e)
 {
     tn_error error;
-    choice c = {0};
+    tn_choices c = {0};
     tn_status status = e->run.generations ? TN_OK : tn_run_step(&e->run, NULL, 0, &error);
     while (status == TN_OK && !tn_interrupted()) {
         size_t members;
@@ -85,9 +64,13 @@ static void breed(tn_evolution_session *e)
         printf("generation %u: %s\n", e->run.generations - 1, sheet);
         if (e->run.generations > e->generations || !ask(members, &c))
             break;
-        status = tn_run_step(&e->run, c.places, c.count, &error);
+        status = tn_run_step(&e->run, c.items, c.count, &error);
+        if (status == TN_INVALID && error.code == E_NO_INDIVIDUAL) { /* an id that nobody has: asked again */
+            puts(error.message);
+            status = TN_OK;
+        }
     }
-    free(c.places);
+    tn_choices_clear(&c);
     if (status == TN_OK)
         status = tn_run_results(&e->run, &error);
     if (status != TN_OK) {
@@ -102,7 +85,7 @@ static void breed(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run((const tn_session_settings *)settings, breed);
+    return tn_evolution_session_run((const tn_session_settings *)settings, true, breed);
 }
 
 #define SETTINGS tn_session_settings
@@ -115,7 +98,8 @@ const tn_command tn_command_breed = {
     .usage = "STUDY.study [-o DIR] [--resume]",
     .description =
         "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
-        "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3. Your "
+        "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3, and #41 "
+        "is the individual with the id 41, of any generation. Your "
         "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "
         "sheet.",
     .example = "$ tartan breed garden.study -o garden.run",

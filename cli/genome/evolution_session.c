@@ -43,7 +43,8 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     tn_evolution_job_options options = {.threads = (unsigned)settings->threads.value,
                                         .watch = tn_interrupt_waiting(),
                                         .says_seed = settings->seed.given,
-                                        .seed = settings->seed.value};
+                                        .seed = settings->seed.value,
+                                        .remembers = e->remembers};
     tn_run_options run_options = {
         .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
     const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
@@ -64,12 +65,12 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     return begun;
 }
 
-static bool open_session(tn_job *command, const tn_session_settings *settings, tn_evolution_session *e)
+static bool open_session(tn_job *command, const tn_session_settings *settings, bool remembers, tn_evolution_session *e)
 {
     const char *path = settings->common.operands.items[0];
     tn_error error = {0};
     tn_evolution_study study;
-    *e = (tn_evolution_session){.command = command, .settings = settings};
+    *e = (tn_evolution_session){.command = command, .settings = settings, .remembers = remembers};
     if (settings->changes.count && !settings->resume) {
         tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
         return false;
@@ -81,7 +82,7 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, t
     if (!tn_job_open(command, path))
         return false;
     if (!tn_evolution_study_of(command->opened.module, &study)) {
-        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s says nothing of evolution", path);
+        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s has no block `evolution { ... }`", path);
         tn_error_help(
             &error, "%s",
             tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")
@@ -100,12 +101,13 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, t
     return begun;
 }
 
-int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(tn_evolution_session *evolution))
+int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,
+                             void (*work)(tn_evolution_session *evolution))
 {
     tn_job command;
     tn_evolution_session evolution;
     tn_job_begin(&command, &settings->common);
-    if (open_session(&command, settings, &evolution)) {
+    if (open_session(&command, settings, remembers, &evolution)) {
         tn_job_show(&command);
         work(&evolution);
     }

@@ -9,7 +9,7 @@
 /* The options of all of them; what the number of generations means is told by each. */
 #define OPTIONS_RUN(generations_help)                                                                                  \
     TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
-        FLAG("resume", 0, resume, "go on with the run in the folder, if there is one"),                                \
+        FLAG("resume", 0, resume, "continue the run in the folder, if there is one"),                                \
         FLAG("rescore", 0, rescore,                                                                                    \
              "with --resume, where files that scores depend on have changed: score all members again"),                \
         NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
@@ -32,10 +32,12 @@ typedef struct tn_evolution_session {
     tn_evolution_job job;
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
+    bool remembers;
 } tn_evolution_session;
 
 /* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
- * command's exit code. */
-int tn_evolution_session_run(const tn_session_settings *settings, void (*work)(tn_evolution_session *evolution));
+ * command's exit code. remembers: whoever was born can be chosen as a parent later. */
+int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,
+                             void (*work)(tn_evolution_session *evolution));
 
 #endif

@@ -99,7 +99,7 @@ static void evolve_and_tell(tn_evolution_session *e)
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run((const tn_session_settings *)settings, evolve_and_tell);
+    return tn_evolution_session_run((const tn_session_settings *)settings, false, evolve_and_tell);
 }
 
 #define SETTINGS tn_session_settings

@@ -162,7 +162,7 @@ static tn_status tally_text(numbered *n, const char *text, size_t max_length, ho
     tn_status status = text[0] == '#' ? plan_of_rank(n, text + 1, strlen(text) - 1, trays, &length, error)
                                       : tn_plan_parse_line(n->schema, text, strlen(text), max_length, &plan, error);
     if (status == TN_OK && text[0] != '#' && !tn_library_rank(n->plans, plan.trays, plan.length, rank)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is none of the library's");
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is not in the library");
         tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
     }
     if (status == TN_OK)
@@ -287,7 +287,8 @@ void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const cha
 
 bool tn_is_house_number(const char *text)
 {
-    return strchr(text, ':') != NULL;
+    size_t digits = strspn(text, "0123456789");
+    return text[0] == '#' || (digits > 0 && text[digits] == ':');
 }
 
 /* The house that `rank` others come before: plan by plan, the houses before it are counted. */
@@ -321,6 +322,21 @@ static tn_status house_of_rank(numbered *n, mpz_t rank, tn_house *house, tn_erro
     return status;
 }
 
+static tn_status house_of_digits(numbered *n, const char *digits, tn_house *house, tn_error *error)
+{
+    mpz_t rank;
+    if (!*digits || digits[strspn(digits, "0123456789")]) {
+        tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "`#%.60s` names no house", digits);
+        tn_error_help(error, "a house is #P:V, the plan's rank and its place among the houses on that plan, or #R, its "
+                             "rank among all houses");
+        return status;
+    }
+    mpz_init_set_str(rank, digits, 10);
+    tn_status status = house_of_rank(n, rank, house, error);
+    mpz_clear(rank);
+    return status;
+}
+
 static tn_status house_of(numbered *n, const char *number, tn_house *house, tn_error *error)
 {
     number += number[0] == '#';
@@ -328,12 +344,8 @@ static tn_status house_of(numbered *n, const char *number, tn_house *house, tn_e
     mpz_t variant;
     uint32_t length = 0;
     *house = (tn_house){0};
-    if (!colon) {
-        mpz_init_set_str(variant, number, 10);
-        tn_status status = house_of_rank(n, variant, house, error);
-        mpz_clear(variant);
-        return status;
-    }
+    if (!colon)
+        return house_of_digits(n, number, house, error);
     tn_tray *trays = tray_room(n, error);
     if (!trays)
         return TN_MEMORY;
@@ -351,27 +363,39 @@ static tn_status house_of(numbered *n, const char *number, tn_house *house, tn_e
     return status;
 }
 
-void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number)
+void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use)
 {
     numbered n;
     tn_error error = {0};
-    tn_output out;
-    tn_buffer line = {0};
     if (open_numbered(&n, job, settings)) {
         tn_house house;
-        tn_status status = house_of(&n, number, &house, &error);
-        if (status == TN_OK)
-            status = tn_house_write(&house, &line, &error);
-        if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
-            status = tn_fail_memory(&error);
-        if (status != TN_OK) {
+        if (house_of(&n, number, &house, &error) == TN_OK)
+            use(job, &house);
+        else
             tn_job_fail(job, &error);
-        } else if (tn_job_output(job, NULL, &out)) {
-            fwrite(line.data, 1, line.size, out.stream);
-            tn_job_commit(job, &out);
-        }
         tn_house_clear(&house);
     }
-    free(line.data);
     close_numbered(&n);
+}
+
+static void write_line(tn_job *job, const tn_house *house)
+{
+    tn_buffer line = {0};
+    tn_error error = {0};
+    tn_output out;
+    tn_status status = tn_house_write(house, &line, &error);
+    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
+        status = tn_fail_memory(&error);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, NULL, &out)) {
+        fwrite(line.data, 1, line.size, out.stream);
+        tn_job_commit(job, &out);
+    }
+    free(line.data);
+}
+
+void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number)
+{
+    tn_job_use_house(job, settings, number, write_line);
 }

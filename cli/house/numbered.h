@@ -19,10 +19,14 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const c
 /* Writes the name #P:V of a house. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line);
 
-/* Is the text #P:V, or P:V? */
+/* Is the text #P:V, P:V or #R? */
 bool tn_is_house_number(const char *text);
 
-/* Writes the line of the house of that name; of digits alone: of that rank among all of the library's. */
+/* Calls `use` with the house of that name; of digits alone: of that rank among all of the library's. */
+typedef void tn_house_use(tn_job *job, const tn_house *house);
+void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use);
+
+/* Writes the line of such a house. */
 void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number);
 
 #endif

@@ -3,11 +3,6 @@
 
 #include "cli/mesh/mesh.h"
 
-bool tn_job_has_surface(const tn_job *job)
-{
-    return job->opened.module->SURFACE_count > 0;
-}
-
 /* The doc text of a surface, or its name. */
 static const char *title_of(const tn_field *field)
 {

@@ -5,9 +5,6 @@
 #include "cli/common/job.h"
 #include "runtime/scene/draw_mesh.h"
 
-/* Does the file have surfaces of fields? */
-bool tn_job_has_surface(const tn_job *job);
-
 /* Meshes the surface of this name (NULL: the last) with so many samples (0: what the file says), and draws it as
  * `picture` says: without a title, by its own text, and with a line at its foot. What fails is reported. */
 void tn_job_draw_surface(tn_job *job, const char *name, uint32_t grid, const tn_mesh_picture *picture,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/common/subject.h"
 #include "runtime/field/normals.h"
 
 /* ---- writing */
@@ -63,35 +64,22 @@ static bool check_format(tn_job *job, tn_out_format *format)
 static bool check_use(tn_job *job)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
-    bool solid = job->opened.module->SOLID_count > 0;
-    const struct {
-        bool given, solid;
-        const char *name;
-    } uses[] = {
-        {s->surface != NULL, false, "surface"},
-        {s->grid.given, false, "grid"},
-        {s->points != NULL, false, "points"},
-        {s->open, false, "open"},
-        {s->jumps != 0, false, "jumps"},
-        {s->engine != 0, false, "engine"},
-        {s->max_samples.given, false, "max-samples"},
-        {s->max_triangles.given, false, "max-triangles"},
-        {s->threads.given, false, "threads"},
-        {s->solid != NULL, true, "solid"},
-        {s->cells, true, "cells"},
-        {s->exact, true, "exact"},
-        {s->max_boxes.given, true, "max-boxes"},
+    const tn_option_use uses[] = {
+        {s->surface != NULL, TN_OF_FIELDS, "surface"},
+        {s->grid.given, TN_OF_FIELDS, "grid"},
+        {s->points != NULL, TN_OF_FIELDS, "points"},
+        {s->open, TN_OF_FIELDS, "open"},
+        {s->jumps != 0, TN_OF_FIELDS, "jumps"},
+        {s->engine != 0, TN_OF_FIELDS, "engine"},
+        {s->max_samples.given, TN_OF_FIELDS, "max-samples"},
+        {s->max_triangles.given, TN_OF_FIELDS, "max-triangles"},
+        {s->threads.given, TN_OF_FIELDS, "threads"},
+        {s->solid != NULL, TN_OF_SOLIDS, "solid"},
+        {s->cells, TN_OF_SOLIDS, "cells"},
+        {s->exact, TN_OF_SOLIDS, "exact"},
+        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        if (!uses[i].given || uses[i].solid == solid)
-            continue;
-        tn_diagnostic *d =
-            tn_job_usage(job, "--%s does nothing for %s", uses[i].name, solid ? "a design of boxes" : "a field");
-        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
-                solid ? "fields (.field)" : "designs of boxes (.solid)");
-        return false;
-    }
-    return true;
+    return tn_job_check_uses(job, uses, sizeof uses / sizeof *uses);
 }
 
 void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size)

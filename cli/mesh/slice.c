@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/common/subject.h"
 #include "cli/mesh/mesh.h"
 #include "driver/solid/solid.h"
 #include "runtime/field/slices.h"
@@ -203,28 +204,16 @@ static void answer_solid(tn_job *job, size_t writer)
 }
 
 /* Options that say something about fields only, or about designs of boxes only. */
-static bool check_use(tn_job *job, bool solid)
+static bool check_use(tn_job *job)
 {
     const slice_settings *s = settings_of(job);
-    const struct {
-        bool given, solid;
-        const char *name;
-    } uses[] = {
-        {s->surface != NULL, false, "surface"},       {s->grid.given, false, "grid"},
-        {s->max_samples.given, false, "max-samples"}, {s->engine != 0, false, "engine"},
-        {s->threads.given, false, "threads"},         {s->solid != NULL, true, "solid"},
-        {s->max_boxes.given, true, "max-boxes"},
+    const tn_option_use uses[] = {
+        {s->surface != NULL, TN_OF_FIELDS, "surface"},       {s->grid.given, TN_OF_FIELDS, "grid"},
+        {s->max_samples.given, TN_OF_FIELDS, "max-samples"}, {s->engine != 0, TN_OF_FIELDS, "engine"},
+        {s->threads.given, TN_OF_FIELDS, "threads"},         {s->solid != NULL, TN_OF_SOLIDS, "solid"},
+        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        if (!uses[i].given || uses[i].solid == solid)
-            continue;
-        tn_diagnostic *d =
-            tn_job_usage(job, "--%s does nothing for %s", uses[i].name, solid ? "a design of boxes" : "a field");
-        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name,
-                solid ? "fields (.field)" : "designs of boxes (.solid)");
-        return false;
-    }
-    return true;
+    return tn_job_check_uses(job, uses, sizeof uses / sizeof *uses);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -235,7 +224,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (choose_writer(&job, &writer) && tn_job_open(&job, common->operands.items[0])) {
         bool solid = job.opened.module->SOLID_count > 0;
-        if (check_use(&job, solid) && solid)
+        if (check_use(&job) && solid)
             answer_solid(&job, writer);
         else if (!solid && job.exit_code == TN_EXIT_DONE)
             answer_field(&job, writer);

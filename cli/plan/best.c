@@ -3,7 +3,9 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/plan_output.h"
+#include "cli/plan/sheet.h"
 #include "cli/plan/wishes.h"
+#include "driver/open/digits.h"
 #include "runtime/plan/measure/best.h"
 
 enum { BEST_DEFAULT = 10, BEST_MAX = 1000000 };
@@ -21,7 +23,8 @@ static const best_settings *settings_of(const tn_job *job)
     return (const best_settings *)job->settings;
 }
 
-/* Where the plans go: lines with their values, JSON with them, or what `sample` writes. */
+/* Where the plans go: onto a sheet that is drawn, into lines with their values, JSON with them, or what `sample`
+ * writes. */
 typedef struct sink {
     tn_job *job;
     const tn_ready_library *ready;
@@ -29,9 +32,31 @@ typedef struct sink {
     const tn_weighed *weighed;
     tn_plan_writer *writer; /* NULL: `output` */
     tn_output output;
-    bool json;
+    bool json, draws;
+    tn_plan_sheet sheet;
     tn_buffer text;
 } sink;
+
+static const char *measure_name(const sink *s, uint32_t k)
+{
+    const tn_module *module = s->ready->schema->module;
+    return tn_text(module, module->MEASURE_records[s->wishes->measures[k]].name);
+}
+
+/* "3.  cost 87,880, area 304 ft2" */
+static tn_status add_drawn(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
+                           tn_error *error)
+{
+    tn_buffer caption = {0};
+    bool ok = tn_buffer_printf(&caption, "%zu.  ", s->sheet.count + 1);
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
+        ok = tn_buffer_printf(&caption, "%s%s ", k ? ", " : "", measure_name(s, k)) &&
+             tn_wishes_text(s->wishes, s->weighed, k, values[k], &caption);
+    if (ok)
+        return tn_sheet_add(&s->sheet, trays, length, mpz_get_str(NULL, 10, rank), NULL, caption.data, error);
+    free(caption.data);
+    return tn_fail_memory(error);
+}
 
 static bool put_values(sink *s, const int64_t *values)
 {
@@ -52,6 +77,8 @@ static bool put_values(sink *s, const int64_t *values)
 static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
                           tn_error *error)
 {
+    if (s->draws)
+        return add_drawn(s, trays, length, values, rank, error);
     if (s->writer)
         return tn_plan_writer_write(s->writer, rank, trays, length, error);
     s->text.size = 0;
@@ -100,15 +127,77 @@ static void give(sink *s, tn_best *best, uint64_t wanted)
     free(trays);
 }
 
-/* Text goes out here, so that values can stand with the plans; the other formats as `sample` writes them. */
-static bool open_sink(sink *s)
+enum { NOTES = 3, NOTE_SIZE = 256 };
+
+/* "the 10 of 5,000 plans with the least cost, then most area" */
+static bool write_aim(const sink *s, char *note)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(s->ready->library, TN_ALL_LENGTHS, kept);
+    char *digits = tn_digits(kept, true);
+    tn_buffer text = {0};
+    bool ok = digits && tn_buffer_printf(&text, "the %zu of %s plans with the ", s->sheet.count, digits);
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
+        ok = tn_buffer_printf(&text, "%s%s %s", k ? ", then the " : "", s->wishes->most[k] ? "most" : "least",
+                              measure_name(s, k));
+    if (ok)
+        snprintf(note, NOTE_SIZE, "%s", text.data);
+    free(text.data);
+    free(digits);
+    mpz_clear(kept);
+    return ok;
+}
+
+static void draw_sheet(const sink *s)
+{
+    const tn_module *module = s->ready->schema->module;
+    char aim[NOTE_SIZE] = "", hash[33], library[NOTE_SIZE], rules[NOTE_SIZE];
+    const char *notes[NOTES] = {aim, library, rules};
+    tn_error error;
+    tn_library_hash(s->ready->library, hash);
+    snprintf(library, sizeof library, "library %s", hash);
+    tn_sheet_note_rules(s->job, rules, sizeof rules);
+    const tn_draw_options options = {.title = tn_text(module, s->ready->record->name),
+                                     .doc = tn_text(module, s->ready->record->doc),
+                                     .number_name = "rank",
+                                     .notes = notes,
+                                     .note_count = NOTES};
+    tn_status status = write_aim(s, aim) ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = tn_plans_draw(s->ready->schema, s->sheet.plans, s->sheet.count, &options,
+                               &(tn_picture){.path = settings_of(s->job)->written.output}, &error);
+    if (status != TN_OK)
+        tn_job_fail(s->job, &error);
+}
+
+/* A picture by its name; text goes out here, so that values can stand with the plans; the other formats as `sample`
+ * writes them. */
+static bool open_sink(sink *s, uint64_t wanted)
 {
     const tn_written_settings *settings = &settings_of(s->job)->written;
     tn_plan_format format = (tn_plan_format)settings->format;
+    s->draws = format == TN_FORMAT_AUTO && tn_job_draws(settings->output);
+    if (s->draws && wanted > TN_DRAW_PLANS_DEFAULT) {
+        tn_help(tn_job_diagnostics(s->job),
+                tn_job_usage(s->job, "a picture shows at most %u plans", TN_DRAW_PLANS_DEFAULT),
+                "ask for fewer, or write them to a file that is not a picture");
+        return false;
+    }
     s->json = format == TN_FORMAT_JSON;
     bool text = s->json || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !settings->output);
-    return text ? tn_job_output(s->job, settings->output, &s->output)
-                : tn_job_plan_writer(s->job, s->ready, settings, "best", &s->writer);
+    return s->draws || (text ? tn_job_output(s->job, settings->output, &s->output)
+                             : tn_job_plan_writer(s->job, s->ready, settings, "best", &s->writer));
+}
+
+static void close_sink(sink *s)
+{
+    if (s->draws && s->job->exit_code == TN_EXIT_DONE)
+        draw_sheet(s);
+    else if (s->writer)
+        tn_job_plan_close(s->job, s->writer);
+    else if (!s->draws)
+        tn_job_commit(s->job, &s->output);
 }
 
 static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wanted)
@@ -126,13 +215,11 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     tn_job_show(job);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
-    } else if (open_sink(&s)) {
+    } else if (open_sink(&s, wanted)) {
         give(&s, best, wanted);
-        if (s.writer)
-            tn_job_plan_close(job, s.writer);
-        else
-            tn_job_commit(job, &s.output);
+        close_sink(&s);
     }
+    tn_sheet_clear(&s.sheet);
     free(s.text.data);
     tn_best_free(best);
     tn_weighed_free(weighed);
@@ -166,20 +253,24 @@ static const tn_option options[] = {
     WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     OPTION_PLAN_FORMAT,
-    OPTION_PLAN_OUTPUT,
+    TEXT("output", 'o', "FILE", written.output,
+         "write to FILE instead of standard output; .sqlite and .db make a database, .svg, .png and .pdf a picture"),
     OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
-    .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]",
+    .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
+             "SHEET.svg",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
         "the measures named after it, then by rank. They are found from the library's automaton; no other plan is "
         "looked "
         "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
-        "them exactly, in feet or metres.",
+        "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
+        "each "
+        "with its place and its values.",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -3,14 +3,17 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/library_job.h"
+#include "cli/plan/wishes.h"
 #include "compiler/plan/syntax/program.h"
 #include "driver/open/digits.h"
+#include "runtime/plan/measure/bins.h"
 #include "runtime/plan/measure/complete.h"
+#include "runtime/plan/picture/draw_open.h"
 
 typedef struct complete_settings {
     tn_settings common;
     tn_plan_settings plans;
+    tn_option_list wanted; /* wishes */
     bool json;
     const char *output;
 } complete_settings;
@@ -21,7 +24,10 @@ static const complete_settings *settings_of(const tn_job *job)
 }
 
 typedef struct paper {
+    const tn_ready_library *ready;
     const tn_schema *schema;
+    const tn_open_plan *open;
+    const tn_wishes *wishes; /* none or one */
     const tn_completions *found;
 } paper;
 
@@ -30,9 +36,46 @@ static mpz_t *count_at(const paper *p, uint32_t tray, uint32_t field, uint32_t v
     return &p->found->counts[(size_t)tray * p->found->values + p->schema->value_start[field] + value];
 }
 
+/* The best that the measure can still be with the value, for people; nothing where none is asked for, or the value
+ * cannot stand there. */
+static bool write_best(const paper *p, uint32_t tray, uint32_t field, uint32_t value, tn_buffer *text)
+{
+    size_t at = (size_t)tray * p->found->values + p->schema->value_start[field] + value;
+    if (!p->found->best || mpz_sgn(p->found->counts[at]) == 0)
+        return true;
+    return tn_wishes_text(p->wishes, p->open->weighed, 0, p->found->best[at], text);
+}
+
+/* "least cost" */
+static void name_best(const paper *p, char *text, size_t size)
+{
+    const tn_module *module = p->schema->module;
+    snprintf(text, size, "%s %.200s", p->wishes->most[0] ? "most" : "least",
+             tn_text(module, module->MEASURE_records[p->wishes->measures[0]].name));
+}
+
 static const char *spelling(const paper *p, uint32_t field, uint32_t value)
 {
     return tn_text(p->schema->module, p->schema->values[p->schema->value_start[field] + value].spelling);
+}
+
+/* The count; with a measure the best value beside it. */
+static json_t *choice_json(const paper *p, uint32_t tray, uint32_t field, uint32_t value)
+{
+    char *digits = tn_digits(*count_at(p, tray, field, value), false);
+    json_t *count = json_string(digits ? digits : "");
+    free(digits);
+    if (!p->found->best)
+        return count;
+    json_t *choice = json_object();
+    tn_buffer exact = {0};
+    size_t at = (size_t)tray * p->found->values + p->schema->value_start[field] + value;
+    bool any = mpz_sgn(p->found->counts[at]) > 0 &&
+               tn_wishes_exact(p->wishes, p->open->weighed, 0, p->found->best[at], &exact);
+    json_object_set_new(choice, "plans", count);
+    json_object_set_new(choice, "best", any ? json_string(exact.data) : json_null());
+    free(exact.data);
+    return choice;
 }
 
 static void write_json(const paper *p, FILE *out)
@@ -46,9 +89,7 @@ static void write_json(const paper *p, FILE *out)
         for (uint32_t f = 0; f < p->schema->field_count; f++) {
             json_t *values = json_object();
             for (uint32_t v = 0; v < p->schema->fields[f].value_count; v++) {
-                char *digits = tn_digits(*count_at(p, t, f, v), false);
-                json_object_set_new(values, spelling(p, f, v), json_string(digits ? digits : ""));
-                free(digits);
+                json_object_set_new(values, spelling(p, f, v), choice_json(p, t, f, v));
             }
             json_object_set_new(tray, tn_text(p->schema->module, p->schema->fields[f].name), values);
         }
@@ -69,7 +110,11 @@ static void write_field(const paper *p, uint32_t tray, uint32_t field, FILE *out
         if (mpz_sgn(*count) == 0)
             continue;
         char *digits = tn_digits(*count, true);
-        fprintf(out, "%s%s: %s", any ? ",  " : "", spelling(p, field, v), digits ? digits : "");
+        tn_buffer best = {0};
+        bool told = write_best(p, tray, field, v, &best) && best.data;
+        fprintf(out, "%s%s: %s%s%s%s", any ? ",  " : "", spelling(p, field, v), digits ? digits : "", told ? " (" : "",
+                told ? best.data : "", told ? ")" : "");
+        free(best.data);
         free(digits);
         any = true;
     }
@@ -79,7 +124,13 @@ static void write_field(const paper *p, uint32_t tray, uint32_t field, FILE *out
 static void write_text(const paper *p, FILE *out)
 {
     char *plans = tn_digits(p->found->plans, true);
-    fprintf(out, "%s plans complete it\n", plans ? plans : "");
+    char best[256];
+    fprintf(out, "%s plans complete it", plans ? plans : "");
+    if (p->found->best) {
+        name_best(p, best, sizeof best);
+        fprintf(out, "; in brackets the %s that is left", best);
+    }
+    fputc('\n', out);
     free(plans);
     for (uint32_t t = 0; t < p->found->trays && mpz_sgn(p->found->plans) > 0; t++) {
         fprintf(out, "\nwritten tray %u\n", t + 1);
@@ -88,22 +139,108 @@ static void write_text(const paper *p, FILE *out)
     }
 }
 
-static void complete(tn_job *job, const tn_ready_library *ready)
+/* ---- the picture */
+
+static bool take_choices(const paper *p, tn_drawn_choice *choices)
 {
-    const tn_program *program = job->opened.compilation.program;
-    tn_completions found;
+    bool ok = true;
+    for (uint32_t t = 0; t < p->found->trays; t++)
+        for (uint32_t f = 0; f < p->schema->field_count; f++)
+            for (uint32_t v = 0; ok && v < p->schema->fields[f].value_count; v++) {
+                mpz_t *count = count_at(p, t, f, v);
+                tn_drawn_choice *choice = choices++;
+                tn_buffer best = {0};
+                choice->share = tn_bins_share(*count, p->found->plans);
+                choice->count = tn_digits(*count, true);
+                ok = write_best(p, t, f, v, &best) && choice->count;
+                choice->best = best.data;
+            }
+    return ok;
+}
+
+static tn_status draw_choices(const paper *p, const tn_drawn_choice *choices, tn_picture *to, tn_error *error)
+{
+    const tn_module *module = p->schema->module;
+    char about[512], best[256] = "";
+    char *plans = tn_digits(p->found->plans, true);
+    if (!plans)
+        return tn_fail_memory(error);
+    if (p->found->best)
+        name_best(p, best, sizeof best);
+    snprintf(about, sizeof about, "%.200s plans complete the open plan%s%s%s", plans,
+             p->found->best ? "; beside each count the " : "", p->found->best ? best : "",
+             p->found->best ? " that is left" : "");
+    free(plans);
+    const tn_drawn_open open = {.title = tn_text(module, p->ready->record->name),
+                                .doc = tn_text(module, p->ready->record->doc),
+                                .about = about,
+                                .best_name = p->found->best ? best : NULL,
+                                .functions = p->open->functions,
+                                .count = p->open->count,
+                                .choices = choices};
+    return tn_open_plan_draw(p->schema, &open, to, error);
+}
+
+static void draw(tn_job *job, const paper *p)
+{
+    size_t count = (size_t)p->found->trays * p->found->values;
+    tn_drawn_choice *choices = calloc(count + 1, sizeof *choices);
     tn_error error;
-    tn_output output;
-    tn_status status = tn_complete(&found, ready->library, program->pattern, program->pattern_count, &error);
-    paper p = {ready->schema, &found};
-    tn_job_show(job);
-    if (status != TN_OK) {
+    tn_status status = choices && take_choices(p, choices) ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = draw_choices(p, choices, &(tn_picture){.path = settings_of(job)->output}, &error);
+    if (status != TN_OK)
         tn_job_fail(job, &error);
-    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
-        (settings_of(job)->json ? write_json : write_text)(&p, output.stream);
+    for (size_t i = 0; choices && i < count; i++) {
+        free((char *)(uintptr_t)choices[i].count);
+        free((char *)(uintptr_t)choices[i].best);
+    }
+    free(choices);
+}
+
+/* ---- the command */
+
+static void show(tn_job *job, const paper *p)
+{
+    const complete_settings *settings = settings_of(job);
+    tn_output output;
+    tn_job_show(job);
+    if (tn_job_draws(settings->output)) {
+        draw(job, p);
+    } else if (tn_job_output(job, settings->output, &output)) {
+        (settings->json ? write_json : write_text)(p, output.stream);
         tn_job_commit(job, &output);
     }
+}
+
+static void complete(tn_job *job, const tn_ready_library *ready)
+{
+    const complete_settings *settings = settings_of(job);
+    const tn_program *program = job->opened.compilation.program;
+    tn_completions found;
+    tn_wishes wishes = {0};
+    tn_open_plan open = {.functions = program->pattern, .count = program->pattern_count};
+    tn_error error;
+    if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
+        (settings->wanted.count > 0 && !tn_wishes_read(job, ready, &settings->wanted, 1, &wishes)))
+        return;
+    if (wishes.count > 1) {
+        tn_job_usage(job, "complete looks at one measure: give one --least or --most");
+        return;
+    }
+    tn_status status = wishes.count ? tn_weighed_new(ready->library, wishes.measures, 1, &open.weighed, &error) : TN_OK;
+    open.most = wishes.most[0];
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
+    status = tn_complete(&found, ready->library, &open, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    else
+        show(job, &(paper){ready, ready->schema, &open, &wishes, &found});
     tn_completions_clear(&found);
+    tn_weighed_free(open.weighed);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -122,22 +259,29 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS complete_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
+    WISH("least", wanted, "also say the least MEASURE that each value leaves"),
+    WISH("most", wanted, "also say the most MEASURE that each value leaves"),
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
-    OPTION_OUTPUT,
+    OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_complete = {
     .name = "complete",
     .summary = "count the plans that complete an open plan",
-    .usage = "FILE PATTERN [--library NAME] [--json]",
-    .description = "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
-                   "any tray, `...` "
-                   "for any number of trays, also none. Says how many plans of the library complete it, and of each "
-                   "written tray how "
-                   "many of these have which value there. Where a plan fits in several ways, the leftmost counts. To "
-                   "list completions, "
-                   "give other commands --where \"plan [PATTERN]\".",
+    .usage = "FILE PATTERN [--library NAME] [--least MEASURE | --most MEASURE] [--json]\nFILE PATTERN -o OPEN.svg",
+    .description =
+        "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
+        "any tray, `...` "
+        "for any number of trays, also none. Says how many plans of the library complete it, and of each "
+        "written tray how "
+        "many of these have which value there. Where a plan fits in several ways, the leftmost counts. To "
+        "list completions, "
+        "give other commands --where \"plan [PATTERN]\". With --least or --most, the best value of a measure that each "
+        "choice "
+        "still leaves is said too.\n\n"
+        "With -o and the name of a picture (.svg, .png or .pdf) the open plan is drawn, and below each written tray "
+        "its choices.",
     .example = "$ tartan complete lahave-houses \"8' public | ? | great | ...\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -21,6 +21,7 @@ typedef struct count_settings {
     const char *by;   /* the measure that is counted by */
     const char *step;
     tn_option_number bins;
+    bool watch;
     const char *output;
 } count_settings;
 
@@ -320,12 +321,22 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
     counts_free(&c);
 }
 
+/* Only a distribution is drawn. */
+static bool may_draw(tn_job *job, const count_settings *settings)
+{
+    if (settings->by || !tn_job_draws(settings->output))
+        return true;
+    tn_diagnostic *d = tn_job_usage(job, "counts are text, and %.200s is a picture's name", settings->output);
+    tn_help(tn_job_diagnostics(job), d, "give --by MEASURE to draw a histogram, or end the file's name otherwise");
+    return false;
+}
+
 static void answer(tn_job *job, const tn_ready_library *ready, const count_settings *settings)
 {
     if (settings->by)
         tn_count_by(job, ready, settings->by,
                     &(tn_count_by_options){settings->count.json, settings->step, settings->bins}, settings->output);
-    else
+    else if (may_draw(job, settings))
         tn_job_count(job, ready, &settings->count, settings->output);
 }
 
@@ -336,13 +347,13 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
     return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
 }
 
-static int run(const tn_command *command, const tn_settings *common)
+static int count_once(const tn_settings *common, tn_files_read *read)
 {
-    (void)command;
     const count_settings *settings = (const count_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
+    job.read = read;
     bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
@@ -352,6 +363,14 @@ static int run(const tn_command *command, const tn_settings *common)
     }
     tn_library_close(&ready);
     return tn_job_end(&job);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    if (!((const count_settings *)common)->watch)
+        return count_once(common, NULL);
+    return tn_watch_files(common, count_once);
 }
 
 #define SETTINGS count_settings
@@ -365,16 +384,17 @@ static const tn_option options[] = {
          "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
-    OPTION_OUTPUT,
+    FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
+    OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_count = {
     .name = "count",
     .summary = "count the plans of a library, exactly",
-    .usage =
-        "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] [--json]\n"
-        "FILE --library HOUSES [--plan PLAN] [--json]",
+    .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
+             "[--json | -o HISTOGRAM.svg]\n"
+             "FILE --library HOUSES [--plan PLAN] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
@@ -382,6 +402,8 @@ const tn_command tn_command_count = {
         "clause. The counts are written first. What each clause does may take far longer for hundreds of clauses, so "
         "each clause has an equal share of the work, and one that needs more is not counted, with a note. "
         "--no-effects leaves this out.\n\n"
+        "With --by, the plans are counted by the values of a measure, with the least, the most, the mean and the "
+        "quartiles. With -o and the name of a picture (.svg, .png or .pdf) that is drawn as a histogram.\n\n"
         "Counts are exact, whatever their size. They are computed from the library's automaton, without "
         "listing plans.\n\n"
         "For a library of houses (docs/houses.md) it counts the plans, those that have a house, the choices of section "

@@ -6,9 +6,9 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_report.h"
+#include "cli/plan/sheet.h"
 #include "driver/open/digits.h"
 #include "runtime/base/picture.h"
-#include "runtime/plan/picture/draw.h"
 
 typedef struct diff_settings {
     tn_settings common;
@@ -25,35 +25,23 @@ enum { SHOWN = 3, SHOWN_MAX = 1000, NOTE_SIZE = 400 };
 
 /* ---- the picture: removed plans, added ones, kept ones, each under a heading */
 
-typedef struct sheet {
-    tn_drawn_plan *plans; /* trays and numbers owned */
-    size_t count;
-} sheet;
-
-static void sheet_clear(sheet *s)
-{
-    for (size_t i = 0; i < s->count; i++) {
-        free((tn_tray *)(uintptr_t)s->plans[i].trays);
-        free((char *)(uintptr_t)s->plans[i].number);
-    }
-    free(s->plans);
-}
-
-/* Its rank among those of its part stands under a plan. */
+/* Its rank in its library stands under a plan: a removed one's in the library before, the others' in that after. */
 static tn_status add_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, const char *heading,
-                          sheet *s, tn_error *error)
+                          tn_plan_sheet *s, tn_error *error)
 {
     const tn_library *library = tn_library_diff_part(report->diff, part);
     tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
-    char *digits = mpz_get_str(NULL, 10, rank);
     uint32_t length = 0;
-    if (!trays || !digits || !tn_library_unrank(library, rank, trays, &length)) {
-        free(trays);
-        free(digits);
+    mpz_t own;
+    if (!trays)
         return tn_fail_memory(error);
-    }
-    s->plans[s->count++] = (tn_drawn_plan){trays, length, digits, heading};
-    return TN_OK;
+    mpz_init(own);
+    tn_status status = tn_diff_plan(report, part, rank, trays, &length, own, error);
+    if (status == TN_OK)
+        status = tn_sheet_add(s, trays, length, mpz_get_str(NULL, 10, own), heading, NULL, error);
+    mpz_clear(own);
+    free(trays);
+    return status;
 }
 
 static void describe(const tn_diff_report *report, tn_diff_part part, char *note)
@@ -69,15 +57,9 @@ static void describe(const tn_diff_report *report, tn_diff_part part, char *note
 }
 
 /* headings: of the three parts. */
-static tn_status collect(const tn_diff_report *report, char headings[TN_DIFF_PARTS][NOTE_SIZE], sheet *s,
+static tn_status collect(const tn_diff_report *report, char headings[TN_DIFF_PARTS][NOTE_SIZE], tn_plan_sheet *s,
                          tn_error *error)
 {
-    size_t all = 0;
-    for (int part = 0; part < TN_DIFF_PARTS; part++)
-        all += report->samples[part].count;
-    s->plans = calloc(all + 1, sizeof *s->plans);
-    if (!s->plans)
-        return tn_fail_memory(error);
     tn_status status = TN_OK;
     for (int part = 0; part < TN_DIFF_PARTS; part++)
         for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++)
@@ -90,7 +72,7 @@ static tn_status draw(const tn_diff_report *report, const tn_compare_options *op
 {
     char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
     const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
-    sheet s = {0};
+    tn_plan_sheet s = {0};
     for (int part = 0; part < TN_DIFF_PARTS; part++)
         describe(report, (tn_diff_part)part, headings[part]);
     tn_status status = collect(report, headings, &s, error);
@@ -104,7 +86,7 @@ static tn_status draw(const tn_diff_report *report, const tn_compare_options *op
     if (status == TN_OK)
         status = tn_plans_draw(tn_library_schema(tn_library_diff_part(report->diff, TN_DIFF_KEPT)), s.plans, s.count,
                                &drawing, &(tn_picture){.path = options->output}, error);
-    sheet_clear(&s);
+    tn_sheet_clear(&s);
     return status;
 }
 

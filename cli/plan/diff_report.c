@@ -61,19 +61,28 @@ void tn_diff_samples_clear(tn_diff_report *report)
     }
 }
 
-/* The plan of a rank as a line; the caller frees it. NULL where out of memory. */
-static char *plan_line(const tn_library *library, const mpz_t rank)
+tn_status tn_diff_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, tn_tray *trays,
+                       uint32_t *length, mpz_t own, tn_error *error)
 {
+    if (!tn_library_unrank(tn_library_diff_part(report->diff, part), rank, trays, length))
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a rank is not in the difference");
+    return tn_library_diff_rank(report->diff, part, trays, *length, own, error);
+}
+
+/* The plan of a rank as a line, which the caller frees, and its rank in its own library. */
+static tn_status plan_line(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, tn_buffer *line,
+                           mpz_t own, tn_error *error)
+{
+    const tn_library *library = tn_library_diff_part(report->diff, part);
     tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
-    tn_buffer line = {0};
     uint32_t length = 0;
-    bool ok = trays && tn_library_unrank(library, rank, trays, &length) &&
-              tn_plan_write_line(tn_library_schema(library), trays, length, &line) && tn_buffer_append(&line, "", 0);
+    *line = (tn_buffer){0};
+    tn_status status = trays ? tn_diff_plan(report, part, rank, trays, &length, own, error) : tn_fail_memory(error);
+    if (status == TN_OK &&
+        !(tn_plan_write_line(tn_library_schema(library), trays, length, line) && tn_buffer_append(line, "", 0)))
+        status = tn_fail_memory(error);
     free(trays);
-    if (ok)
-        return line.data ? line.data : strdup("");
-    free(line.data);
-    return NULL;
+    return status;
 }
 
 /* ---- clauses */
@@ -179,14 +188,18 @@ static tn_status write_plans(const tn_diff_report *report, tn_diff_part part, FI
     if (sample->count == 0)
         return TN_OK;
     fprintf(out, "\n%s, the first%s:\n", tn_diff_part_names[part], sample->count == 1 ? "" : " and some at random");
-    for (size_t i = 0; i < sample->count; i++) {
-        char *line = plan_line(tn_library_diff_part(report->diff, part), sample->ranks[i]);
-        if (!line)
-            return tn_fail_memory(error);
-        fprintf(out, "%s\n", line);
-        free(line);
+    tn_status status = TN_OK;
+    mpz_t own;
+    mpz_init(own);
+    for (size_t i = 0; status == TN_OK && i < sample->count; i++) {
+        tn_buffer line;
+        status = plan_line(report, part, sample->ranks[i], &line, own, error);
+        if (status == TN_OK)
+            fprintf(out, "%s\n", line.data ? line.data : "");
+        free(line.data);
     }
-    return TN_OK;
+    mpz_clear(own);
+    return status;
 }
 
 static bool is_same(const tn_diff_report *report)
@@ -252,18 +265,20 @@ static json_t *clauses_json(const tn_diff_report *report)
 
 static tn_status plans_json(const tn_diff_report *report, tn_diff_part part, json_t *plans, tn_error *error)
 {
-    const tn_library *library = tn_library_diff_part(report->diff, part);
     json_t *list = json_array();
     tn_status status = TN_OK;
+    mpz_t own;
+    mpz_init(own);
     for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++) {
         json_t *item = json_object();
-        char *line = plan_line(library, report->samples[part].ranks[i]);
-        status = line ? TN_OK : tn_fail_memory(error);
-        set_number(item, "rank", report->samples[part].ranks[i]);
-        json_object_set_new(item, "plan", line ? json_string(line) : json_null());
+        tn_buffer line;
+        status = plan_line(report, part, report->samples[part].ranks[i], &line, own, error);
+        set_number(item, "rank", own);
+        json_object_set_new(item, "plan", json_string(line.data ? line.data : ""));
         json_array_append_new(list, item);
-        free(line);
+        free(line.data);
     }
+    mpz_clear(own);
     json_object_set_new(plans, tn_diff_part_names[part], list);
     return status;
 }

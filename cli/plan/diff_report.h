@@ -26,6 +26,10 @@ extern const char *const tn_diff_part_names[TN_DIFF_PARTS]; /* "removed", "added
 tn_status tn_diff_samples_take(tn_diff_report *report, size_t count, uint64_t seed, tn_error *error);
 void tn_diff_samples_clear(tn_diff_report *report);
 
+/* The plan of a rank of a part: its trays (room for the part's longest), and its rank in its own library. */
+tn_status tn_diff_plan(const tn_diff_report *report, tn_diff_part part, const mpz_t rank, tn_tray *trays,
+                       uint32_t *length, mpz_t own, tn_error *error);
+
 tn_status tn_diff_write_text(const tn_diff_report *report, FILE *out, tn_error *error);
 tn_status tn_diff_write_json(const tn_diff_report *report, FILE *out, tn_error *error);
 

@@ -4,14 +4,14 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/common/subject.h"
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"
+#include "cli/plan/sheet.h"
 #include "cli/solid/solid.h"
 #include "driver/open/digits.h"
-#include "runtime/base/array.h"
 #include "runtime/base/picture.h"
-#include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 typedef struct draw_settings {
@@ -36,13 +36,12 @@ static const draw_settings *settings_of(const tn_job *job)
 
 enum { NOTE_COUNT = 3, NOTE_SIZE = 256 };
 
-/* The plans of a sheet, gathered before any is drawn, since all share one scale. */
+/* A sheet being made. */
 typedef struct sheet {
     tn_job *job;
     const tn_schema *schema;
     const tn_library_record *library; /* or NULL */
-    tn_drawn_plan *plans;             /* trays and numbers owned */
-    size_t count, room;
+    tn_plan_sheet drawn;
     bool ranked; /* numbers are ranks, not lines */
     char notes[NOTE_COUNT][NOTE_SIZE];
     size_t note_count;
@@ -53,41 +52,13 @@ static size_t max_plans(const draw_settings *settings)
     return settings->max_plans.given ? (size_t)settings->max_plans.value : TN_DRAW_PLANS_DEFAULT;
 }
 
-/* Takes over `number`; the trays are copied. */
-static tn_status add_plan(sheet *s, const tn_tray *trays, size_t length, char *number, tn_error *error)
-{
-    if (!tn_array_reserve(&s->plans, &s->room, s->count, 1, sizeof *s->plans)) {
-        free(number);
-        return tn_fail_memory(error);
-    }
-    tn_tray *copy = malloc(sizeof *copy * (length + 1));
-    if (!copy || !number) {
-        free(copy);
-        free(number);
-        return tn_fail_memory(error);
-    }
-    if (length)
-        memcpy(copy, trays, sizeof *copy * length);
-    s->plans[s->count++] = (tn_drawn_plan){copy, length, number, NULL};
-    return TN_OK;
-}
-
-static void sheet_clear(sheet *s)
-{
-    for (size_t i = 0; i < s->count; i++) {
-        free((tn_tray *)(uintptr_t)s->plans[i].trays);
-        free((char *)(uintptr_t)s->plans[i].number);
-    }
-    free(s->plans);
-}
-
 /* The number below a plan that was read: its rank where the file gives one, otherwise its line. */
 static char *number_of(sheet *s, const tn_plan_reader *reader)
 {
     char *text = NULL;
     mpz_t rank;
     mpz_init(rank);
-    if (s->count == 0)
+    if (s->drawn.count == 0)
         s->ranked = tn_plan_reader_rank(reader, rank);
     if (s->ranked && tn_plan_reader_rank(reader, rank)) {
         text = mpz_get_str(NULL, 10, rank);
@@ -112,12 +83,12 @@ static bool read_plans(sheet *s, const char *path)
     bool going = tn_job_reader(s->job, s->schema, &source, &reader);
     if (!going)
         return false;
-    while (going && s->count <= max_plans(settings)) {
+    while (going && s->drawn.count <= max_plans(settings)) {
         tn_status status = tn_plan_reader_next(reader, &plan, &error);
         if (status == TN_OK && !plan)
             break;
         if (status == TN_OK)
-            status = add_plan(s, plan->trays, plan->length, number_of(s, reader), &error);
+            status = tn_sheet_add(&s->drawn, plan->trays, plan->length, number_of(s, reader), NULL, NULL, &error);
         else if (error.line > 0) {
             size_t size = 0;
             const char *text = tn_plan_reader_text(reader, &size);
@@ -130,7 +101,7 @@ static bool read_plans(sheet *s, const char *path)
         }
     }
     tn_plan_reader_free(reader);
-    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plan%s from %s", s->count, s->count == 1 ? "" : "s",
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu plan%s from %s", s->drawn.count, s->drawn.count == 1 ? "" : "s",
              strcmp(path, "-") == 0 ? "standard input" : path);
     return going;
 }
@@ -143,7 +114,7 @@ static bool unrank_all(sheet *s, const tn_ready_library *ready, const tn_sampled
     for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
         uint32_t length = 0;
         tn_library_unrank(ready->library, sampled->ranks[i], trays, &length);
-        status = add_plan(s, trays, length, mpz_get_str(NULL, 10, sampled->ranks[i]), &error);
+        status = tn_sheet_add(&s->drawn, trays, length, mpz_get_str(NULL, 10, sampled->ranks[i]), NULL, NULL, &error);
     }
     free(trays);
     if (status != TN_OK)
@@ -159,7 +130,7 @@ static void note_sample(sheet *s, const tn_ready_library *ready)
     tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
     char *digits = tn_digits(kept, true);
     tn_library_hash(ready->library, hash);
-    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->count,
+    snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->drawn.count,
              digits ? digits : "?", settings_of(s->job)->sampled.seed.value);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
     free(digits);
@@ -179,26 +150,13 @@ static bool sample_plans(sheet *s, const tn_ready_library *ready)
     return drawn;
 }
 
-/* The last note: which rules, by which compiler. Only the file's name, so that the same sheet can be made anywhere. */
-static void note_rules(sheet *s)
-{
-    const tn_module *module = s->job->opened.module;
-    const char *path = s->job->settings->operands.items[0], *slash = strrchr(path, '/');
-    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
-    int used = snprintf(s->notes[s->note_count], NOTE_SIZE, "%.160s", slash ? slash + 1 : path);
-    if (producer && used < NOTE_SIZE)
-        snprintf(s->notes[s->note_count] + used, (size_t)(NOTE_SIZE - used), ", rules %016" PRIx64 ", %.60s",
-                 (uint64_t)producer->sources_hash, tn_text(module, producer->version));
-    s->note_count++;
-}
-
 static void draw_sheet(sheet *s)
 {
     const draw_settings *settings = settings_of(s->job);
     const tn_module *module = s->job->opened.module;
     const char *notes[NOTE_COUNT];
     tn_error error;
-    note_rules(s);
+    tn_sheet_note_rules(s->job, s->notes[s->note_count++], NOTE_SIZE);
     for (size_t i = 0; i < s->note_count; i++)
         notes[i] = s->notes[i];
     tn_string name = s->library ? s->library->name : s->schema->record->name,
@@ -214,8 +172,8 @@ static void draw_sheet(sheet *s)
                                .dpi = (uint32_t)settings->dpi.value,
                                .max_plans = max_plans(settings)};
     tn_job_show(s->job);
-    if (tn_plans_draw(s->schema, s->plans, s->count, &options, &(tn_picture){.path = settings->output}, &error) !=
-        TN_OK)
+    if (tn_plans_draw(s->schema, s->drawn.plans, s->drawn.count, &options, &(tn_picture){.path = settings->output},
+                      &error) != TN_OK)
         tn_job_fail(s->job, &error);
 }
 
@@ -226,7 +184,7 @@ static void draw_sample(tn_job *job)
         sheet s = {.job = job, .schema = ready.schema, .library = ready.record};
         if (sample_plans(&s, &ready))
             draw_sheet(&s);
-        sheet_clear(&s);
+        tn_sheet_clear(&s.drawn);
     }
     tn_library_close(&ready);
 }
@@ -247,12 +205,12 @@ static void draw_file(tn_job *job, const char *path)
         if (library != UINT32_MAX)
             s.library = &job->opened.module->LIBRARY_records[library];
         if (read_plans(&s, path)) {
-            if (s.count == 0 && job->exit_code == TN_EXIT_DONE)
+            if (s.drawn.count == 0 && job->exit_code == TN_EXIT_DONE)
                 tn_job_note(job, "no plans came from %.200s: the sheet is empty",
                             strcmp(path, "-") == 0 ? "standard input" : path);
             draw_sheet(&s);
         }
-        sheet_clear(&s);
+        tn_sheet_clear(&s.drawn);
     } else {
         tn_job_fail(job, &error);
     }
@@ -326,58 +284,32 @@ static bool check_options(tn_job *job)
 
 /* ---- forms */
 
-/* What a file says: plans, a design of boxes, or a surface. */
-typedef enum subject { PLANS, SOLID, FIELD, SUBJECT_COUNT } subject;
-
-static subject subject_of(const tn_job *job)
-{
-    return tn_job_has_surface(job) ? FIELD : job->opened.module->SOLID_count > 0 ? SOLID : PLANS;
-}
-
 /* Options that say something about one or two of the subjects only. */
-static bool check_use(tn_job *job, subject asked)
+static bool check_use(tn_job *job)
 {
-    enum { OF_PLANS = 1 << PLANS, OF_SOLIDS = 1 << SOLID, OF_FIELDS = 1 << FIELD };
-    static const char *const subjects[] = {"plans and rules", "a design of boxes", "a field"};
-    static const char *const files[] = {"",
-                                        "plans (.plan)",
-                                        "designs of boxes (.solid)",
-                                        "plans and designs of boxes",
-                                        "fields (.field)",
-                                        "plans and fields",
-                                        "designs of boxes and fields"};
     const draw_settings *s = settings_of(job);
-    const struct {
-        bool given;
-        unsigned of;
-        const char *name;
-    } uses[] = {
-        {s->rules.count > 0, OF_PLANS, "rule"},
-        {s->plans.library != NULL, OF_PLANS, "library"},
-        {s->sample.given, OF_PLANS, "sample"},
-        {s->sampled.per_length.given, OF_PLANS, "per-length"},
-        {s->paper != NULL, OF_PLANS, "paper"},
-        {s->scale.given, OF_PLANS, "scale"},
-        {s->max_plans.given, OF_PLANS, "max-plans"},
-        {s->columns.given, OF_PLANS | OF_SOLIDS, "columns"},
-        {s->solid != NULL, OF_SOLIDS, "solid"},
-        {s->sheet, OF_SOLIDS, "sheet"},
-        {s->before, OF_SOLIDS, "before"},
-        {s->exploded, OF_SOLIDS, "exploded"},
-        {s->max_boxes.given, OF_SOLIDS, "max-boxes"},
-        {s->azimuth.given, OF_SOLIDS | OF_FIELDS, "azimuth"},
-        {s->elevation.given, OF_SOLIDS | OF_FIELDS, "elevation"},
-        {s->width.given, OF_SOLIDS | OF_FIELDS, "width"},
-        {s->surface != NULL, OF_FIELDS, "surface"},
-        {s->grid.given, OF_FIELDS, "grid"},
+    const tn_option_use uses[] = {
+        {s->rules.count > 0, TN_OF_PLANS, "rule"},
+        {s->plans.library != NULL, TN_OF_PLANS, "library"},
+        {s->sample.given, TN_OF_PLANS, "sample"},
+        {s->sampled.per_length.given, TN_OF_PLANS, "per-length"},
+        {s->paper != NULL, TN_OF_PLANS, "paper"},
+        {s->scale.given, TN_OF_PLANS, "scale"},
+        {s->max_plans.given, TN_OF_PLANS, "max-plans"},
+        {s->columns.given, TN_OF_PLANS | TN_OF_SOLIDS, "columns"},
+        {s->solid != NULL, TN_OF_SOLIDS, "solid"},
+        {s->sheet, TN_OF_SOLIDS, "sheet"},
+        {s->before, TN_OF_SOLIDS, "before"},
+        {s->exploded, TN_OF_SOLIDS, "exploded"},
+        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
+        {s->azimuth.given, TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
+        {s->elevation.given, TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
+        {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
+        {s->surface != NULL, TN_OF_FIELDS, "surface"},
+        {s->grid.given, TN_OF_FIELDS, "grid"},
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        if (!uses[i].given || uses[i].of >> asked & 1)
-            continue;
-        tn_diagnostic *d = tn_job_usage(job, "--%s does nothing for %s", uses[i].name, subjects[asked]);
-        tn_help(tn_job_diagnostics(job), d, "leave --%s out: it is for %s", uses[i].name, files[uses[i].of]);
+    if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
         return false;
-    }
     if (s->sheet + s->before + s->exploded > 1) {
         tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
         return false;
@@ -441,10 +373,9 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         return tn_job_end(&job);
-    static void (*const draw[SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
-    subject asked = subject_of(&job);
-    if (check_use(&job, asked))
-        draw[asked](&job);
+    static void (*const draw[TN_SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
+    if (check_use(&job))
+        draw[tn_job_subject(&job)](&job);
     return tn_job_end(&job);
 }
 

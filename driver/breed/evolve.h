@@ -57,6 +57,7 @@ typedef struct tn_evolution_job_options {
     bool only_replay;         /* no evaluating: scores will be recalled */
     uint64_t objectives;      /* then: how many the run has */
     const char *stored_seeds; /* the text of the seeds' file, where it is known already; or NULL */
+    bool remembers;           /* whoever was born can be chosen as a parent later */
 } tn_evolution_job_options;
 
 /* Makes the job of a study at `path` (data files lie relative to it), with its grammar's module. */
@@ -95,9 +96,8 @@ typedef struct tn_run_texts {
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                        tn_run *run, tn_error *error);
 
-/* Makes and stores the next generation, bred from the members chosen where a person chose (places from 0; NULL:
- * selection). */
-tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error);
+/* Makes and stores the next generation, bred from the parents chosen where a person chose (NULL: selection). */
+tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error);
 
 /* Changes a target or weight of a run that has begun, as "length-weight 0.01": all members are scored again, and the
  * change is stored with the next generation. A change that holds already changes nothing, so that the same words may be

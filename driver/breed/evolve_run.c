@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "compiler/evolution/evolution.h"
+#include "driver/breed/choice.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/inputs.h"
 #include "runtime/base/array.h"
@@ -76,7 +77,7 @@ static tn_status same_arithmetic(const tn_run *run, tn_error *error)
             "the run in %.200s was made with arithmetic %d, and this Tartan has arithmetic %d: sines and exponentials "
             "differ in their last digits",
             run->dir, was, TN_NUMERIC_VERSION);
-    tn_error_help(error, "go on with the Tartan that began it, or start another run with -o DIR");
+    tn_error_help(error, "continue with the version of Tartan that began it, or start another run with -o DIR");
     return TN_INVALID;
 }
 
@@ -178,7 +179,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     if (run->generations == 0 || !evaluator->adjust) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing, building and learning"
+        tn_error_help(error, run->generations ? "targets and weights are for growing, building and learning"
                                               : "change the study itself");
         return TN_INVALID;
     }
@@ -229,15 +230,12 @@ static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error 
 
 static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error *error)
 {
-    tn_genome places = {0}; /* numbers parted by blanks, which is how genomes are read */
-    tn_status status = tn_genome_read(event->text, strlen(event->text), &places, error);
-    uint32_t *chosen = calloc(places.count + 1, sizeof *chosen);
-    for (size_t i = 0; chosen && i < places.count; i++)
-        chosen[i] = (uint32_t)(places.codons[i] - 1);
+    tn_choices choices = {0};
+    char wrong[40];
+    tn_status status = tn_choices_read(event->text, &choices, wrong, error);
     if (status == TN_OK)
-        status = chosen ? tn_evolution_choose(run->evolution, chosen, places.count, error) : tn_fail_memory(error);
-    free(chosen);
-    tn_genome_clear(&places);
+        status = tn_evolution_choose(run->evolution, choices.items, choices.count, error);
+    tn_choices_clear(&choices);
     return status;
 }
 
@@ -253,6 +251,9 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
         status = tn_run_store_scores(run->store, run->job->evaluator.objectives, &scores, error);
     if (status == TN_OK)
         status = tn_run_store_events(run->store, &events, &event_count, error);
+    for (size_t i = 0; i < event_count; i++)
+        if (strcmp(events[i].kind, "choose") == 0 && tn_choices_have_ids(events[i].text))
+            tn_evolution_remember(run->evolution);
     tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
     for (size_t at = 0; status == TN_OK && run->generations < count; run->generations++) {
         if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
@@ -357,21 +358,9 @@ tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_opti
 
 /* ---- going on */
 
-static char *places_text(const uint32_t *chosen, size_t count)
+tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error)
 {
-    char *text = malloc(count * 12 + 1);
-    size_t size = 0;
-    if (!text)
-        return NULL;
-    text[0] = '\0';
-    for (size_t i = 0; i < count; i++)
-        size += (size_t)sprintf(text + size, i ? " %u" : "%u", chosen[i] + 1);
-    return text;
-}
-
-tn_status tn_run_step(tn_run *run, const uint32_t *chosen, size_t chosen_count, tn_error *error)
-{
-    char kind[] = "choose", *text = chosen ? places_text(chosen, chosen_count) : NULL;
+    char kind[] = "choose", *text = chosen ? tn_choices_text(chosen, chosen_count) : NULL;
     size_t count = run->new_changes;
     tn_run_event *events = calloc(count + 1, sizeof *events);
     if (!events || (chosen && !text)) {

@@ -15,6 +15,8 @@ typedef struct teller {
     const tn_module *module;
     const tn_schema *schema;
     const tn_plan_analysis_finding *finding;
+    const tn_plan_analysis *analysis; /* it is number `index` of these */
+    uint32_t index;
 } teller;
 
 /* ---- names and places */
@@ -231,7 +233,7 @@ static tn_status tell_empty(const teller *t)
         tn_span place = clause_span(t, f->reasons[i]);
         const char *name = clause_name(t, f->reasons[i]);
         if (!f->plans[i].shown)
-            tn_note(list_of(t), d, &place, "`%s` is one of those that see to it", name);
+            tn_note(list_of(t), d, &place, "`%s` is one of the clauses that do this", name);
         snprintf(what, sizeof what,
                  f->reason_count == 1 ? "`%s` keeps out all plans, for example"
                                       : "without `%s` the others here would leave",
@@ -303,17 +305,61 @@ static tn_status tell_no_tray(const teller *t)
     return TN_OK;
 }
 
+static bool has_cause_of(const tn_plan_analysis_finding *a, const tn_plan_analysis_finding *b)
+{
+    return a->found == TN_FOUND_NOT_ANALYSED && b->found == TN_FOUND_NOT_ANALYSED &&
+           a->why->code_offset == b->why->code_offset && strcmp(a->why->message, b->why->message) == 0;
+}
+
+static const char *subject_name(const teller *t, const tn_plan_analysis_finding *f)
+{
+    teller other = *t;
+    other.finding = f;
+    return f->rule != TN_NO_RECORD ? rule_name(t, f->rule) : library_name(&other);
+}
+
+/* Rules that call one which is past a limit are past it for the same reason: one note tells of all of them. */
+enum { NAMES_SHOWN = 3 };
+
+/* Writes "`a` is", "`a` and `b` are" or "`a`, `b`, `c` and 12 more are"; false where an earlier finding has told it. */
+static bool name_subjects(const teller *t, char *names, size_t size)
+{
+    uint32_t same[NAMES_SHOWN], count = 0;
+    for (uint32_t i = 0; i < tn_plan_analysis_count(t->analysis); i++) {
+        if (!has_cause_of(tn_plan_analysis_get(t->analysis, i), t->finding))
+            continue;
+        if (count == 0 && i != t->index)
+            return false;
+        if (count < NAMES_SHOWN)
+            same[count] = i;
+        count++;
+    }
+    size_t at = 0;
+    uint32_t shown = count < NAMES_SHOWN ? count : NAMES_SHOWN;
+    for (uint32_t i = 0; i < shown && at < size; i++)
+        at += (size_t)snprintf(names + at, size - at, "%s`%s`",
+                               i == 0           ? ""
+                               : i + 1 == count ? " and "
+                                                : ", ",
+                               subject_name(t, tn_plan_analysis_get(t->analysis, same[i])));
+    if (at < size && count > shown)
+        at += (size_t)snprintf(names + at, size - at, " and %u more", count - shown);
+    if (at < size)
+        snprintf(names + at, size - at, count == 1 ? " is" : " are");
+    return true;
+}
+
 static tn_status tell_not_analysed(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
-    bool is_rule = f->rule != TN_NO_RECORD;
-    const char *name = is_rule ? rule_name(t, f->rule) : library_name(t);
-    tn_diagnostic *d =
-        tn_report_bare(list_of(t), TN_NOTE, TN_CODE_NONE, "`%s` is not analysed: %s", name, f->why->message);
+    char names[512];
+    if (!name_subjects(t, names, sizeof names))
+        return TN_OK;
+    tn_diagnostic *d = tn_report_bare(list_of(t), TN_NOTE, TN_CODE_NONE, "%s not analysed: %s", names, f->why->message);
     d->limit = true;
     d->has_span = tn_code_span(t->opened, f->why->code_offset, &d->span);
     if (!d->has_span) {
-        d->span = is_rule ? rule_span(t, f->rule) : library_span(t);
+        d->span = f->rule != TN_NO_RECORD ? rule_span(t, f->rule) : library_span(t);
         d->has_span = true;
     }
     if (f->why->help[0])
@@ -378,7 +424,12 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan
         return status;
     status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
-        teller t = {opened, opened->module, analyses->schemas[at], tn_plan_analysis_get(analyses->items[at], i)};
+        teller t = {opened,
+                    opened->module,
+                    analyses->schemas[at],
+                    tn_plan_analysis_get(analyses->items[at], i),
+                    analyses->items[at],
+                    (uint32_t)i};
         status = tell(&t);
         if (status == TN_MEMORY)
             tn_fail_memory(error);

@@ -23,7 +23,7 @@ static bool add(gathering *g, tn_drawn_reason reason)
     return reason.text != NULL;
 }
 
-static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth)
+static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth, bool drops)
 {
     const tn_why *node = &why->nodes[index];
     char text[TN_PART_TEXT_MAX];
@@ -34,6 +34,7 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
                               .evidence = evidence.data,
                               .depth = depth + 1,
                               .matched = node->matched,
+                              .drops = drops,
                               .marks = node->stretch_count ? why->stretches + node->stretch_first : NULL,
                               .mark_count = tn_words_places(why, node) ? node->stretch_count : 0,
                               .region = node->region};
@@ -48,13 +49,14 @@ static bool add_rule(gathering *g, const tn_explained_rule *rule, bool full)
 {
     tn_explain_rows rows = {0};
     tn_buffer evidence = {0};
+    bool prunes = rule->drops && rule->holds;
     tn_buffer_printf(&evidence, "%s", rule->doc);
-    bool ok = add(
-        g, (tn_drawn_reason){
-               .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = rule->drops});
+    bool ok =
+        add(g, (tn_drawn_reason){
+                   .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = prunes});
     ok = ok && !evidence.failed && tn_explain_rows_make(&rule->why, full, &rows);
     for (uint32_t i = 0; ok && i < rows.count; i++)
-        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i]);
+        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i], prunes);
     tn_explain_rows_clear(&rows);
     return ok;
 }
@@ -79,7 +81,7 @@ tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture
     for (size_t i = 0; ok && i < explained->count; i++)
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
-    const tn_drawn_plan plan = {explained->trays, explained->length, NULL, NULL};
+    const tn_drawn_plan plan = {.trays = explained->trays, .length = explained->length};
     tn_status status = ok && !title.failed
                            ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
                            : tn_fail_memory(error);

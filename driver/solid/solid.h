@@ -12,7 +12,7 @@
 /* The design of this name, or the file's only one where that is NULL. What is wrong is reported (E1513). */
 tn_status tn_solid_choose(tn_opened *opened, const char *name, uint32_t *solid);
 
-/* Warns of what a person who placed boxes may not have meant: W151 to W155, and E1512 where nothing is left. */
+/* Warns of what a person who placed boxes may not have meant: W161 to W165, and E1512 where nothing is left. */
 tn_status tn_solid_report(tn_opened *opened, uint32_t most);
 
 typedef struct tn_solid_tally {

@@ -195,7 +195,7 @@ static void find_problem(findings *f)
         first = first == TN_SETTING_COUNT ? starts[i] : first;
     }
     if (first == TN_SETTING_COUNT)
-        find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what is wanted",
+        find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what to evolve towards",
              "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, or "
              "`keep \"PLANS\"` with "
              "`drop \"PLANS\"`");

@@ -22,10 +22,14 @@ typedef struct tn_mesh_style {
     const char *const *notes; /* how it was made: a comment line each, where the format has comments */
     size_t note_count;
     bool normals;
-    const double *vertex_normals; /* [vertex_count][3]; NULL: the faces' means (tn_mesh_normals) */
-    bool y_up;                    /* turn z up to y up (GLB always is, 3MF never) */
-    tn_mesh_unit unit;            /* only 3MF says it */
+    const double *vertex_normals;      /* [vertex_count][3]; NULL: the faces' means (tn_mesh_normals) */
+    bool y_up;                         /* turn z up to y up (GLB always is, 3MF never) */
+    tn_mesh_unit unit;                 /* only 3MF says it */
+    const unsigned char (*colours)[3]; /* [group_count] of PLY and GLB; NULL: tn_group_colour */
 } tn_mesh_style;
+
+/* The colour of a group in the style. */
+void tn_mesh_style_colour(const tn_mesh_style *style, uint32_t group, unsigned char rgb[3]);
 
 /* The normals that the style asks for, or NULL. The caller frees them. TN_MEMORY. */
 tn_status tn_mesh_style_normals(const tn_mesh *mesh, const tn_mesh_style *style, double **normals, tn_error *error);

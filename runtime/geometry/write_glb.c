@@ -51,7 +51,7 @@ static void say_notes(text *json, const tn_mesh_style *style)
     say(json, "]}},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],");
 }
 
-static void say_primitives(text *json, const size_t *counts, uint32_t groups, bool normals)
+static void say_primitives(text *json, const tn_mesh_style *style, const size_t *counts, uint32_t groups, bool normals)
 {
     uint32_t accessor = normals ? 2 : 1, made = 0;
     say(json, "\"meshes\":[{\"primitives\":[");
@@ -69,7 +69,7 @@ static void say_primitives(text *json, const size_t *counts, uint32_t groups, bo
         if (!counts[g])
             continue;
         if (groups > 1)
-            tn_group_colour(g, rgb);
+            tn_mesh_style_colour(style, g, rgb);
         say(json,
             "%s{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],"
             "\"metallicFactor\":0,\"roughnessFactor\":0.9}}",
@@ -175,7 +175,7 @@ static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style
             counts[mesh->face_group ? mesh->face_group[f] : 0]++;
         fill(mesh, normals, counts, groups, binary, low, high);
         say_notes(&json, style);
-        say_primitives(&json, counts, groups, normals != NULL);
+        say_primitives(&json, style, counts, groups, normals != NULL);
         say_accessors(&json, mesh, low, high, counts, groups, normals != NULL);
         status = tn_watch_check(mesh->watch, error);
         if (status == TN_OK)

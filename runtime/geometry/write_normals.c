@@ -17,3 +17,11 @@ tn_status tn_mesh_style_normals(const tn_mesh *mesh, const tn_mesh_style *style,
     memcpy(*normals, style->vertex_normals, 3 * mesh->vertex_count * sizeof **normals);
     return TN_OK;
 }
+
+void tn_mesh_style_colour(const tn_mesh_style *style, uint32_t group, unsigned char rgb[3])
+{
+    if (style->colours)
+        memcpy(rgb, style->colours[group], 3);
+    else
+        tn_group_colour(group, rgb);
+}

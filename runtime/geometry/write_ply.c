@@ -31,10 +31,10 @@ static void put_point(byte_out *out, const double *p, bool y_up)
     tn_put_u64(to + 16, tn_bits_of(y_up ? -p[1] : p[2]));
 }
 
-static void put_colour(byte_out *out, uint32_t group)
+static void put_colour(byte_out *out, const tn_mesh_style *style, uint32_t group)
 {
     unsigned char rgb[3];
-    tn_group_colour(group, rgb);
+    tn_mesh_style_colour(style, group, rgb);
     memcpy(room(out, 3), rgb, 3);
 }
 
@@ -56,7 +56,7 @@ static void write_header(const tn_mesh *mesh, const tn_mesh_style *style, FILE *
     fputs("end_header\n", out);
 }
 
-static void write_face(byte_out *out, const tn_mesh *mesh, size_t face, bool large)
+static void write_face(byte_out *out, const tn_mesh *mesh, const tn_mesh_style *style, size_t face, bool large)
 {
     uint32_t first = mesh->face_first[face], end = mesh->face_first[face + 1];
     if (large)
@@ -66,7 +66,7 @@ static void write_face(byte_out *out, const tn_mesh *mesh, size_t face, bool lar
     for (uint32_t c = first; c < end; c++)
         tn_put_u32(room(out, 4), mesh->corners[c]);
     if (mesh->face_group)
-        put_colour(out, mesh->face_group[face]);
+        put_colour(out, style, mesh->face_group[face]);
 }
 
 tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FILE *stream, tn_error *error)
@@ -90,12 +90,12 @@ tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FIL
                 put_point(out, normals + 3 * v, style->y_up);
         }
         for (size_t f = 0; f < mesh->face_count && !out->failed && !tn_watch_stopped_at(mesh->watch, f); f++)
-            write_face(out, mesh, f, large);
+            write_face(out, mesh, style, f, large);
         for (size_t l = 0; l < mesh->line_count && !out->failed && !tn_watch_stopped_at(mesh->watch, l); l++) {
             tn_put_u32(room(out, 4), mesh->lines[2 * l]);
             tn_put_u32(room(out, 4), mesh->lines[2 * l + 1]);
             if (mesh->line_group)
-                put_colour(out, mesh->line_group[l]);
+                put_colour(out, style, mesh->line_group[l]);
         }
         fwrite(out->bytes, 1, out->used, stream);
     }

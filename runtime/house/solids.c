@@ -29,7 +29,8 @@ double tn_fraction_value(tn_fraction fraction)
 
 const char *tn_solid_kind_text(tn_solid_kind kind)
 {
-    static const char *const words[] = {"outside", "party", "partition", "post", "deck", "roofdeck", "item", "roof"};
+    static const char *const words[] = {"outside",  "party", "partition", "post", "deck",
+                                        "roofdeck", "item",  "roof",      "pane", "leaf"};
     return words[kind];
 }
 

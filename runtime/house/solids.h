@@ -26,6 +26,8 @@ typedef enum tn_solid_kind {
     TN_SOLID_ROOFDECK,
     TN_SOLID_ITEM,
     TN_SOLID_ROOF,
+    TN_SOLID_PANE, /* of windows: runtime/house/model/model.h adds them and leaves */
+    TN_SOLID_LEAF, /* of doors */
     TN_SOLID_COUNT
 } tn_solid_kind;
 

@@ -65,6 +65,17 @@ typedef struct tn_view_options {
     tn_legend legend; /* count 0: none */
 } tn_view_options;
 
+/* Paints a view on a canvas: model units times `scale` are points, and the eye's origin lies at (x, y). palette:
+ * colours of groups, in sRGB; NULL: as in tn_views_draw. line: how thick edges are, in points. */
+typedef struct tn_view_place {
+    double x, y, scale, line;
+    double ambient; /* 0 to 1: this share of the light comes from all around */
+    const double (*palette)[3];
+} tn_view_place;
+
+struct tn_canvas;
+void tn_view_paint(const struct tn_canvas *canvas, const tn_view *view, const tn_view_place *place);
+
 /* Draws views side by side, all to one scale. */
 tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
                         tn_error *error);

@@ -139,10 +139,17 @@ static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face 
 
 /* Fills a face and draws its edges, runs of one colour at a time. Where it was cut, a hairline of its own colour closes
  * the seam that smoothed edges would leave. */
-static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double line, double hairline)
+static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const tn_view_place *place,
+                       double line, double hairline)
 {
+    const double(*palette)[3] = place->palette;
+    double light = place->ambient + (1 - place->ambient) * (double)face->light;
     outline(cr, view, face);
-    set_face_colour(cr, face);
+    if (palette)
+        cairo_set_source_rgb(cr, light * palette[face->group][0], light * palette[face->group][1],
+                             light * palette[face->group][2]);
+    else
+        set_face_colour(cr, face);
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
     cairo_fill(cr);
     cairo_set_line_width(cr, hairline);
@@ -160,6 +167,19 @@ static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
     }
 }
 
+void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_place *place)
+{
+    cairo_t *cr = tn_canvas_context(canvas);
+    cairo_save(cr);
+    cairo_translate(cr, place->x, place->y);
+    cairo_scale(cr, place->scale, -place->scale);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
+        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, HAIRLINE / place->scale);
+    cairo_restore(cr);
+}
+
 /* `label` is written below the view; NULL for none. */
 static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet *s, double x, double y,
                        const char *label)
@@ -170,15 +190,9 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
     double line = 0.8;
     if (view->face_count > 300)
         line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
-    cairo_save(cr);
-    cairo_translate(cr, left, top + high);
-    cairo_scale(cr, s->scale, -s->scale);
-    cairo_translate(cr, -view->low[0], -view->low[1]);
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
-        paint_face(cr, view, &view->faces[f], line / s->scale, HAIRLINE / s->scale);
-    cairo_restore(cr);
+    tn_view_place place = {
+        left - view->low[0] * s->scale, top + high + view->low[1] * s->scale, s->scale, line, 0, NULL};
+    tn_view_paint(canvas, view, &place);
     if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
         tn_type_face(cr, 9, false);

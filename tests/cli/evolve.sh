@@ -101,11 +101,19 @@ tail -n 1 replay.txt | cmp -s - one/best/1.txt || fail "the replayed individual 
 sed 's/population 60/population 12/' hello.study > hand.study
 printf '1 2*3 5\nx\n13\n4 4 6\n\n' | "$TARTAN" breed hand.study -o hand > hand.txt || fail "cannot breed"
 [ -f hand/sheet-0002.svg ] || fail "no sheet of the third generation"
-grep -q 'is no choice' hand.txt || fail "does not refuse a wrong choice"
+grep -q 'is not a choice' hand.txt || fail "does not refuse a wrong choice"
 printf '1 2*3 5\n' | "$TARTAN" breed hand.study -o hand2 > /dev/null
 printf '4 4 6\n\n' | "$TARTAN" breed hand.study -o hand2 --resume > /dev/null || fail "cannot go on breeding"
 cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"
 "$TARTAN" runs replay hand 30 > /dev/null || fail "cannot replay a choice"
+printf '2 #5 3@0.5\n#99\n#5 #11*2\n#3 1\n\n' | "$TARTAN" breed hand.study -o ids > ids.txt || fail "cannot choose by id"
+grep -q 'does not weigh its parents' ids.txt || fail "weighs the parents of codons"
+grep -q 'nobody with the id 99' ids.txt || fail "takes an id that nobody has"
+printf '#5 #11*2\n' | "$TARTAN" breed hand.study -o ids2 > /dev/null
+printf '#3 1\n\n' | "$TARTAN" breed hand.study -o ids2 --resume > /dev/null || fail "cannot go on with ids"
+cmp -s ids/run.sqlite ids2/run.sqlite || fail "choices by id are not made again"
+"$TARTAN" evolve hand.study -o ids2 --resume -g 4 > /dev/null || fail "evolve cannot go on with choices by id"
+"$TARTAN" runs replay ids2 30 > /dev/null || fail "cannot replay a choice by id"
 
 # ---- interrupted where it asks: what was chosen stays, and the answer is not waited for
 mkfifo answers

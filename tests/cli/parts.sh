@@ -21,6 +21,7 @@ part() {
 }
 
 part draw draw lahave-houses --sample 2 --seed 7 -o "$scratch/sheet.svg"
+part draw house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window" -o "$scratch/house.svg"
 part draw grow square -n 1 -o "$scratch/surface.png"
 part mesh grow square -n 1 -o "$scratch/surface.stl"
 part mesh grow square -n 1 --smooth 2 -o "$scratch/smooth.obj"

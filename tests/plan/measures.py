@@ -120,6 +120,29 @@ def check_complete(seed, case, pattern, wanted):
         check_best(seed, case, ["--least", "x0", "--where", "plan [%s]" % pattern], wanted["least_x0"])
 
 
+def check_choices(seed, case, pattern):
+    """The least x0 that each choice leaves, against the list of all completions: for the trays before the first gap,
+    whose places are known; for the others the least of all values of a field."""
+    out = asked(seed, "complete --least " + pattern, "complete", case, pattern, "--library", "kept", "--json", "--least", "x0")
+    plans = asked(seed, "best of " + pattern, "best", case, "100000", "--library", "kept", "--least", "x0", "--where",
+                  "plan [%s]" % pattern, "--format", "json")
+    if not out or not plans:
+        return
+    listed = [(Fraction(v), p.split(" | ")) for v, p in lines_of(plans, False)]
+    known = pattern.split(" | ").index("...") if "..." in pattern.split(" | ") else 100
+    for k, tray in enumerate(json.loads(out)["trays"]):
+        for column, (field, values) in enumerate(tray.items()):
+            found = {v: Fraction(c["best"]) for v, c in values.items() if c["best"] is not None}
+            same(seed, "best of the choices of " + pattern, min(found.values(), default=None), min((v for v, p in listed), default=None))
+            if k >= known:
+                continue
+            wanted = {}
+            for v, p in listed:
+                cell = p[k].split(" ")[column]
+                wanted[cell] = min(v, wanted.get(cell, v))
+            same(seed, "best of each %s of %s" % (field, pattern), found, wanted)
+
+
 def check(seed, folder):
     measures.main(seed, folder)
     case = os.path.join(folder, "case.plan")
@@ -151,6 +174,7 @@ def check(seed, folder):
         check_pareto(seed, case, ["--least", "x0", "--most", "x1", "--least", "x2"], expect["pareto3_least_x0_most_x1_least_x2"])
     for pattern, wanted in list(expect["complete"].items()) + list(expect["complete_best"].items()):
         check_complete(seed, case, pattern, wanted)
+        check_choices(seed, case, pattern)
 
 
 with tempfile.TemporaryDirectory() as folder:

@@ -33,8 +33,16 @@ static void note_call(tn_check *check, tn_checked_rule *rule, size_t errors)
         return;
     tn_span place = rule->call->node.span;
     tn_note(diagnostics, &diagnostics->items[diagnostics->count - 1], &place, "%s",
-            rule->of->is_template ? "it is called here" : "it is used here");
+            rule->of->is_template ? "it is called here"
+            : rule->listed        ? "trays of this schema have it too"
+                                  : "it is used here");
     rule->of->failed = true;
+}
+
+/* Is it a rule of an older schema, written out for a newer one? Then it was warned about where it is. */
+static bool is_taken_over(const tn_checked_rule *rule)
+{
+    return rule->hidden && !rule->of->is_template;
 }
 
 static void check_rule(tn_check *check, tn_checked_rule *rule)
@@ -43,6 +51,7 @@ static void check_rule(tn_check *check, tn_checked_rule *rule)
     check->rule = rule;
     check->allow = rule->ast->allow;
     check->schema = rule->schema;
+    check->quiet = is_taken_over(rule);
     if (rule->hidden && rule->of->failed) {
         rule->ast->body->kind = TN_EXPR_BROKEN;
         return;
@@ -57,6 +66,7 @@ static void check_rule(tn_check *check, tn_checked_rule *rule)
     else
         tn_check_expr(check, rule->ast->body);
     note_call(check, rule, errors);
+    rule->failed |= check->diagnostics->error_count > errors;
 }
 
 /* What needs callees to be checked before their callers. */
@@ -66,6 +76,7 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     check->rule = rule;
     check->schema = rule->schema;
     check->allow = rule->ast->allow;
+    check->quiet = is_taken_over(rule);
     tn_ast_expr *body = rule->ast->body;
     size_t errors = check->diagnostics->error_count;
     rule->meaning = body->kind != TN_EXPR_NAME ? body : body->rule ? body->rule->meaning : NULL;
@@ -75,7 +86,7 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
         tn_check_plan_measure(check, rule);
     if (rule->is_measure && rule->form) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, body->node.span,
-                                     "a measure is of plans, and this asks for cells of houses");
+                                     "a measure is about plans, and this asks for cells of houses");
         tn_help(check->diagnostics, d, "write a rule with a condition, such as `quantity(cell(...), n > 1)`");
     }
     rule->about_plan = tn_check_whole(check, body) && !rule->is_measure;
@@ -121,11 +132,13 @@ void tn_check_settle(tn_check *check)
 {
     tn_checked *result = check->result;
     size_t ordered = result->ordered;
+    bool quiet = check->quiet;
     for (; result->rule_count > result->settled && !tn_arena_failed(check->arena); result->settled++)
         check_rule(check, result->rules[result->settled]);
     tn_check_order(check);
     for (size_t i = ordered; i < result->ordered; i++)
         check_meaning(check, result->order[i]);
+    check->quiet = quiet;
 }
 
 tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
@@ -143,9 +156,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
-    static void (*const steps[])(tn_check *) = {tn_check_forms,          find_schemas,   tn_check_settle,
-                                                tn_check_libraries,      tn_check_asked, tn_check_unused,
-                                                tn_check_number_records, tn_check_tests, tn_check_allowances};
+    static void (*const steps[])(tn_check *) = {
+        tn_check_forms, find_schemas,    tn_check_older_measures, tn_check_settle, tn_check_libraries,
+        tn_check_asked, tn_check_unused, tn_check_number_records, tn_check_tests,  tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

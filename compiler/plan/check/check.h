@@ -31,7 +31,8 @@ typedef struct tn_checked_field {
     tn_field_role role;
     tn_checked_value *values;
     uint32_t value_count;
-    uint32_t first_bit; /* of its values in the schema's masks */
+    uint32_t older_count; /* of them: values that the schema it is made from has */
+    uint32_t first_bit;   /* of its values in the schema's masks */
 } tn_checked_field;
 
 typedef struct tn_checked_spec {
@@ -46,6 +47,7 @@ typedef struct tn_checked_spec {
 /* A number of a tray: its cases in order, the first that fits counts. */
 typedef struct tn_checked_number {
     const tn_ast_number *ast;
+    const struct tn_checked_schema *of; /* the schema that declares it */
     const char *name, *doc;
     int power;
     tn_checked_spec **specs; /* of each case */
@@ -56,11 +58,13 @@ typedef struct tn_checked_schema {
     const tn_ast_schema *ast;
     const char *name, *doc;
     size_t unit;
+    struct tn_checked_schema *base; /* the schema that it is made from, or NULL */
     tn_checked_field *fields;
     uint32_t field_count;
     uint32_t value_count, words; /* over all fields; 64-bit words of a mask */
     uint32_t length_field;       /* the first of kind length, or TN_NONE */
     tn_checked_spec **forbids;
+    tn_span *forbid_places;
     uint32_t forbid_count;
     tn_checked_number *numbers;
     uint32_t number_count;
@@ -129,11 +133,12 @@ typedef struct tn_checked_rule {
     bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
     bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
-    bool hidden;                /* made of a call: it has no record of its own */
+    bool hidden;                /* made of a call, or of a rule of an older schema: the file does not name it */
+    bool listed;                /* of a hidden measure: it has a record all the same */
     bool about_plan;            /* has a comparison that speaks of the whole plan */
     bool failed;                /* of a template: a call of it was wrong inside */
     const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
-    struct tn_checked_rule *of; /* the template that a hidden rule was made of */
+    struct tn_checked_rule *of; /* the template, or rule of an older schema, that a hidden rule was made of */
     tn_checked_sum *sum;        /* of a measure; NULL: already reported */
     struct tn_checked_form *form; /* whose houses it is about; NULL: it is about plans */
     uint32_t serial;              /* among all that is checked as rules are */
@@ -144,6 +149,9 @@ typedef struct tn_checked_clause {
     const tn_ast_clause *ast;
     tn_clause_kind kind;
     const char *name, *doc;
+    size_t unit;                           /* the file that it is in */
+    const struct tn_checked_schema *older; /* the schema that it was written for */
+    tn_ast_expr *written;                  /* before anything was written out */
     tn_ast_expr *expr;
     tn_checked_rule *rule;           /* the clause is this rule's */
     tn_checked_condition *condition; /* total */
@@ -224,6 +232,8 @@ typedef struct tn_check {
     tn_names calls;  /* key -> tn_checked_rule made of a call */
     size_t expanded; /* calls and values of quantifiers written out so far */
     bool has_lets;
+    bool extends;                /* some schema is made from another */
+    bool quiet;                  /* what is being checked was checked before for an older schema: no warnings */
     tn_checked_rule **templates; /* rules with parameters */
     size_t template_count;
     const tn_checked_rule *open; /* the call that is being written out, or NULL */
@@ -261,7 +271,20 @@ bool tn_check_wanted(const tn_check *check, tn_code warning); /* is it not allow
 
 /* ---- schema.c */
 void tn_check_schema(tn_check *check, tn_checked_schema *schema);
+
+/* ---- trays.c */
 void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
+void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
+
+/* ---- extend.c: schemas made from others */
+/* Finds the schema that it is made from, and checks that first; reports circles. */
+void tn_check_base(tn_check *check, tn_checked_schema *schema);
+bool tn_schema_extends(const tn_checked_schema *schema, const tn_checked_schema *older); /* not the same one */
+/* How the schema takes the words of a text written for `older` (NULL: for itself): an older word keeps its meaning. */
+const tn_checked_schema *tn_schema_of_word(const tn_checked_schema *schema, const tn_checked_schema *older,
+                                           const char *word);
+void tn_check_older_fields(tn_check *check, tn_checked_schema *schema); /* each `... |` has older values */
+void tn_check_older_measures(tn_check *check); /* measures of older schemas, for the plans of those made from them */
 
 /* ---- values.c: fields and values by name, and in words */
 uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);
@@ -276,7 +299,9 @@ void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_a
 bool tn_word_is(const tn_ast_word *word, const char *text); /* case does not count */
 
 /* ---- spec.c */
-tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray);
+/* older: the schema that the words are of; NULL: this one. */
+tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
+                               const tn_ast_expr *tray);
 /* One alternative of an item, from `first` on, for whoever puts items together in another way: the trays that meet it.
  * `context`: the field and fill of the alternatives before it in the item (field TN_NONE: none). NULL: reported. */
 typedef struct tn_item_context {
@@ -322,17 +347,16 @@ void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray); /* takes the
 /* Comparisons with `matches` stand only where the plan as a whole is meant. Is one in it? */
 bool tn_check_whole(tn_check *check, const tn_ast_expr *expr);
 
-/* ---- numbers.c */
-void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
-
 /* ---- expand.c: calls, values of `let`, quantifiers */
 void tn_expand(tn_check *check, tn_ast_expr **expr);
+/* What a clause of a library for the schema `older` means for the schema at hand. */
+tn_ast_expr *tn_expand_older(tn_check *check, const tn_ast_expr *written, size_t unit, const tn_checked_schema *older);
+/* The measure for the schema at hand; NULL: reported. */
+tn_checked_rule *tn_expand_older_measure(tn_check *check, tn_checked_rule *measure);
 tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: reported */
 #define TN_PARAMETERS_MAX 16                                      /* of a rule */
 
 /* ---- check.c */
-/* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
-void tn_check_let(tn_check *check, const tn_ast_expr *value);
 /* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
 void tn_check_let(tn_check *check, const tn_ast_expr *value);
 void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */

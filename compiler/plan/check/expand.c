@@ -58,7 +58,8 @@ static tn_checked_rule *rule_named(const tn_rule_expansion *expansion, const tn_
 
 static bool needs_expansion(const tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
-    if (expr->kind == TN_EXPR_CALL || expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH)
+    if (expr->kind == TN_EXPR_CALL || expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH ||
+        expansion->check->extends) /* for another schema it is written out from what stands in the file */
         return true;
     if (expr->kind == TN_EXPR_NAME || expr->kind == TN_EXPR_FIGURE) {
         const tn_checked_rule *rule = expr->kind == TN_EXPR_NAME ? rule_named(expansion, expr->name) : NULL;
@@ -89,8 +90,10 @@ static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *exp
         return NULL;
     *copy = *expr;
     copy->node.next = NULL;
-    if (!copy->unit)
+    if (!copy->unit) {
         copy->unit = expansion->unit + 1;
+        copy->older = expansion->older;
+    }
     if (copy->rule && !copy->rule->hidden) /* it was checked where it was written; here it may mean something else */
         copy->rule = NULL;
     copy->spec = NULL;
@@ -187,8 +190,8 @@ static bool bound_names_good(tn_rule_expansion *expansion, const tn_ast_expr *qu
 {
     bool good = true;
     for (TN_EACH(const tn_ast_word, word, quantifier->names))
-        good &= tn_check_new_word(expansion->check, expansion->check->schema, word,
-                                  expansion->bindings != NULL && tn_bound(expansion, word).value);
+        good &= tn_check_new_word(expansion->check, expansion->older ? expansion->older : expansion->check->schema,
+                                  word, expansion->bindings != NULL && tn_bound(expansion, word).value);
     return good;
 }
 
@@ -220,7 +223,7 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
     uint32_t field = schema ? tn_field_find(schema, expr->name->text) : TN_NONE;
     if (schema && field == TN_NONE && !schema->broken) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span,
-                                     "`%s` is no field of schema `%s`", expr->name->text, schema->name);
+                                     "`%s` is not a field of schema `%s`", expr->name->text, schema->name);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
         tn_help(check->diagnostics, d, "a quantifier goes through the values of a field: `some v in %s (...)`",
                 schema->field_count ? schema->fields[0].name : "width");
@@ -244,7 +247,7 @@ static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr
     if (!lengths && expr->op != TN_EQUAL && expr->op != TN_UNEQUAL) {
         tn_check *check = expansion->check;
         tn_diagnostic *d =
-            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values have no size to compare");
+            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values cannot be compared by size");
         tn_help(check->diagnostics, d, "lengths are compared by order; names and zones by `=` and `!=`");
         return broken(expansion, expr);
     }
@@ -299,7 +302,13 @@ static void report_circle(tn_rule_expansion *expansion, const tn_ast_expr *call,
     tn_help(check->diagnostics, d, "write out what one of them means instead of naming the other");
 }
 
-/* The rule made for the template (or older rule) with these arguments; NULL: reported. */
+/* The schema, where that in use is made from it; else NULL. */
+static const tn_checked_schema *older_schema(const tn_check *check, const tn_checked_schema *schema)
+{
+    return schema && tn_schema_extends(check->schema, schema) ? schema : NULL;
+}
+
+/* The rule made for the template, or for a rule of an older schema, with these arguments; NULL: reported. */
 static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of,
                                  tn_ast_list arguments)
 {
@@ -310,12 +319,10 @@ static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr
         return rule;
     size_t deep = 0;
     for (const tn_checked_rule *open = check->open; open; open = open->outer, deep++) {
-        if (open->of != of || of->schema != check->schema)
+        if (open->of != of || !of->is_template)
             continue;
-        if (of->is_template) {
-            report_circle(expansion, call, of);
-            return NULL;
-        }
+        report_circle(expansion, call, of);
+        return NULL;
     }
     if (deep > CALLS_DEEP) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_DEEP, call->node.span,
@@ -333,7 +340,7 @@ static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr
     check->open = rule;
     tn_bound_name bindings[TN_PARAMETERS_MAX];
     size_t count = 0;
-    tn_rule_expansion inner = {.check = check, .unit = of->unit};
+    tn_rule_expansion inner = {.check = check, .unit = of->unit, .older = older_schema(check, of->schema)};
     tn_ast_expr *argument = (tn_ast_expr *)arguments.first;
     for (TN_EACH(const tn_ast_word, word, of->ast->params)) {
         bindings[count] = (tn_bound_name){.outer = inner.bindings, .word = word, .value = argument};
@@ -384,7 +391,8 @@ static tn_ast_expr *expand_call(tn_rule_expansion *expansion, const tn_ast_expr 
     tn_check *check = expansion->check;
     size_t unit = check->unit;
     check->unit = call->unit ? call->unit - 1 : expansion->unit;
-    const tn_checked_name *name = tn_check_call_name(check, call);
+    const tn_checked_name *name =
+        call->kind == TN_EXPR_CALL ? tn_check_call_name(check, call) : tn_check_name(check, call->name, TN_WANT_RULE);
     check->unit = unit;
     if (!name || !arguments_fit(expansion, call, name->rule, call->parts.count))
         return broken(expansion, call);
@@ -415,11 +423,14 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     }
     if (bound.value) {
         tn_rule_expansion none = {.check = expansion->check,
-                                  .unit = expansion->unit}; /* what is bound is written out already */
+                                  .unit = expansion->unit,
+                                  .older = expansion->older}; /* what is bound is written out already */
         return expand(&none, bound.value);
     }
     tn_checked_rule *rule = rule_named(expansion, expr->name);
     if (rule && rule->is_template)
+        return expand_call(expansion, expr);
+    if (rule && !rule->is_let && !rule->form && older_schema(expansion->check, rule->schema))
         return expand_call(expansion, expr);
     return shallow(expansion, expr);
 }
@@ -456,7 +467,7 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         tn_bound_name bound = expr->detail ? (tn_bound_name){0} : tn_bound(expansion, expr->name);
         if (!bound.value)
             break;
-        tn_rule_expansion none = {.check = expansion->check, .unit = expansion->unit};
+        tn_rule_expansion none = {.check = expansion->check, .unit = expansion->unit, .older = expansion->older};
         return expand(&none, bound.value);
     }
     default:
@@ -493,4 +504,20 @@ void tn_expand(tn_check *check, tn_ast_expr **expr)
     tn_ast_expr *made = expand(&expansion, *expr);
     if (made)
         *expr = made;
+}
+
+tn_ast_expr *tn_expand_older(tn_check *check, const tn_ast_expr *written, size_t unit, const tn_checked_schema *older)
+{
+    tn_rule_expansion expansion = {.check = check, .unit = unit, .older = older};
+    return expand(&expansion, written);
+}
+
+tn_checked_rule *tn_expand_older_measure(tn_check *check, tn_checked_rule *measure)
+{
+    tn_rule_expansion expansion = {.check = check, .unit = measure->unit};
+    tn_ast_expr *place = TN_NEW(check->arena, tn_ast_expr);
+    if (!place)
+        return NULL;
+    place->node.span = check->schema->ast->from->node.span;
+    return instance(&expansion, place, measure, tn_ast_empty());
 }

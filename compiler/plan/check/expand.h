@@ -17,8 +17,9 @@ typedef struct tn_bound_name {
 
 typedef struct tn_rule_expansion {
     tn_check *check;
-    const tn_bound_name *bindings; /* innermost first */
-    size_t unit;                   /* the file whose words are being read */
+    const tn_bound_name *bindings;  /* innermost first */
+    size_t unit;                    /* the file whose words are being read */
+    const tn_checked_schema *older; /* the schema that they are of; NULL: that in use */
 } tn_rule_expansion;
 
 /* What a word stands for where it is read; value NULL where it stands for itself. */

@@ -80,6 +80,7 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     put_number(t, expr->op);
     put_number(t, expr->rule && expr->rule->hidden ? (long long)expr->rule->serial : -1);
     put_number(t, (long long)expr->unit);
+    put_number(t, expr->older ? (long long)expr->older->index : -1);
     put_word(t, expr->name);
     put_word(t, expr->detail);
     for (TN_EACH(const tn_ast_item, item, expr->items))

@@ -78,13 +78,20 @@ static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
     tn_check_warnings(check, expr);
 }
 
+/* A clause that is a rule's name has its name and text; but not one that calls a rule with arguments. */
+static void take_rule(tn_checked_clause *clause)
+{
+    tn_checked_rule *rule = clause->expr->kind == TN_EXPR_NAME ? clause->expr->rule : NULL;
+    if (rule && (!rule->hidden || !rule->of->is_template))
+        clause->rule = rule;
+}
+
 static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast, tn_checked_clause *clause)
 {
     check_clause_expr(check, ast);
     clause->expr = ast->expr;
-    if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule &&
-        (!ast->expr->rule->hidden || !ast->expr->rule->of->is_template)) {
-        clause->rule = ast->expr->rule;
+    take_rule(clause);
+    if (clause->rule) {
         clause->name = clause->rule->name;
         if (!clause->doc && clause->rule->ast->doc)
             clause->doc = clause->rule->ast->doc->text;
@@ -186,6 +193,9 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
     *clause = (tn_checked_clause){.ast = ast,
                                   .kind = kinds[ast->form],
                                   .doc = ast->doc ? ast->doc->text : NULL,
+                                  .unit = library->unit,
+                                  .older = library->schema,
+                                  .written = ast->expr,
                                   .span = ast->node.span,
                                   .field = TN_NONE};
     if (clause->kind != TN_CLAUSE_TOTAL)
@@ -229,6 +239,62 @@ static void stand_in_form(tn_check *check, tn_checked_library *library, tn_check
     }
 }
 
+/* A clause of a library for an older schema, for the schema of this one. */
+static tn_checked_clause *renew(tn_check *check, const tn_checked_library *library, const tn_checked_clause *old)
+{
+    tn_ast_clause *ast = TN_NEW(check->arena, tn_ast_clause);
+    tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
+    if (!ast || !clause)
+        return NULL;
+    *clause = *old;
+    *ast = *old->ast;
+    clause->ast = ast;
+    clause->rule = NULL;
+    check->schema = library->schema;
+    check->unit = old->unit;
+    check->quiet = true;
+    if (old->written) {
+        ast->expr = tn_expand_older(check, old->written, old->unit, old->older);
+        if (ast->expr)
+            check_clause_expr(check, ast);
+        clause->expr = ast->expr;
+        if (clause->expr)
+            take_rule(clause);
+    } else {
+        clause->condition = tn_check_total(check, ast, clause->field);
+        clause->any = tn_check_any(check, library->schema, ast->node.span);
+    }
+    check->quiet = false;
+    return clause;
+}
+
+/* `using NEWER from LIBRARY`: is the schema made from that of the library? */
+static bool find_newer(tn_check *check, tn_checked_library *library, const tn_checked_library *from)
+{
+    const tn_ast_word *using = library->ast->using;
+    library->schema = from->schema;
+    tn_checked_schema *newer = using ? tn_check_schema_for(check, library->unit, using, using->node.span) : NULL;
+    if (!newer || !from->schema || newer == from->schema)
+        return false;
+    if (tn_schema_extends(newer, from->schema) && !from->form) {
+        library->schema = newer;
+        return true;
+    }
+    tn_diagnostic *d = from->form
+                           ? tn_report(check->diagnostics, E_OTHER_SCHEMA, using->node.span,
+                                       "houses of form `%s` are of schema `%s`", from->form->name, from->schema->name)
+                           : tn_report(check->diagnostics, E_OTHER_SCHEMA, using->node.span,
+                                       "library `%s` is of schema `%s`, and schema `%s` is not made from that",
+                                       from->name, from->schema->name, newer->name);
+    tn_note(check->diagnostics, d, &from->ast->name->node.span, "library `%s` is here", from->name);
+    if (from->form)
+        tn_help(check->diagnostics, d, "leave `using %s` out", newer->name);
+    else
+        tn_help(check->diagnostics, d, "leave `using %s` out, or declare `schema %s from %s { ... }`", newer->name,
+                newer->name, from->schema->name);
+    return false;
+}
+
 /* Takes over the clauses of another library. */
 static void take_over(tn_check *check, tn_checked_library *library)
 {
@@ -248,7 +314,7 @@ static void take_over(tn_check *check, tn_checked_library *library)
     }
     check_library(check, name->library);
     tn_checked_library *from = library->from = name->library;
-    library->schema = from->schema;
+    bool newer = find_newer(check, library, from);
     library->form = from->form;
     library->plans = from->form ? from->plans : NULL;
     if (library->ast->in)
@@ -256,8 +322,11 @@ static void take_over(tn_check *check, tn_checked_library *library)
     library->trays = from->trays;
     library->trays_min = from->trays_min;
     library->trays_max = from->trays_max;
-    for (size_t i = 0; i < from->clause_count && !library->form == !from->form; i++)
-        put_clause(check, library, from->clauses[i]);
+    for (size_t i = 0; i < from->clause_count && !library->form == !from->form; i++) {
+        tn_checked_clause *clause = newer ? renew(check, library, from->clauses[i]) : from->clauses[i];
+        if (clause)
+            put_clause(check, library, clause);
+    }
 }
 
 /* Recursion is as deep as libraries are made from each other: at most TN_LIBRARIES_MAX. */

@@ -231,11 +231,10 @@ static bool check_legal(tn_tray_reader *tray, tn_span place)
     const tn_checked_schema *schema = tray->schema;
     if (schema->broken)
         return false;
-    const tn_ast_node *forbid = schema->ast->body.forbids.first;
-    for (uint32_t i = 0; i < schema->forbid_count; i++, forbid = forbid->next) {
+    for (uint32_t i = 0; i < schema->forbid_count; i++) {
         if (!meets(schema, schema->forbids[i], tray->values))
             continue;
-        report_forbidden(tray, schema->forbids[i], place, forbid->span);
+        report_forbidden(tray, schema->forbids[i], place, schema->forbid_places[i]);
         return false;
     }
     return true;

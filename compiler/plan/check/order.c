@@ -39,7 +39,8 @@ static void follow(tn_order_walk *walk, tn_checked_rule *rule)
         size_t start = walk->depth;
         while (walk->stack[start - 1] != used)
             start--;
-        report_circle(walk, start - 1);
+        if (!used->hidden || used->of->is_template) /* else it was, with the older rule */
+            report_circle(walk, start - 1);
         place->rule = NULL;
     }
 }

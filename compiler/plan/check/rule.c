@@ -147,7 +147,7 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
         return;
     else if (expr->kind == TN_EXPR_TRAY) {
         tn_check_tests_of_numbers(check, expr);
-        expr->spec = tn_check_spec(check, check->schema, expr);
+        expr->spec = tn_check_spec(check, check->schema, expr->older, expr);
     } else
         expr->spec = tn_check_any(check, check->schema, expr->node.span);
 }
@@ -291,7 +291,7 @@ static void check_symmetric(tn_check *check, const tn_ast_expr *symmetric)
     if (!meant || meant->kind == TN_EXPR_NEIGHBOUR || meant->kind == TN_EXPR_OCCURRENCES)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_SYMMETRIC_OF, part->node.span,
-                                 "`symmetric` is for a neighbour, and this is none");
+                                 "`symmetric` is for a neighbour, and this is not one");
     note_name(check, d, part);
     tn_help(check->diagnostics, d,
             "write `symmetric neighbour(...)`, or leave `symmetric` out: only an order can be mirrored");

@@ -1,4 +1,4 @@
-/* Schemas: fields, their values, roles, and the trays that are forbidden. */
+/* Schemas: fields, their values, roles; and the fields that a schema has from the one that it is made from. */
 #include <string.h>
 #include <strings.h>
 
@@ -6,6 +6,8 @@
 #include "compiler/plan/check/check.h"
 #include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
+
+enum { UNSEEN, OPEN, DONE };
 
 /* Words that specifiers need for themselves. */
 static bool is_reserved(const tn_ast_word *word)
@@ -197,7 +199,7 @@ static void report_bare(tn_check *check, const tn_ast_word *number)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, number->node.span, "`%s` has no unit", number->text);
     tn_help(check->diagnostics, d,
-            "a length has a unit, such as `%s'` or `%sm`; a value that is no length is a name, such as `one`",
+            "a length has a unit, such as `%s'` or `%sm`; a value that is not a length is a name, such as `one`",
             number->text, number->text);
 }
 
@@ -207,7 +209,8 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
     if (!name_is_good(check, schema, ast->word))
         return;
     const tn_checked_value *before = named(field, ast->word->text);
-    if (before) {
+    bool deeper = before && before < field->values + field->older_count && before->has_depth && ast->has_depths;
+    if (before && !deeper) {
         report_twice(check, schema, field, ast->word->node.span, "this fill", before->span);
         return;
     }
@@ -215,11 +218,17 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
                               .spelling = ast->word->text,
                               .measure = "",
                               .span = ast->word->node.span,
-                              .doc = ast->doc ? ast->doc->text : NULL};
-    value.role = ast->role ? (tn_fill_role)find_role(check, ast->role, fill_roles, TN_FILL_ROLE_COUNT) : TN_FILL_NONE;
+                              .doc = ast->doc ? ast->doc->text
+                                     : deeper ? before->doc
+                                              : NULL};
+    if (deeper && ast->role)
+        misplaced_role(check, ast->role, "the role of a fill stands where the fill is declared first");
+    else if (ast->role)
+        value.role = (tn_fill_role)find_role(check, ast->role, fill_roles, TN_FILL_ROLE_COUNT);
+    else if (deeper)
+        value.role = before->role;
     if (!ast->has_depths)
         add_value(check, schema, field, value);
-    uint32_t first = field->value_count;
     for (TN_EACH(const tn_ast_word, depth, ast->depths)) {
         if (depth->kind != TN_WORD_LENGTH || depth->broken) {
             schema->broken = true;
@@ -233,8 +242,8 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
             continue;
         }
         const tn_checked_value *same = NULL;
-        for (uint32_t i = first; i < field->value_count; i++)
-            if (field->values[i].length == depth->value)
+        for (uint32_t i = 0; i < field->value_count; i++)
+            if (field->values[i].length == depth->value && strcmp(field->values[i].name, value.name) == 0)
                 same = &field->values[i];
         if (same) {
             report_twice(check, schema, field, depth->node.span, "this depth", same->span);
@@ -295,7 +304,7 @@ static void check_zone_value(tn_check *check, tn_checked_schema *schema, tn_chec
     }
     schema->broken = true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_ZONE_LENGTH, value->node.span,
-                                 "a zone's alternatives are fills, and this is none");
+                                 "a zone's alternatives are fills, and this is not one");
     tn_help(check->diagnostics, d, "write the fill and its depths: `open(%s)`", value->word->text);
 }
 
@@ -307,27 +316,68 @@ static size_t count_values(const tn_ast_field *ast)
     return count < TN_VALUES_MAX ? count : TN_VALUES_MAX;
 }
 
+static void check_values(tn_check *check, tn_checked_schema *schema, tn_checked_field *field, const tn_ast_field *ast)
+{
+    for (TN_EACH(const tn_ast_value, value, ast->values)) {
+        if (field->kind == TN_FIELD_ZONE)
+            check_zone_value(check, schema, field, value);
+        else
+            check_plain_value(check, schema, field, value);
+    }
+}
+
+/* Makes the next field, with room for the values; its values follow one another in the schema's masks. */
+static tn_checked_field *begin_field(tn_check *check, tn_checked_schema *schema, tn_checked_field field, size_t values)
+{
+    tn_checked_field *made = &schema->fields[schema->field_count];
+    *made = field;
+    made->values = TN_NEW_ARRAY(check->arena, tn_checked_value, values < TN_VALUES_MAX ? values : TN_VALUES_MAX);
+    made->first_bit = schema->value_count;
+    return made->values ? made : NULL;
+}
+
+static void end_field(tn_checked_schema *schema)
+{
+    const tn_checked_field *field = &schema->fields[schema->field_count];
+    schema->value_count += field->value_count;
+    if (field->kind == TN_FIELD_LENGTH && schema->length_field == TN_NONE)
+        schema->length_field = schema->field_count;
+    schema->field_count++;
+}
+
+static void report_field_twice(tn_check *check, tn_checked_schema *schema, const tn_ast_field *ast, uint32_t before)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_FIELD, ast->name->node.span,
+                                 "there is a field `%s` already", ast->name->text);
+    bool older = schema->base && before < schema->base->field_count;
+    tn_note(check->diagnostics, d, &schema->fields[before].ast->name->node.span, "the first is here");
+    if (older && schema->fields[before].kind != TN_FIELD_FLAG && ast->form != TN_FORM_FLAG && !ast->extends)
+        tn_help(check->diagnostics, d, "to add values to it, begin with `...`: `%s%s = ... | %s`",
+                ast->form == TN_FORM_ZONE ? "zone " : "", ast->name->text,
+                ast->values.last ? ((const tn_ast_value *)ast->values.last)->word->text : "VALUE");
+    else
+        tn_help(check->diagnostics, d, "choose another name for one of the two");
+    schema->broken = true;
+}
+
 static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast_field *ast)
 {
     uint32_t before = tn_field_find(schema, ast->name->text);
     if (before != TN_NONE) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_FIELD, ast->name->node.span,
-                                     "there is a field `%s` already", ast->name->text);
-        tn_note(check->diagnostics, d, &schema->fields[before].ast->name->node.span, "the first is here");
-        tn_help(check->diagnostics, d, "choose another name for one of the two");
-        schema->broken = true;
+        report_field_twice(check, schema, ast, before);
         return;
     }
-    tn_checked_field *field = &schema->fields[schema->field_count];
-    *field = (tn_checked_field){.ast = ast, .name = ast->name->text, .doc = ast->doc ? ast->doc->text : NULL};
-    field->values = TN_NEW_ARRAY(check->arena, tn_checked_value, count_values(ast));
-    if (!field->values)
-        return;
     const tn_ast_value *first = (const tn_ast_value *)ast->values.first;
-    field->kind = ast->form == TN_FORM_FLAG                     ? TN_FIELD_FLAG
-                  : ast->form == TN_FORM_ZONE                   ? TN_FIELD_ZONE
-                  : !first || first->word->kind == TN_WORD_NAME ? TN_FIELD_CHOICE
-                                                                : TN_FIELD_LENGTH;
+    tn_field_kind kind = ast->form == TN_FORM_FLAG                     ? TN_FIELD_FLAG
+                         : ast->form == TN_FORM_ZONE                   ? TN_FIELD_ZONE
+                         : !first || first->word->kind == TN_WORD_NAME ? TN_FIELD_CHOICE
+                                                                       : TN_FIELD_LENGTH;
+    tn_checked_field *field = begin_field(
+        check, schema,
+        (tn_checked_field){.ast = ast, .name = ast->name->text, .doc = ast->doc ? ast->doc->text : NULL, .kind = kind},
+        count_values(ast));
+    if (!field)
+        return;
     name_is_good(check, schema, ast->name);
     if (field->kind == TN_FIELD_FLAG) {
         add_value(check, schema, field,
@@ -336,29 +386,95 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
             check, schema, field,
             (tn_checked_value){.name = field->name, .spelling = field->name, .measure = "", .span = ast->node.span});
     }
-    for (TN_EACH(const tn_ast_value, value, ast->values)) {
-        if (field->kind == TN_FIELD_ZONE)
-            check_zone_value(check, schema, field, value);
-        else
-            check_plain_value(check, schema, field, value);
-    }
+    check_values(check, schema, field, ast);
     check_field_role(check, field);
-    field->first_bit = schema->value_count;
-    schema->value_count += field->value_count;
-    if (field->kind == TN_FIELD_LENGTH && schema->length_field == TN_NONE)
-        schema->length_field = schema->field_count;
-    schema->field_count++;
+    end_field(schema);
+}
+
+/* ---- fields of an older schema */
+
+/* What the schema adds to the field that it has from an older one; NULL: nothing. */
+static const tn_ast_field *addition(tn_check *check, tn_checked_schema *schema, const tn_checked_field *older)
+{
+    const tn_ast_field *found = NULL;
+    for (TN_EACH(const tn_ast_field, field, schema->ast->body.fields)) {
+        if (!field->extends || strcmp(field->name->text, older->name) != 0)
+            continue;
+        if (!found) {
+            found = field;
+            continue;
+        }
+        tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_FIELD, field->name->node.span,
+                                     "values are added to `%s` twice", older->name);
+        tn_note(check->diagnostics, d, &found->name->node.span, "the first time is here");
+        tn_help(check->diagnostics, d, "write all new values of a field in one line");
+        schema->broken = true;
+    }
+    return found;
+}
+
+static bool addition_fits(tn_check *check, tn_checked_schema *schema, const tn_checked_field *older,
+                          const tn_ast_field *added)
+{
+    bool zone = older->kind == TN_FIELD_ZONE;
+    if (added->role)
+        misplaced_role(check, added->role, "the role of a field stands where the field is declared first");
+    tn_diagnostic *d = NULL;
+    if (older->kind == TN_FIELD_FLAG) {
+        d = tn_report(check->diagnostics, E_OLDER_VALUES, added->node.span, "`%s` is a flag: it has no more values",
+                      older->name);
+        tn_help(check->diagnostics, d, "leave this line out, or choose another name for a new field");
+    } else if (zone != (added->form == TN_FORM_ZONE)) {
+        d = tn_report(check->diagnostics, E_OLDER_VALUES, added->node.span, "`%s` is %s zone", older->name,
+                      zone ? "a" : "no");
+        tn_help(check->diagnostics, d, "write `%s%s = ... | ...`", zone ? "zone " : "", older->name);
+    } else if (!added->values.first) {
+        d = tn_report(check->diagnostics, E_OLDER_VALUES, added->node.span, "this adds no value to `%s`", older->name);
+        tn_help(check->diagnostics, d,
+                "write new values after `... |`, or leave the line out: a field without one stays as it is");
+    }
+    if (!d)
+        return true;
+    tn_note(check->diagnostics, d, &older->ast->name->node.span, "`%s` is declared here", older->name);
+    schema->broken = true;
+    return false;
+}
+
+static void take_over_field(tn_check *check, tn_checked_schema *schema, const tn_checked_field *older)
+{
+    const tn_ast_field *added = addition(check, schema, older);
+    tn_checked_field *field =
+        begin_field(check, schema, *older, older->value_count + (added ? count_values(added) : 0));
+    if (!field)
+        return;
+    memcpy(field->values, older->values, older->value_count * sizeof *field->values);
+    field->older_count = older->value_count;
+    if (added && added->doc)
+        field->doc = added->doc->text;
+    if (added && addition_fits(check, schema, older, added))
+        check_values(check, schema, field, added);
+    end_field(schema);
 }
 
 void tn_check_schema(tn_check *check, tn_checked_schema *schema)
 {
+    if (schema->state != UNSEEN)
+        return;
+    schema->state = OPEN;
     const tn_ast_body *body = &schema->ast->body;
     schema->broken = body->broken;
-    size_t room = body->fields.count < TN_FIELDS_MAX ? body->fields.count : TN_FIELDS_MAX;
-    schema->fields = TN_NEW_ARRAY(check->arena, tn_checked_field, room);
+    tn_check_base(check, schema);
+    uint32_t older = schema->base ? schema->base->field_count : 0;
+    size_t room = older + body->fields.count;
+    schema->fields = TN_NEW_ARRAY(check->arena, tn_checked_field, room < TN_FIELDS_MAX ? room : TN_FIELDS_MAX);
     if (!schema->fields)
         return;
+    for (uint32_t f = 0; f < older; f++)
+        take_over_field(check, schema, &schema->base->fields[f]);
+    tn_check_older_fields(check, schema);
     for (TN_EACH(const tn_ast_field, field, body->fields)) {
+        if (field->extends)
+            continue;
         if (schema->field_count == TN_FIELDS_MAX) {
             tn_diagnostic *d = tn_report(check->diagnostics, E_SCHEMA_TOO_LARGE, field->name->node.span,
                                          "this is one field more than the limit of %u", TN_FIELDS_MAX);
@@ -369,71 +485,11 @@ void tn_check_schema(tn_check *check, tn_checked_schema *schema)
         check_field(check, schema, field);
     }
     schema->words = (schema->value_count + 63) / 64;
-    if (body->fields.count == 0 && !schema->broken) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_SCHEMA, schema->ast->name->node.span,
-                                     "schema `%s` has no fields", schema->name);
-        tn_help(check->diagnostics, d, "write at least one, such as `width = 4' | 8' | 12'`");
-        schema->broken = true;
-    }
-}
-
-/* ---- forbidden trays */
-
-static bool forbids(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
-{
-    for (uint32_t f = 0; f < schema->field_count; f++) {
-        uint32_t bit = schema->fields[f].first_bit + values[f];
-        if (!(spec->mask[bit / 64] >> (bit % 64) & 1))
-            return false;
-    }
-    return true;
-}
-
-/* Looks for one legal tray, among so many combinations at most: a schema that needs longer has legal ones. */
-static bool has_legal_tray(const tn_checked_schema *schema)
-{
-    enum { TRIES = 1 << 16 };
-    uint8_t values[TN_FIELDS_MAX] = {0};
-    for (int tries = 0; tries < TRIES; tries++) {
-        bool legal = true;
-        for (uint32_t i = 0; i < schema->forbid_count && legal; i++)
-            legal = !forbids(schema, schema->forbids[i], values);
-        if (legal)
-            return true;
-        uint32_t f = schema->field_count;
-        while (f > 0 && ++values[f - 1] == schema->fields[f - 1].value_count)
-            values[--f] = 0;
-        if (f == 0)
-            return false;
-    }
-    return true;
-}
-
-void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
-{
-    const tn_ast_list *list = &schema->ast->body.forbids;
-    size_t room = list->count < TN_FORBIDS_MAX ? list->count : TN_FORBIDS_MAX;
-    schema->forbids = TN_NEW_ARRAY(check->arena, tn_checked_spec *, room);
-    if (!schema->forbids)
+    schema->state = DONE;
+    if (schema->field_count > 0 || schema->broken)
         return;
-    check->allow = tn_ast_empty();
-    for (TN_EACH(const tn_ast_forbid, forbid, *list)) {
-        if (!tn_check_room(check, schema->forbid_count, TN_FORBIDS_MAX, "`forbid`", forbid->node.span,
-                           "forbid several trays at once: `forbid tray(4' or 8', body dense)`")) {
-            schema->broken = true;
-            return;
-        }
-        tn_checked_spec *spec = tn_check_spec(check, schema, forbid->tray);
-        if (!spec)
-            return;
-        schema->broken |= spec->broken;
-        schema->forbids[schema->forbid_count++] = spec;
-    }
-    if (schema->broken || schema->forbid_count == 0 || has_legal_tray(schema))
-        return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NOTHING_LEGAL, schema->ast->name->node.span,
-                                 "schema `%s` forbids every tray", schema->name);
-    tn_note(check->diagnostics, d, &schema->forbids[schema->forbid_count - 1]->span, "the last `forbid` is here");
-    tn_help(check->diagnostics, d, "leave one `forbid` out, or narrow it with more items");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_EMPTY_SCHEMA, schema->ast->name->node.span,
+                                 "schema `%s` has no fields", schema->name);
+    tn_help(check->diagnostics, d, "write at least one, such as `width = 4' | 8' | 12'`");
     schema->broken = true;
 }

@@ -11,8 +11,9 @@
 typedef struct tn_item_reader {
     tn_check *check;
     const tn_checked_schema *schema;
-    uint32_t field;   /* TN_NONE: not known yet */
-    const char *fill; /* of the alternative before: `dense 4' or 8'` */
+    const tn_checked_schema *older; /* the schema that the words are of; NULL: this one */
+    uint32_t field;                 /* TN_NONE: not known yet */
+    const char *fill;               /* of the alternative before: `dense 4' or 8'` */
     bool chosen[TN_VALUES_MAX];
     bool found[TN_VALUES_MAX]; /* by the alternative at hand */
     bool loose;                /* what is left of the words is another item */
@@ -85,8 +86,9 @@ static bool set_field(tn_item_reader *item, uint32_t field, const tn_ast_word *w
 
 static bool length_field(tn_item_reader *item, const tn_ast_word *word)
 {
-    if (item->schema->length_field != TN_NONE)
-        return set_field(item, item->schema->length_field, word);
+    uint32_t field = (item->older ? item->older : item->schema)->length_field;
+    if (field != TN_NONE)
+        return set_field(item, field, word);
     if (item->schema->broken || word->broken)
         return false;
     tn_diagnostic *d = tn_report(item->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span,
@@ -99,7 +101,7 @@ static bool length_field(tn_item_reader *item, const tn_ast_word *word)
 static bool field_of_name(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
-    const tn_checked_schema *schema = item->schema;
+    const tn_checked_schema *schema = tn_schema_of_word(item->schema, item->older, word->text);
     if (item->field != TN_NONE && tn_field_has(&schema->fields[item->field], word->text))
         return true;
     uint32_t field = tn_field_find(schema, word->text);
@@ -333,7 +335,8 @@ static bool read_alternative(tn_item_reader *item, const tn_ast_alternative *alt
 static bool read_group(tn_item_reader *item, bool negated)
 {
     const tn_ast_word *word = next_word(item);
-    tn_item_reader inner = {.check = item->check, .schema = item->schema, .field = item->field, .made = item->made};
+    tn_item_reader inner = {
+        .check = item->check, .schema = item->schema, .older = item->older, .field = item->field, .made = item->made};
     bool good = true;
     for (TN_EACH(const tn_ast_alternative, alternative, word->group->alternatives))
         good &= read_alternative(&inner, alternative);
@@ -463,13 +466,15 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
 
 /* Leaves the values that an item lets in; items of one field mean both. In an open plan an item ends where it is whole.
  */
-static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_ast_item *ast, bool loose)
+static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_checked_schema *older,
+                           const tn_ast_item *ast, bool loose)
 {
     const tn_checked_schema *schema = spec->schema;
     tn_ast_alternative rest = {.node = ast->node};
     tn_ast_item one = *ast;
     for (;;) {
-        tn_item_reader item = {.check = check, .schema = schema, .field = TN_NONE, .made = ast->made, .loose = loose};
+        tn_item_reader item = {
+            .check = check, .schema = schema, .older = older, .field = TN_NONE, .made = ast->made, .loose = loose};
         if (!read_item(&item, &one)) {
             spec->broken = true;
             return;
@@ -485,7 +490,8 @@ static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_ast_
     }
 }
 
-tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *tray)
+tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
+                               const tn_ast_expr *tray)
 {
     tn_checked_spec *spec = new_spec(check, schema, tray->node.span);
     if (!spec)
@@ -493,7 +499,7 @@ tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const
     for (uint32_t f = 0; f < schema->field_count; f++)
         allow_all(spec, f);
     for (TN_EACH(const tn_ast_item, ast, tray->items))
-        narrow_by_item(check, spec, ast, tray->loose && ast->alternatives.count == 1);
+        narrow_by_item(check, spec, older, ast, tray->loose && ast->alternatives.count == 1);
     return share(check, spec);
 }
 

@@ -50,9 +50,8 @@ uint32_t tn_emit_spec(tn_emit *emit, tn_checked_spec *spec)
 static uint32_t emit_forbids(tn_emit *emit, tn_checked_schema *schema)
 {
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SPEC);
-    const tn_ast_node *forbid = schema->ast->body.forbids.first;
-    for (uint32_t i = 0; i < schema->forbid_count; i++, forbid = forbid->next) {
-        uint32_t index = add_spec(emit, schema->forbids[i], forbid->span);
+    for (uint32_t i = 0; i < schema->forbid_count; i++) {
+        uint32_t index = add_spec(emit, schema->forbids[i], schema->forbid_places[i]);
         if (schema->forbids[i]->index == TN_NONE)
             schema->forbids[i]->index = index;
     }
@@ -78,6 +77,7 @@ void tn_emit_schemas(tn_emit *emit)
                                                  .file = span.file,
                                                  .begin = span.begin,
                                                  .end = span.end,
+                                                 .from = schema->base ? schema->base->index : TN_NO_RECORD,
                                              });
     }
 }

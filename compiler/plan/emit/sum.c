@@ -176,7 +176,7 @@ void tn_emit_measures(tn_emit *emit)
     const tn_checked *checked = emit->checked;
     for (size_t i = 0; i < checked->rule_count; i++) {
         const tn_checked_rule *measure = checked->rules[i];
-        if (!measure->is_measure || measure->hidden)
+        if (!measure->is_measure || (measure->hidden && !measure->listed))
             continue;
         tn_span span = measure->ast->top.node.span;
         const tn_ast_word *doc = measure->ast->doc;

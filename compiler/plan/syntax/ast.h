@@ -166,6 +166,7 @@ typedef struct tn_ast_expr {
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;
     size_t unit; /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
+    const struct tn_checked_schema *older;          /* expanded: the schema that its words are of; NULL: that in use */
     struct tn_checked_rule *rule;                   /* checked: what a name means */
     struct tn_checked_ask *ask;                     /* checked: what is asked of houses; NULL: nothing */
     struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
@@ -210,7 +211,7 @@ typedef struct tn_ast_use {
 
 typedef struct tn_ast_value {
     tn_ast_node node;
-    const tn_ast_word *word;
+    const tn_ast_word *word; /* NULL: `...` */
     bool has_depths;
     tn_ast_list depths; /* tn_ast_word */
     const tn_ast_word *doc, *role;
@@ -223,6 +224,7 @@ typedef struct tn_ast_field {
     tn_field_form form;
     const tn_ast_word *name, *doc, *role;
     tn_ast_list values; /* tn_ast_value */
+    bool extends;       /* begins with `...`: the values that an older schema gives the field come first */
 } tn_ast_field;
 
 typedef struct tn_ast_forbid {
@@ -251,7 +253,7 @@ typedef struct tn_ast_body {
 
 typedef struct tn_ast_schema {
     tn_ast_top top;
-    const tn_ast_word *name, *doc;
+    const tn_ast_word *name, *doc, *from;
     tn_ast_body body;
 } tn_ast_schema;
 
@@ -399,8 +401,10 @@ void *tn_ast_use_new(tn_parse *parse, tn_span span, const tn_ast_word *path);
 void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_list *depths,
                        const tn_ast_word *doc, const tn_ast_word *role);
 void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values);
+/* from: the older schema, or NULL. */
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        tn_ast_body body);
+                        const tn_ast_word *from, tn_ast_body body);
+void *tn_ast_older_values(tn_parse *parse, tn_span span); /* `...` among the values of a field */
 void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases);
 void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray);
 tn_ast_body tn_ast_body_number(tn_ast_body body, void *number);

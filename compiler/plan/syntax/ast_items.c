@@ -43,11 +43,41 @@ void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, c
     return value;
 }
 
+void *tn_ast_older_values(tn_parse *parse, tn_span span)
+{
+    tn_ast_value *value = TN_NEW(parse->arena, tn_ast_value);
+    if (value)
+        *value = (tn_ast_value){.node.span = span};
+    return value;
+}
+
+/* Takes `...` out of a field's values. It stands first, once. */
+static tn_ast_list take_older(tn_parse *parse, tn_ast_list values, bool *extends)
+{
+    tn_ast_list taken = tn_ast_empty();
+    for (tn_ast_node *node = values.first, *next; node; node = next) {
+        next = node->next;
+        node->next = NULL;
+        if (((const tn_ast_value *)node)->word) {
+            taken = tn_ast_append(taken, node);
+            continue;
+        }
+        if (*extends || taken.count > 0) {
+            tn_diagnostic *d =
+                tn_report(parse->diagnostics, E_OLDER_VALUES, node->span, "`...` stands before all other values, once");
+            tn_help(parse->diagnostics, d, "the values of the older schema come first: `= ... | VALUE`");
+        }
+        *extends = true;
+    }
+    return taken;
+}
+
 void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values)
 {
     tn_ast_field *field = TN_NEW(parse->arena, tn_ast_field);
     if (!field || !head.name)
         return NULL;
+    values = take_older(parse, values, &head.extends);
     *field = head;
     field->node = (tn_ast_node){.span = span};
     field->form = form;
@@ -56,13 +86,13 @@ void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast
 }
 
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
-                        tn_ast_body body)
+                        const tn_ast_word *from, tn_ast_body body)
 {
     tn_ast_schema *schema = TN_NEW(parse->arena, tn_ast_schema);
     if (!schema || !name)
         return NULL;
-    *schema =
-        (tn_ast_schema){.top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .body = body};
+    *schema = (tn_ast_schema){
+        .top = {.node.span = span, .kind = TN_ITEM_SCHEMA}, .name = name, .doc = doc, .from = from, .body = body};
     return schema;
 }
 

@@ -42,6 +42,7 @@ static const struct {
      {"`-`", "`(`", "`not`", "a number", "a name", "a length", "an area", "a decimal number"}},
     {"a variable or a number", {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
     {"a number", {"`-`", "a number", "a length", "an area", "a decimal number"}},
+    {"`flag` or a value", {"`flag`", "`...`", "a length", "a name", "a number"}},
     {"a value",
      {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`not`", "`<`", "`<=`", "`=`",
       "`!=`", "`>=`", "`>`"}},
@@ -263,8 +264,6 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
 static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
-    if (parse->schema_head && strcmp(found, "`from`") == 0)
-        return "a schema is not made from another one: write all its fields between `{` and `}`";
     if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
         return "inside tray(...) the items are separated by commas: all of them must be met";
     if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
@@ -407,8 +406,8 @@ static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, con
     int size = (int)(found->after.end - found->after.begin);
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, found->after,
                                  slip   ? "`%.*s` cannot stand here"
-                                 : call ? "`%.*s` is no word of the language that `(` follows"
-                                        : "`%.*s` is no word of the language",
+                                 : call ? "the language has no `%.*s(...)`"
+                                        : "`%.*s` is not a word of the language",
                                  size, parse->text + found->after.begin);
     if (slip)
         advise_slip(parse, d, slip);

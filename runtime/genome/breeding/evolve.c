@@ -39,13 +39,13 @@ static bool allocate(tn_evolution *e)
     e->scratch = calloc(6 * n, sizeof *e->scratch);
     e->todo = calloc(n, sizeof *e->todo);
     e->hashes = calloc(n, sizeof *e->hashes);
-    e->breeders = calloc(e->threads, sizeof *e->breeders);
+    e->workplaces = calloc(e->threads, sizeof *e->workplaces);
     e->crew = tn_crew_new(e->threads, e->settings.watch);
     if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->hashes ||
-        !e->breeders || !e->crew)
+        !e->workplaces || !e->crew)
         return false;
     for (unsigned t = 0; t < e->threads; t++)
-        if (!(e->breeders[t] = tn_breeder_new(e->grammar, &e->analysis, &e->settings.mapping)))
+        if (!(e->workplaces[t] = e->kind->workplace_new(e->kind->context)))
             return false;
     return true;
 }
@@ -63,13 +63,13 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
     tn_evolution *e = calloc(1, sizeof *e);
     if (!e)
         return tn_fail_memory(error);
-    e->grammar = grammar;
     e->settings = *settings;
     e->evaluator = *evaluator;
     e->threads = settings->threads ? settings->threads : tn_crew_default();
     if (e->settings.elites > settings->population)
         e->settings.elites = settings->population;
-    tn_status status = tn_analyse(grammar, &e->analysis, error);
+    e->kind = settings->kind ? settings->kind : &e->own;
+    tn_status status = settings->kind ? TN_OK : tn_codon_kind_new(grammar, settings, &e->own, error);
     if (status == TN_OK && !allocate(e))
         status = tn_fail_memory(error);
     if (status != TN_OK) {
@@ -88,10 +88,12 @@ void tn_evolution_free(tn_evolution *e)
         tn_genome_clear(&e->all[i].genome);
         free(e->all[i].sentence);
     }
-    for (unsigned t = 0; e->breeders && t < e->threads; t++)
-        tn_breeder_free(e->breeders[t]);
+    for (unsigned t = 0; e->workplaces && t < e->threads; t++)
+        e->kind->workplace_free(e->workplaces[t]);
+    for (size_t i = 0; i < e->album_count; i++)
+        tn_genome_clear(&e->album[i]);
     tn_crew_free(e->crew);
-    tn_analysis_clear(&e->analysis);
+    tn_codon_kind_free(&e->own);
     tn_score_cache_clear(&e->cache);
     free(e->all);
     free(e->members);
@@ -101,8 +103,9 @@ void tn_evolution_free(tn_evolution *e)
     free(e->scratch);
     free(e->todo);
     free(e->hashes);
-    free(e->breeders);
+    free(e->workplaces);
     free(e->chosen);
+    free(e->album);
     free(e);
 }
 
@@ -110,24 +113,6 @@ void tn_evolution_recall(tn_evolution *e, tn_recall *recall, void *context)
 {
     e->recall = recall;
     e->recall_context = context;
-}
-
-tn_status tn_evolution_choose(tn_evolution *e, const uint32_t *places, size_t count, tn_error *error)
-{
-    for (size_t i = 0; i < count; i++)
-        if (places[i] >= e->member_count)
-            return tn_fail(error, TN_INVALID, E_NO_INDIVIDUAL,
-                           "there is no individual %u; they are numbered from 1 to %zu", places[i] + 1,
-                           e->member_count);
-    uint32_t *chosen = malloc((count ? count : 1) * sizeof *chosen);
-    if (!chosen)
-        return tn_fail_memory(error);
-    if (count)
-        memcpy(chosen, places, count * sizeof *chosen);
-    free(e->chosen);
-    e->chosen = chosen;
-    e->chosen_count = count;
-    return TN_OK;
 }
 
 /* ---- the order of merit */
@@ -164,6 +149,28 @@ static void keep_best(tn_evolution *e, tn_individual **from, size_t count, size_
 }
 
 /* ---- generations */
+
+/* The chosen parents stay, and their children take all other places. */
+static tn_status replace_chosen(tn_evolution *e, tn_error *error)
+{
+    size_t stay;
+    tn_status status = tn_evolution_bring_back(e, &stay, error);
+    if (status == TN_OK)
+        status = tn_evolution_score(e, e->pool, stay, error);
+    if (status != TN_OK)
+        return status;
+    tn_evolution_take_places(e, e->settings.population - stay);
+    status = tn_evolution_make(e, false, error);
+    if (status == TN_OK)
+        status = tn_evolution_score(e, e->born, e->born_count, error);
+    if (status != TN_OK)
+        return status;
+    for (size_t i = 0; i < e->member_count; i++)
+        e->members[i]->member = false;
+    memcpy(e->pool + stay, e->born, e->born_count * sizeof *e->pool);
+    keep_best(e, e->pool, stay + e->born_count, stay + e->born_count);
+    return TN_OK;
+}
 
 static tn_status replace_generation(tn_evolution *e, tn_error *error)
 {
@@ -207,7 +214,7 @@ static tn_status replace_steady(tn_evolution *e, tn_error *error)
         keep_best(e, e->pool, n + count, n);
     }
     e->births += n;
-    return TN_OK;
+    return tn_evolution_keep_born(e, error);
 }
 
 tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
@@ -225,8 +232,8 @@ tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
         return status;
     }
     e->generation++;
-    bool steady = e->settings.replacement == TN_REPLACE_STEADY && !e->chosen;
-    status = steady ? replace_steady(e, error) : replace_generation(e, error);
+    bool steady = e->settings.replacement == TN_REPLACE_STEADY && !e->chosen, stay = e->chosen && e->kind->parents_stay;
+    status = stay ? replace_chosen(e, error) : steady ? replace_steady(e, error) : replace_generation(e, error);
     free(e->chosen);
     e->chosen = NULL;
     return status;

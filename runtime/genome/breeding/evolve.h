@@ -1,4 +1,5 @@
-/* Evolution: a population of genomes, turned into sentences, evaluated and bred, generation after generation.
+/* Evolution: a population of genomes, turned into sentences, evaluated and bred, generation after generation. What a
+ * genome is, its kind says (kind.h).
  *
  * Every draw is keyed by what it is for, so that a run depends on its settings and seed alone and never on the number
  * of threads. A run is replayed by running it again with the evaluations recalled instead of done; that is also how it
@@ -70,8 +71,10 @@ typedef struct tn_evolution_settings {
     uint32_t elites; /* with generational replacement */
     tn_replacement replacement;
     tn_mapping_options mapping;
-    unsigned threads; /* 0: as many as there are */
-    tn_watch *watch;  /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
+    const tn_genome_kind *kind; /* of other genomes than codons, or NULL; borrowed */
+    bool remembers;             /* every genome that was ever born can be chosen as a parent, by its id */
+    unsigned threads;           /* 0: as many as there are */
+    tn_watch *watch;            /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u
@@ -94,9 +97,8 @@ typedef struct tn_individual {
     tn_score score;
     char message[200]; /* why it was not scored */
     bool member;
+    bool stayed; /* a person chose it as a parent, and it is on the next sheet too */
 } tn_individual;
-
-#define TN_NO_PARENT UINT64_MAX
 
 typedef struct tn_generation_stats {
     uint32_t generation;
@@ -111,7 +113,8 @@ typedef struct tn_generation_stats {
 
 typedef struct tn_evolution tn_evolution;
 
-/* Borrows grammar and settings' seeds, copies the rest. */
+/* Borrows grammar and settings' seeds, copies the rest. Where the settings have a kind of genome, the grammar is NULL.
+ */
 tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_settings *settings,
                            const tn_evaluator *evaluator, tn_evolution **evolution, tn_error *error);
 void tn_evolution_free(tn_evolution *evolution);
@@ -121,9 +124,19 @@ void tn_evolution_free(tn_evolution *evolution);
 typedef bool tn_recall(void *context, uint64_t id, tn_score *score);
 void tn_evolution_recall(tn_evolution *evolution, tn_recall *recall, void *context);
 
-/* The parents of the next generation, chosen by a person: members' places, each as often as it shall have children.
- * They are used for the next step only. */
-tn_status tn_evolution_choose(tn_evolution *evolution, const uint32_t *places, size_t count, tn_error *error);
+/* A parent that a person chose. */
+typedef struct tn_chosen {
+    bool by_id; /* `number` is an id of anybody who was ever born (settings.remembers), not a member's place */
+    uint64_t number;
+    double weight; /* of its material in its children; 1, or less */
+} tn_chosen;
+
+/* The parents of the next generation, chosen by a person, each as often as it shall have children. They are used for
+ * the next step only. */
+tn_status tn_evolution_choose(tn_evolution *evolution, const tn_chosen *chosen, size_t count, tn_error *error);
+
+/* From here on genomes are remembered. Before the first step. */
+void tn_evolution_remember(tn_evolution *evolution);
 
 /* Makes the first generation, then at each call the next. */
 tn_status tn_evolution_step(tn_evolution *evolution, tn_error *error);

@@ -1,6 +1,7 @@
 /* A run of evolution as its parts see it. Of no use elsewhere.
  *
  * evolve.c        moves it on, generation by generation
+ * evolve_choice.c takes parents that a person chose, and remembers genomes for that
  * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
  * evolve_stats.c  looks at it
@@ -9,27 +10,36 @@
 #define TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
 
 #include "runtime/base/crew.h"
-#include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/breeding/codon_kind.h"
 #include "runtime/genome/breeding/score_cache.h"
 
+/* A parent that a person chose. */
+typedef struct tn_chosen_parent {
+    uint64_t id;
+    double weight;
+    tn_individual *member; /* or NULL: it is remembered */
+} tn_chosen_parent;
+
 struct tn_evolution {
-    const tn_grammar *grammar;
-    tn_analysis analysis;
+    tn_genome_kind own; /* of codons, where the settings have no kind */
+    const tn_genome_kind *kind;
     tn_evolution_settings settings;
     tn_evaluator evaluator;
     unsigned threads;
     tn_crew *crew;
-    tn_breeder **breeders; /* by thread */
-    tn_individual *all;    /* twice the population */
+    void **workplaces;  /* of the kind, by thread */
+    tn_individual *all; /* twice the population */
     tn_individual **members, **born, **pool;
     size_t member_count, born_count;
     tn_merit *merits; /* of pool, or of members */
     uint32_t *scratch;
     uint32_t *todo; /* places in born that wait for their score */
     tn_score_cache cache;
-    uint32_t generation; /* of the members */
-    uint32_t *chosen;    /* by a person, or NULL */
+    uint32_t generation;      /* of the members */
+    tn_chosen_parent *chosen; /* by a person, or NULL */
     size_t chosen_count;
+    tn_genome *album; /* by id, where genomes are remembered */
+    size_t album_count;
     tn_recall *recall;
     void *recall_context;
     uint64_t evaluations, births;
@@ -41,6 +51,19 @@ void tn_evolution_take_places(tn_evolution *evolution, size_t count);
 
 /* Makes all to be born, with their sentences, in pairs, by all threads. */
 tn_status tn_evolution_make(tn_evolution *evolution, bool first, tn_error *error);
+
+/* Turns an individual's genome into its sentence. */
+tn_status tn_evolution_write(tn_evolution *evolution, unsigned thread, tn_individual *individual, tn_error *error);
+
+/* Remembers the genomes of those who were born, if that is wished. */
+tn_status tn_evolution_keep_born(tn_evolution *evolution, tn_error *error);
+
+/* The genome of a chosen parent. */
+const tn_genome *tn_evolution_chosen_genome(const tn_evolution *evolution, const tn_chosen_parent *parent);
+
+/* Puts the chosen parents into the pool, each once, at most half a population: those that are no members any more come
+ * back. Returns how many in *count. */
+tn_status tn_evolution_bring_back(tn_evolution *evolution, size_t *count, tn_error *error);
 
 /* Makes the children of one pair, with their sentences. */
 tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, tn_error *error);

@@ -308,7 +308,7 @@ static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chan
 static tn_status mutate(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, uint64_t used, tn_genome *genome,
                         bool *mutated, tn_error *error)
 {
-    tn_parent child = {genome, used};
+    tn_parent child = {genome, used, 1};
     size_t part = part_of(&child, o->within_used);
     switch (o->mutation) {
     case TN_MUTATE_CODONS:

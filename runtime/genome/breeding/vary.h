@@ -1,9 +1,10 @@
-/* Genetic operators: how two genomes make two others, and how one is changed. Each is a function of its inputs and of
- * the draws of one tn_chance, so that a run's genealogy can be replayed. */
+/* Genetic operators of codons: how two genomes make two others, and how one is changed. Each is a function of its
+ * inputs and of the draws of one tn_chance, so that a run's genealogy can be replayed. */
 #ifndef TARTAN_GENOME_BREEDING_VARY_H
 #define TARTAN_GENOME_BREEDING_VARY_H
 
 #include "runtime/genome/breeding/initialise.h"
+#include "runtime/genome/breeding/kind.h"
 #include "runtime/genome/mapping/span.h"
 
 typedef enum tn_crossover {
@@ -39,21 +40,6 @@ typedef struct tn_breeder tn_breeder;
 tn_breeder *tn_breeder_new(const tn_grammar *grammar, const tn_analysis *analysis, const tn_mapping_options *mapping);
 void tn_breeder_free(tn_breeder *breeder);
 tn_mapper *tn_breeder_mapper(tn_breeder *breeder);
-
-typedef struct tn_parent {
-    const tn_genome *genome;
-    uint64_t used; /* codons that mapping read; 0 where it is not valid (then all count) */
-} tn_parent;
-
-typedef enum tn_birth_kind {
-    TN_BIRTH_RANDOM,
-    TN_BIRTH_TREE,
-    TN_BIRTH_SEED,
-    TN_BIRTH_CLONE,
-    TN_BIRTH_CROSSED
-} tn_birth_kind;
-
-#define TN_BIRTH_MUTATED 16 /* is added to the kind */
 
 /* Makes two children of two parents, mutated already. `kinds` says what was done (tn_birth_kind, TN_BIRTH_MUTATED). */
 tn_status tn_breed(tn_breeder *breeder, const tn_vary_options *options, tn_chance *chance, const tn_parent parents[2],

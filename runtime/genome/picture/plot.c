@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/draw/axis.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 
@@ -46,19 +47,6 @@ static bool value_of(const chart *c, size_t i, bool mean, double *value)
     return c->stats[i].scored > 0 && isfinite(*value);
 }
 
-/* 1, 2 or 5 times a power of ten, so that at most `ticks` of them fit into the range. */
-static double round_step(double range, double ticks)
-{
-    double step = 1;
-    while (step * ticks < range)
-        step *= 10;
-    while (step / 10 * ticks >= range && step > 1e-12)
-        step /= 10;
-    if (step / 5 * ticks >= range)
-        return step / 5;
-    return step / 2 * ticks >= range ? step / 2 : step;
-}
-
 static int compare_numbers(const void *a, const void *b)
 {
     const double *x = a, *y = b;
@@ -90,7 +78,7 @@ static void find_range(chart *c, double *scratch)
         c->low = 0; /* what is aimed at */
     if (!(c->high > c->low))
         c->high = c->low + 1;
-    c->step = round_step(c->high - c->low, TICKS_Y);
+    c->step = tn_axis_step(c->high - c->low, TICKS_Y);
     c->low = floor(c->low / c->step) * c->step;
     c->high = ceil(c->high / c->step) * c->step;
 }
@@ -112,7 +100,7 @@ static void draw_axes(const chart *c)
         snprintf(text, sizeof text, "%.6g", fabs(value) < c->step / 1000 ? 0 : value);
         tn_type_line(t, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
     }
-    double apart = c->count > 1 ? fmax(1, round_step((double)(c->count - 1), TICKS_X)) : 1;
+    double apart = c->count > 1 ? fmax(1, tn_axis_step((double)(c->count - 1), TICKS_X)) : 1;
     for (double i = 0; i < (double)c->count; i += apart) {
         snprintf(text, sizeof text, "%.0f", i);
         tn_type_line(t, x_of(c, (size_t)i), HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, text);

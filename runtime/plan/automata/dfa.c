@@ -9,8 +9,10 @@
 
 tn_bounds tn_bounds_make(uint32_t max_states)
 {
-    return (tn_bounds){
-        .max_states = max_states, .max_transitions = UINT64_C(1) << 26, .max_work = UINT64_C(2000000000)};
+    return (tn_bounds){.max_states = max_states,
+                       .max_transitions = UINT64_C(1) << 26,
+                       .max_words = UINT64_C(1) << 26,
+                       .max_work = UINT64_C(2000000000)};
 }
 
 tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, uint64_t columns, uint64_t work,

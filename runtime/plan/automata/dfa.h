@@ -31,12 +31,14 @@ typedef struct tn_dfa {
 typedef struct tn_bounds {
     uint32_t max_states;      /* of any intermediate automaton */
     uint64_t max_transitions; /* states times columns of any intermediate automaton */
+    uint64_t max_words;       /* of 32 bits, in the sets that name the states of a subset construction */
     uint64_t max_work;        /* elementary steps in all */
     uint64_t work;
     tn_watch *watch; /* or NULL: gives up (TN_STOPPED) once this says so */
 } tn_bounds;
 
-/* The defaults for everything but the states: 64 M transitions (256 MB), 2 G steps (a minute at most). */
+/* The defaults for everything but the states: 64 M transitions and as many words (256 MB each), 2 G steps (a minute at
+ * most). */
 tn_bounds tn_bounds_make(uint32_t max_states);
 
 /* Counts work and compares what a construction has reached with the bounds: TN_OK, or E0802 saying that `what` passed

@@ -36,6 +36,18 @@ static bool explorer_row(tn_explorer *explorer, uint32_t state)
     return true;
 }
 
+static tn_status check_words(const tn_explorer *explorer, const tn_bounds *bounds, tn_error *error)
+{
+    if (explorer->keys.words_used <= bounds->max_words)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+            "the automaton of this %s takes more than %llu MB to build; it had %u states by then",
+            explorer->construction->what, (unsigned long long)(bounds->max_words * sizeof(uint32_t) >> 20),
+            explorer->keys.count);
+    tn_error_help(error, "split the rule into smaller ones");
+    return TN_LIMIT;
+}
+
 static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const uint64_t *effort, tn_bounds *bounds,
                               tn_error *error)
 {
@@ -52,6 +64,8 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
             return tn_fail_memory(error);
         uint64_t work = (uint64_t)(explorer->current.size + 1) * columns + (effort ? *effort - before : 0);
         status = tn_bounds_check(bounds, construction->what, explorer->keys.count, columns, work, error);
+        if (status == TN_OK)
+            status = check_words(explorer, bounds, error);
         if (status != TN_OK)
             return status;
     }

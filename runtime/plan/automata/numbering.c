@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <xxhash.h>
+
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
 
@@ -89,18 +91,18 @@ bool tn_key_push(tn_key *key, uint32_t word)
 bool tn_key_copy(tn_key *key, const uint32_t *data, size_t size)
 {
     key->size = 0;
-    for (size_t i = 0; i < size; i++)
-        if (!tn_key_push(key, data[i]))
-            return false;
+    if (size == 0)
+        return true;
+    if (!tn_array_reserve_from(&key->data, &key->capacity, 32, 0, size, sizeof *key->data))
+        return false;
+    memcpy(key->data, data, size * sizeof *data);
+    key->size = size;
     return true;
 }
 
 static uint32_t hash_words(const uint32_t *data, size_t size)
 {
-    uint64_t hash = size;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ data[i]) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
-    return (uint32_t)tn_mix64(hash);
+    return (uint32_t)XXH3_64bits(data, size * sizeof *data);
 }
 
 static bool interner_grow(tn_interner *interner)
@@ -108,7 +110,8 @@ static bool interner_grow(tn_interner *interner)
     if (interner->count >= MAX_KEYS)
         return false;
     uint32_t capacity = interner->capacity ? interner->capacity * 2 : 64;
-    if (!tn_array_resize(&interner->first, capacity / 2 + 1, sizeof *interner->first))
+    if (!tn_array_resize(&interner->first, capacity / 2 + 1, sizeof *interner->first) ||
+        !tn_array_resize(&interner->hashes, capacity / 2, sizeof *interner->hashes))
         return false;
     if (interner->count == 0)
         interner->first[0] = 0;
@@ -116,9 +119,7 @@ static bool interner_grow(tn_interner *interner)
     if (!slots)
         return false;
     for (uint32_t i = 0; i < interner->count; i++) {
-        size_t size;
-        const uint32_t *words = tn_interned(interner, i, &size);
-        uint32_t at = hash_words(words, size) & (capacity - 1);
+        uint32_t at = interner->hashes[i] & (capacity - 1);
         while (slots[at])
             at = (at + 1) & (capacity - 1);
         slots[at] = i + 1;
@@ -146,15 +147,18 @@ uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size)
     if (interner->count >= interner->capacity / 2 && !interner_grow(interner))
         return UINT32_MAX;
     uint32_t mask = interner->capacity - 1;
-    uint32_t at = hash_words(data, size) & mask;
+    uint32_t hash = hash_words(data, size), at = hash & mask;
     for (; interner->slots[at]; at = (at + 1) & mask) {
         size_t other_size;
-        const uint32_t *other = tn_interned(interner, interner->slots[at] - 1, &other_size);
-        if (other_size == size && (size == 0 || memcmp(other, data, size * sizeof *data) == 0))
-            return interner->slots[at] - 1;
+        uint32_t number = interner->slots[at] - 1;
+        const uint32_t *other = tn_interned(interner, number, &other_size);
+        if (interner->hashes[number] == hash && other_size == size &&
+            (size == 0 || memcmp(other, data, size * sizeof *data) == 0))
+            return number;
     }
     if (!interner_append(interner, data, size))
         return UINT32_MAX;
+    interner->hashes[interner->count] = hash;
     interner->slots[at] = ++interner->count;
     return interner->count - 1;
 }
@@ -163,6 +167,7 @@ void tn_interner_clear(tn_interner *interner)
 {
     free(interner->words);
     free(interner->first);
+    free(interner->hashes);
     free(interner->slots);
     *interner = (tn_interner){0};
 }

@@ -39,10 +39,11 @@ bool tn_key_copy(tn_key *key, const uint32_t *data, size_t size);
 typedef struct tn_interner {
     uint32_t *words;
     size_t words_used, words_capacity;
-    size_t *first;   /* [count + 1]: key i is words [first[i], first[i + 1]) */
-    uint32_t *slots; /* number + 1; 0 is free */
+    size_t *first;    /* [count + 1]: key i is words [first[i], first[i + 1]) */
+    uint32_t *hashes; /* [count] */
+    uint32_t *slots;  /* number + 1; 0 is free */
     uint32_t count;
-    uint32_t capacity; /* of slots: a power of two; first has as many */
+    uint32_t capacity; /* of slots: a power of two; first and hashes have half as many */
 } tn_interner;
 
 uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size);

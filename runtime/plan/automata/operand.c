@@ -65,6 +65,8 @@ void tn_operand_clear(tn_operand *operand)
 {
     free(operand->phase);
     free(operand->exceeds);
+    free(operand->above_first);
+    free(operand->above);
     *operand = (tn_operand){0};
 }
 
@@ -129,6 +131,25 @@ static void comparison_run(tn_set_comparison *comparison)
     }
 }
 
+static bool list_above(tn_operand *operand)
+{
+    uint32_t n = operand->dfa->states;
+    size_t count = 0, capacity = 0;
+    operand->above_first = malloc(((size_t)n + 1) * sizeof *operand->above_first);
+    if (!operand->above_first)
+        return false;
+    for (uint32_t p = 0; p < n; p++) {
+        operand->above_first[p] = (uint32_t)count;
+        if (!tn_array_reserve(&operand->above, &capacity, count, n, sizeof *operand->above))
+            return false;
+        for (uint32_t q = 0; q < n; q++)
+            if (q != p && tn_operand_below(operand, p, q))
+                operand->above[count++] = q;
+    }
+    operand->above_first[n] = (uint32_t)count;
+    return true;
+}
+
 bool tn_operand_compare(tn_operand *operand)
 {
     if (operand->compared)
@@ -147,6 +168,7 @@ bool tn_operand_compare(tn_operand *operand)
     if (ok) {
         comparison_invert(&comparison);
         comparison_run(&comparison);
+        ok = list_above(operand);
     }
     free(comparison.first);
     free(comparison.source);
@@ -173,18 +195,31 @@ static int compare_words(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* More words than this out of their order, and sorting them all is faster than moving each to its place. */
+enum { MOVES = 24 };
+
+/* Automata number states as they are met, so that most sets are in order already but for a few pairs. */
 static void sort_pairs(uint64_t *data, size_t size)
 {
-    if (size > 24) {
-        qsort(data, size, sizeof *data, compare_words);
-        return;
-    }
+    unsigned moves = 0;
     for (size_t i = 1; i < size; i++) {
         uint64_t pair = data[i];
-        size_t j = i;
-        for (; j > 0 && data[j - 1] > pair; j--)
-            data[j] = data[j - 1];
-        data[j] = pair;
+        if (data[i - 1] <= pair)
+            continue;
+        if (moves++ == MOVES) {
+            qsort(data, size, sizeof *data, compare_words);
+            return;
+        }
+        size_t low = 0, high = i;
+        while (low < high) {
+            size_t middle = (low + high) / 2;
+            if (data[middle] <= pair)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        memmove(data + low + 1, data + low, (i - low) * sizeof *data);
+        data[low] = pair;
     }
 }
 
@@ -194,8 +229,9 @@ static bool pair_below(const tn_pairs *pairs, uint64_t a, uint64_t b)
            (!pairs->second || tn_operand_below(pairs->second, (uint32_t)a, (uint32_t)b));
 }
 
-/* Keeps the pairs that no other one covers. States are minimal, so two different pairs never cover each other. */
-static void keep_antichain(tn_pairs *pairs)
+/* Keeps the pairs that no other one covers, by comparing pairs. States are minimal, so two different pairs never cover
+ * each other. */
+static void keep_antichain_by_pairs(tn_pairs *pairs)
 {
     size_t kept = 0;
     for (size_t i = 0; i < pairs->size; i++) {
@@ -216,6 +252,77 @@ static void keep_antichain(tn_pairs *pairs)
     pairs->size = kept;
 }
 
+/* A state and those above it: the state itself is number `count`. */
+typedef struct tn_above {
+    const uint32_t *states;
+    uint32_t count;
+} tn_above;
+
+static tn_above above(const tn_operand *operand, uint32_t state)
+{
+    if (!operand || !operand->above_first)
+        return (tn_above){0};
+    uint32_t first = operand->above_first[state];
+    return (tn_above){operand->above + first, operand->above_first[state + 1] - first};
+}
+
+/* How many pairs may cover this one, itself among them. */
+static uint64_t covers(const tn_pairs *pairs, uint64_t pair)
+{
+    return ((uint64_t)above(pairs->first, (uint32_t)(pair >> 32)).count + 1) *
+           ((uint64_t)above(pairs->second, (uint32_t)pair).count + 1);
+}
+
+/* Is a pair that covers this one in the (sorted) set? */
+static bool is_covered(const tn_pairs *pairs, uint64_t pair)
+{
+    tn_above first = above(pairs->first, (uint32_t)(pair >> 32)), second = above(pairs->second, (uint32_t)pair);
+    for (uint32_t i = 0; i <= first.count; i++)
+        for (uint32_t j = 0; j <= second.count; j++) {
+            uint64_t p = i < first.count ? first.states[i] : (uint32_t)(pair >> 32);
+            uint64_t other = p << 32 | (j < second.count ? second.states[j] : (uint32_t)pair);
+            if (other != pair && bsearch(&other, pairs->data, pairs->size, sizeof other, compare_words))
+                return true;
+        }
+    return false;
+}
+
+/* The same by looking each pair's covers up, which is faster where few states are above others. What is dropped stays
+ * in the set that is looked through, in `covered`, since a pair that covers it covers what it covers. */
+static bool keep_antichain_by_lookup(tn_pairs *pairs)
+{
+    bool *covered = malloc(pairs->size);
+    if (!covered)
+        return false;
+    for (size_t i = 0; i < pairs->size; i++)
+        covered[i] = is_covered(pairs, pairs->data[i]);
+    size_t kept = 0;
+    for (size_t i = 0; i < pairs->size; i++)
+        if (!covered[i])
+            pairs->data[kept++] = pairs->data[i];
+    pairs->size = kept;
+    free(covered);
+    return true;
+}
+
+/* A look-up is a binary search: about as long as comparing with eight pairs. */
+enum { LOOKUP_COST = 8 };
+
+static bool keep_antichain(tn_pairs *pairs)
+{
+    uint64_t lookups = 0, none = pairs->size;
+    for (size_t i = 0; i < pairs->size; i++)
+        lookups += covers(pairs, pairs->data[i]);
+    if (lookups == none) /* no state is above another, or it is not known */
+        return true;
+    if (lookups > pairs->size * pairs->size / LOOKUP_COST) {
+        keep_antichain_by_pairs(pairs);
+        return true;
+    }
+    pairs->effort += lookups * LOOKUP_COST;
+    return keep_antichain_by_lookup(pairs);
+}
+
 bool tn_pairs_write(tn_pairs *pairs, tn_key *key)
 {
     if (pairs->failed)
@@ -229,7 +336,8 @@ bool tn_pairs_write(tn_pairs *pairs, tn_key *key)
     if (count > 1) {
         if (!tn_operand_compare(pairs->first) || (pairs->second && !tn_operand_compare(pairs->second)))
             return false;
-        keep_antichain(pairs);
+        if (!keep_antichain(pairs))
+            return false;
     }
     for (size_t i = 0; i < pairs->size; i++)
         if (!tn_key_push(key, (uint32_t)(pairs->data[i] >> 32)) || !tn_key_push(key, (uint32_t)pairs->data[i]))

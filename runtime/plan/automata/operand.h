@@ -22,6 +22,8 @@ typedef struct tn_operand {
     bool compared;       /* have inclusions been looked for? */
     uint64_t *exceeds;   /* [states][words]: bit q of row p: p accepts what q does not. NULL: too many states */
     uint32_t words;
+    uint32_t *above_first; /* [states + 1]: where each state's part of `above` begins. NULL: too many states */
+    uint32_t *above;       /* the other states that accept whatever the state accepts */
 } tn_operand;
 
 /* dfa: a minimal automaton of marked words. */

@@ -352,6 +352,20 @@ const tn_library *tn_library_diff_part(const tn_library_diff *diff, tn_diff_part
     return diff->libraries[part];
 }
 
+tn_status tn_library_diff_rank(const tn_library_diff *diff, tn_diff_part part, const tn_tray *trays, size_t length,
+                               mpz_t rank, tn_error *error)
+{
+    int side = part != TN_DIFF_REMOVED;
+    tn_tray *own = malloc((length + 1) * sizeof *own);
+    if (!own)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < length; i++)
+        own[i] = side ? diff->map[trays[i]] : trays[i];
+    bool there = tn_library_rank(diff->sides[side], own, length, rank);
+    free(own);
+    return there ? TN_OK : tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan of the difference is not in its library");
+}
+
 size_t tn_library_diff_clauses(const tn_library_diff *diff)
 {
     return diff->change_count;

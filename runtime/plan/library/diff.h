@@ -36,6 +36,12 @@ tn_status tn_library_diff_new(const tn_library *before, const tn_library *after,
 void tn_library_diff_free(tn_library_diff *diff);
 
 const tn_library *tn_library_diff_part(const tn_library_diff *diff, tn_diff_part part);
+
+/* The rank that a plan of the part, in the old schema's trays, has in its own library: in the old one where it is
+ * removed, else in the new one. `rank` is initialised. */
+tn_status tn_library_diff_rank(const tn_library_diff *diff, tn_diff_part part, const tn_tray *trays, size_t length,
+                               mpz_t rank, tn_error *error);
+
 size_t tn_library_diff_clauses(const tn_library_diff *diff);
 const tn_changed_clause *tn_library_diff_clause(const tn_library_diff *diff, size_t i);
 

@@ -82,6 +82,7 @@ tn_bounds tn_library_bounds(const tn_library *library)
         states = TN_LIBRARY_STATES_DEFAULT;
     return (tn_bounds){.max_states = library->max_joint,
                        .max_transitions = TRANSITIONS_PER_STATE * states,
+                       .max_words = TRANSITIONS_PER_STATE * states,
                        .max_work = WORK_PER_STATE * states,
                        .watch = library->schema->module->watch};
 }

@@ -42,6 +42,7 @@ static tn_status join(const tn_near_finder *finder, const tn_dfa *clause, tn_spa
 {
     tn_bounds bounds = {.max_states = (uint32_t)finder->combine,
                         .max_transitions = finder->combine,
+                        .max_words = finder->combine,
                         .max_work = COMBINE_WORK * finder->combine};
     tn_sparse *product = NULL, *small = NULL;
     tn_status status = tn_sparse_product(*live, clause, TN_DFA_AND, "library", &bounds, &product, error);

@@ -13,6 +13,8 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/vm.h"
 
+#define WORST INT64_MAX
+
 /* A run of written trays without a gap between them. */
 typedef struct segment {
     uint32_t first, count;
@@ -35,6 +37,10 @@ typedef struct way {
 
 typedef struct completer {
     const tn_library *library;
+    tn_weighed *weighed; /* whose states take the place of the library's; or NULL */
+    int64_t sign;        /* that makes less better */
+    tn_error *error;
+    tn_status failed; /* while stepping */
     uint32_t items;
     segment segments[TN_PATTERN_MAX + 1];
     uint32_t segment_of[TN_PATTERN_MAX + 1];
@@ -48,8 +54,9 @@ typedef struct completer {
     tn_interner states; /* {library's state, placed, gap, earlier in two words} */
     uint32_t **level;   /* [max + 1]: the states at each place, ascending */
     uint32_t *level_size;
-    mpz_t **forward, **backward; /* [max + 1][level_size] */
-    mpz_t *placed;               /* [items][letters] */
+    mpz_t **forward, **backward;                       /* [max + 1][level_size] */
+    mpz_t *placed;                                     /* [items][letters] */
+    int64_t **best_before, **best_after, *best_placed; /* the same of the measure; WORST where there is none */
 } completer;
 
 /* ---- the pattern */
@@ -108,6 +115,12 @@ static tn_status find_fits(completer *c, const uint32_t *functions, size_t count
     return status;
 }
 
+/* Trays that differ here lead to different states, or weigh differently. */
+static uint32_t letter_apart(const completer *c, tn_tray t)
+{
+    return c->weighed ? tn_weighed_letter(c->weighed, t) : c->library->tray_column[t];
+}
+
 static tn_status make_letters(completer *c, tn_error *error)
 {
     uint32_t trays = c->library->schema->tray_count;
@@ -116,7 +129,7 @@ static tn_status make_letters(completer *c, tn_error *error)
     bool ok = c->letter_of != NULL;
     for (tn_tray t = 0; ok && t < trays; t++) {
         uint32_t fit = tn_number(&fits, c->fits[t]);
-        c->letter_of[t] = fit == UINT32_MAX ? fit : tn_number(&pairs, (uint64_t)c->library->tray_column[t] << 32 | fit);
+        c->letter_of[t] = fit == UINT32_MAX ? fit : tn_number(&pairs, (uint64_t)letter_apart(c, t) << 32 | fit);
         ok = c->letter_of[t] != UINT32_MAX;
     }
     c->letters = pairs.count;
@@ -194,11 +207,16 @@ static machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
     return (machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
 }
 
-static bool leads_on(const tn_library *library, uint32_t n, uint32_t state)
+static bool is_alive(const completer *c, uint32_t left, uint32_t state)
 {
-    uint32_t low = n < library->min ? library->min - n : 0;
-    for (uint32_t left = low; left <= library->max - n; left++)
-        if (tn_library_alive(library, left, state))
+    return c->weighed ? tn_weighed_alive(c->weighed, left, state) : tn_library_alive(c->library, left, state);
+}
+
+static bool leads_on(const completer *c, uint32_t n, uint32_t state)
+{
+    uint32_t low = n < c->library->min ? c->library->min - n : 0;
+    for (uint32_t left = low; left <= c->library->max - n; left++)
+        if (is_alive(c, left, state))
             return true;
     return false;
 }
@@ -207,7 +225,7 @@ static bool accepts(const completer *c, uint32_t n, uint32_t joint)
 {
     uint32_t state;
     machine m = machine_of(c, joint, &state);
-    return n >= c->library->min && m.placed == c->items && tn_library_alive(c->library, 0, state);
+    return n >= c->library->min && m.placed == c->items && is_alive(c, 0, state);
 }
 
 static int compare_numbers(const void *left, const void *right)
@@ -216,22 +234,46 @@ static int compare_numbers(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* Calls `take` for every step from level n; false where that fails. */
-typedef bool take_step(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
-                       void *context);
+/* One step: a tray of the letter, from a state of level n to a joint state, and what the measure gains. */
+typedef struct step {
+    uint32_t n, from, to, letter;
+    machine m; /* before it */
+    bool places;
+    int64_t gain; /* with the sign that makes less better */
+} step;
 
+typedef bool take_step(completer *c, const step *s, void *context);
+
+/* Where a letter leads; false where nothing that is kept follows, or it failed. */
+static bool follow(completer *c, uint32_t n, uint32_t state, uint32_t letter, uint32_t *to, int64_t *gain)
+{
+    int64_t gains[TN_WEIGHED_MAX] = {0};
+    *gain = 0;
+    if (!c->weighed) {
+        *to = tn_library_step(c->library, state, c->first[letter]);
+        return leads_on(c, n + 1, *to);
+    }
+    c->failed =
+        tn_weighed_step(c->weighed, state, tn_weighed_letter(c->weighed, c->first[letter]), to, gains, c->error);
+    *gain = c->sign * gains[0];
+    return c->failed == TN_OK && *to != UINT32_MAX && leads_on(c, n + 1, *to);
+}
+
+/* Calls `take` for every step from level n; false where that fails. */
 static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
 {
     for (uint32_t i = 0; i < c->level_size[n]; i++) {
-        uint32_t state;
+        uint32_t state, to;
         machine m = machine_of(c, c->level[n][i], &state);
         for (uint32_t l = 0; l < c->letters; l++) {
             way ways[2];
-            uint32_t to = tn_library_step(c->library, state, c->first[l]);
-            size_t count = leads_on(c->library, n + 1, to) ? ways_on(c, m, c->fits[c->first[l]], ways) : 0;
+            int64_t gain;
+            size_t count = follow(c, n, state, l, &to, &gain) ? ways_on(c, m, c->fits[c->first[l]], ways) : 0;
+            if (c->failed != TN_OK)
+                return false;
             for (size_t w = 0; w < count; w++) {
-                uint32_t joint = intern(c, to, ways[w].to);
-                if (joint == UINT32_MAX || !take(c, n, i, joint, l, m, ways[w].places, context))
+                step s = {n, i, intern(c, to, ways[w].to), l, m, ways[w].places, gain};
+                if (s.to == UINT32_MAX || !take(c, &s, context))
                     return false;
             }
         }
@@ -239,11 +281,18 @@ static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
     return true;
 }
 
-static bool collect(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
-                    void *context)
+static bool collect(completer *c, const step *s, void *context)
 {
-    (void)c, (void)n, (void)from, (void)letter, (void)m, (void)places;
-    return tn_number(context, to) != UINT32_MAX;
+    (void)c;
+    return tn_number(context, s->to) != UINT32_MAX;
+}
+
+static int64_t *worst_new(const completer *c, size_t count)
+{
+    int64_t *values = c->weighed ? malloc((count + 1) * sizeof *values) : NULL;
+    for (size_t i = 0; values && i < count; i++)
+        values[i] = WORST;
+    return values;
 }
 
 static bool make_level(completer *c, uint32_t n, const uint64_t *states, uint32_t count)
@@ -251,7 +300,9 @@ static bool make_level(completer *c, uint32_t n, const uint64_t *states, uint32_
     c->level[n] = malloc(((size_t)count + 1) * sizeof **c->level);
     c->forward[n] = tn_integers_new(count);
     c->backward[n] = tn_integers_new(count);
-    if (!c->level[n] || !c->forward[n] || !c->backward[n])
+    c->best_before[n] = worst_new(c, count);
+    c->best_after[n] = worst_new(c, count);
+    if (!c->level[n] || !c->forward[n] || !c->backward[n] || (c->weighed && !(c->best_before[n] && c->best_after[n])))
         return false;
     c->level_size[n] = count;
     for (uint32_t i = 0; i < count; i++)
@@ -266,31 +317,55 @@ static size_t index_of(const completer *c, uint32_t n, uint32_t joint)
     return (size_t)(found - c->level[n]);
 }
 
-static bool add_forward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
-                        void *context)
+static void take_better(int64_t *best, int64_t value)
 {
-    (void)m, (void)places, (void)context;
-    mpz_addmul_ui(c->forward[n + 1][index_of(c, n + 1, to)], c->forward[n][from], c->size[letter]);
+    *best = value < *best ? value : *best;
+}
+
+static bool add_forward(completer *c, const step *s, void *context)
+{
+    (void)context;
+    size_t to = index_of(c, s->n + 1, s->to);
+    mpz_addmul_ui(c->forward[s->n + 1][to], c->forward[s->n][s->from], c->size[s->letter]);
+    if (c->weighed)
+        take_better(&c->best_before[s->n + 1][to], c->best_before[s->n][s->from] + s->gain);
     return true;
 }
 
-static bool add_backward(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
-                         void *context)
+/* Not every state of a level leads to a plan that the pattern fits: such have no best. */
+static bool add_backward(completer *c, const step *s, void *context)
 {
-    (void)m, (void)places, (void)context;
-    mpz_addmul_ui(c->backward[n][from], c->backward[n + 1][index_of(c, n + 1, to)], c->size[letter]);
+    (void)context;
+    size_t to = index_of(c, s->n + 1, s->to);
+    mpz_addmul_ui(c->backward[s->n][s->from], c->backward[s->n + 1][to], c->size[s->letter]);
+    if (c->weighed && c->best_after[s->n + 1][to] != WORST)
+        take_better(&c->best_after[s->n][s->from], s->gain + c->best_after[s->n + 1][to]);
     return true;
 }
 
 /* Each tray of the letter, as the written tray that is placed: the plans before times those after. */
-static bool add_placed(completer *c, uint32_t n, uint32_t from, uint32_t to, uint32_t letter, machine m, bool places,
-                       void *context)
+static bool add_placed(completer *c, const step *s, void *context)
 {
     (void)context;
-    if (places)
-        mpz_addmul(c->placed[(size_t)m.placed * c->letters + letter], c->forward[n][from],
-                   c->backward[n + 1][index_of(c, n + 1, to)]);
+    size_t to = index_of(c, s->n + 1, s->to), at = (size_t)s->m.placed * c->letters + s->letter;
+    if (!s->places)
+        return true;
+    mpz_addmul(c->placed[at], c->forward[s->n][s->from], c->backward[s->n + 1][to]);
+    if (c->weighed && c->best_after[s->n + 1][to] != WORST)
+        take_better(&c->best_placed[at], c->best_before[s->n][s->from] + s->gain + c->best_after[s->n + 1][to]);
     return true;
+}
+
+static void end_plans(completer *c, uint32_t n)
+{
+    for (uint32_t i = 0; i < c->level_size[n]; i++) {
+        uint32_t state;
+        bool good = accepts(c, n, c->level[n][i]);
+        machine_of(c, c->level[n][i], &state);
+        mpz_set_ui(c->backward[n][i], good);
+        if (c->weighed && good)
+            c->best_after[n][i] = c->sign * tn_weighed_rest(c->weighed, state, 0);
+    }
 }
 
 static tn_status walk(completer *c, tn_error *error)
@@ -301,6 +376,8 @@ static tn_status walk(completer *c, tn_error *error)
     bool ok = first != UINT32_MAX && make_level(c, 0, &first, 1);
     if (ok)
         mpz_set_ui(c->forward[0][0], 1);
+    if (ok && c->weighed)
+        c->best_before[0][0] = c->sign * tn_weighed_start(c->weighed, 0);
     for (uint32_t n = 0; ok && n < max; n++) {
         tn_numbering next = {0};
         ok = each_step(c, n, collect, &next) && make_level(c, n + 1, next.keys, next.count) &&
@@ -308,11 +385,10 @@ static tn_status walk(completer *c, tn_error *error)
         tn_numbering_clear(&next);
     }
     for (uint32_t n = max + 1; ok && n-- > 0;) {
-        for (uint32_t i = 0; i < c->level_size[n]; i++)
-            mpz_set_ui(c->backward[n][i], accepts(c, n, c->level[n][i]));
+        end_plans(c, n);
         ok = n == max || (each_step(c, n, add_backward, NULL) && each_step(c, n, add_placed, NULL));
     }
-    return ok ? TN_OK : tn_fail_memory(error);
+    return ok ? TN_OK : c->failed != TN_OK ? c->failed : tn_fail_memory(error);
 }
 
 /* ---- the answer */
@@ -323,10 +399,14 @@ static void add_values(const completer *c, tn_completions *out)
     for (tn_tray t = 0; t < schema->tray_count; t++)
         for (uint32_t i = 0; i < c->items; i++)
             for (uint32_t f = 0; f < schema->field_count; f++) {
-                mpz_t *count =
-                    &out->counts[(size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f)];
-                mpz_add(*count, *count, c->placed[(size_t)i * c->letters + c->letter_of[t]]);
+                size_t at = (size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f),
+                       placed = (size_t)i * c->letters + c->letter_of[t];
+                mpz_add(out->counts[at], out->counts[at], c->placed[placed]);
+                if (c->weighed)
+                    take_better(&out->best[at], c->best_placed[placed]);
             }
+    for (size_t i = 0; c->weighed && i < (size_t)out->trays * out->values; i++)
+        out->best[i] = out->best[i] == WORST ? 0 : c->sign * out->best[i];
 }
 
 static void clear(completer *c)
@@ -335,7 +415,12 @@ static void clear(completer *c)
         free(c->level[n]);
         tn_integers_free(c->forward[n], c->level_size[n]);
         tn_integers_free(c->backward[n], c->level_size[n]);
+        free(c->best_before[n]);
+        free(c->best_after[n]);
     }
+    free(c->best_before);
+    free(c->best_after);
+    free(c->best_placed);
     free(c->level);
     free(c->level_size);
     free(c->forward);
@@ -350,29 +435,34 @@ static void clear(completer *c)
 
 static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
 {
-    size_t levels = (size_t)c->library->max + 1;
+    size_t levels = (size_t)c->library->max + 1, values = (size_t)c->items * c->library->schema->value_count;
     c->level_size = calloc(levels, sizeof *c->level_size);
     c->forward = calloc(levels, sizeof *c->forward);
     c->backward = calloc(levels, sizeof *c->backward);
+    c->best_before = calloc(levels, sizeof *c->best_before);
+    c->best_after = calloc(levels, sizeof *c->best_after);
+    c->best_placed = worst_new(c, (size_t)c->items * c->letters);
     c->placed = tn_integers_new((size_t)c->items * c->letters);
-    c->level = c->level_size && c->forward && c->backward && c->placed ? calloc(levels, sizeof *c->level) : NULL;
-    out->counts = tn_integers_new((size_t)c->items * c->library->schema->value_count);
-    if (!c->level || !out->counts)
+    bool ok = c->level_size && c->forward && c->backward && c->best_before && c->best_after && c->placed &&
+              (c->best_placed || !c->weighed);
+    c->level = ok ? calloc(levels, sizeof *c->level) : NULL;
+    out->counts = tn_integers_new(values);
+    out->best = worst_new(c, values);
+    if (!c->level || !out->counts || (c->weighed && !out->best))
         return tn_fail_memory(error);
     out->trays = c->items;
     out->values = c->library->schema->value_count;
     return TN_OK;
 }
 
-tn_status tn_complete(tn_completions *out, const tn_library *library, const uint32_t *functions, size_t count,
-                      tn_error *error)
+tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_open_plan *open, tn_error *error)
 {
-    completer c = {.library = library};
+    completer c = {.library = library, .weighed = open->weighed, .sign = open->most ? -1 : 1, .error = error};
     *out = (tn_completions){0};
     mpz_init(out->plans);
-    tn_status status = read_pattern(&c, functions, count, error);
+    tn_status status = read_pattern(&c, open->functions, open->count, error);
     if (status == TN_OK)
-        status = find_fits(&c, functions, count, error);
+        status = find_fits(&c, open->functions, open->count, error);
     if (status == TN_OK)
         status = make_letters(&c, error);
     if (status == TN_OK)
@@ -390,6 +480,7 @@ tn_status tn_complete(tn_completions *out, const tn_library *library, const uint
 void tn_completions_clear(tn_completions *completions)
 {
     tn_integers_free(completions->counts, (size_t)completions->trays * completions->values);
+    free(completions->best);
     mpz_clear(completions->plans);
     *completions = (tn_completions){0};
 }

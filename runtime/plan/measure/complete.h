@@ -7,7 +7,7 @@
 #ifndef TARTAN_PLAN_MEASURE_COMPLETE_H
 #define TARTAN_PLAN_MEASURE_COMPLETE_H
 
-#include "runtime/plan/library/library.h"
+#include "runtime/plan/measure/weighed.h"
 
 #define TN_PATTERN_MAX 60u /* written trays */
 
@@ -16,10 +16,19 @@ typedef struct tn_completions {
     uint32_t trays;  /* written ones */
     uint32_t values; /* of the schema, over all fields */
     mpz_t *counts;   /* [trays][values]: completions that have the value there */
+    int64_t *best;   /* [trays][values]: the best that the measure still can be with it, in steps, where there are such
+                        completions; NULL where no measure was asked for */
 } tn_completions;
 
-/* functions: of M, or TN_NO_RECORD for a gap. Clear in any case. */
-tn_status tn_complete(tn_completions *completions, const tn_library *library, const uint32_t *functions, size_t count,
+typedef struct tn_open_plan {
+    const uint32_t *functions; /* of M, or TN_NO_RECORD for a gap */
+    size_t count;
+    tn_weighed *weighed; /* by its first measure, of the same library, choices are weighed; or NULL */
+    bool most;           /* more of it is better, else less */
+} tn_open_plan;
+
+/* Clear in any case. */
+tn_status tn_complete(tn_completions *completions, const tn_library *library, const tn_open_plan *open,
                       tn_error *error);
 void tn_completions_clear(tn_completions *completions);
 

@@ -2,6 +2,7 @@
 #include "runtime/base/part.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_explain.h"
+#include "runtime/plan/picture/draw_open.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, size_t count,
@@ -29,4 +30,10 @@ tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, co
 {
     (void)schema, (void)plan, (void)reasons, (void)count, (void)title, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing an explanation", error);
+}
+
+tn_status tn_open_plan_draw(const tn_schema *schema, const tn_drawn_open *open, tn_picture *to, tn_error *error)
+{
+    (void)schema, (void)open, (void)to;
+    return tn_part_absent(TN_WITH_DRAW, "drawing an open plan", error);
 }

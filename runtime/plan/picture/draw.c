@@ -18,6 +18,8 @@
 #define NUMBER_SIZE 6.2
 #define HEADING_ROOM 22.0 /* above each row, where there are groups */
 #define HEADING_SIZE 10.0
+#define CAPTION_ROOM 15.0 /* above each plan, where there are captions */
+#define CAPTION_SIZE 8.0
 #define LEGIBLE_SIZE 5.5 /* of the dimensions, which with some room choose the smallest good scale */
 #define LEGIBLE_ROOM 7.0
 
@@ -36,7 +38,7 @@ typedef struct drawing {
     double factor;        /* points a nanometre; for a table, points a point */
     size_t columns, rows; /* of cells on a page */
     double cell_width, cell_height;
-    bool grouped;
+    bool grouped, captioned;
 } drawing;
 
 /* The place of the plan after one at `slot` (SIZE_MAX: none), counting cells along the rows: a group begins a row. */
@@ -57,7 +59,7 @@ static size_t slots(const drawing *d)
 
 static double heading_room(const drawing *d)
 {
-    return d->grouped ? HEADING_ROOM : 0;
+    return (d->grouped ? HEADING_ROOM : 0) + (d->captioned ? CAPTION_ROOM : 0);
 }
 
 /* The size of a cell at a scale: points a nanometre for a plan to scale, points a point for a table. */
@@ -299,6 +301,10 @@ static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *p
         tn_type_face(context, HEADING_SIZE, true);
         tn_type_line(context, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);
     }
+    if (plan->caption) {
+        tn_type_face(context, CAPTION_SIZE, true);
+        tn_type_fit(context, x, y - CAPTION_ROOM + CAPTION_SIZE, TN_ALIGN_LEFT, d->cell_width, plan->caption);
+    }
     if (d->roles.to_scale) {
         double left = x + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double spine = y + d->extent.above * d->factor, bottom = spine + d->extent.below * d->factor;
@@ -383,6 +389,7 @@ tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, siz
     tn_draw_roles_find(schema, &d.roles);
     for (size_t i = 0; i < count; i++) {
         d.grouped = d.grouped || plans[i].heading;
+        d.captioned = d.captioned || plans[i].caption;
         if (d.roles.to_scale)
             tn_draw_measure(&d.roles, &plans[i], &d.extent);
     }

@@ -16,6 +16,7 @@ typedef struct tn_drawn_plan {
     size_t length;
     const char *number;  /* what stands under it: its rank or its line, in digits; or NULL */
     const char *heading; /* begins a group, in a row of its own below this; NULL: goes on with the one before */
+    const char *caption; /* a line above it; or NULL */
 } tn_drawn_plan;
 
 /* The most plans of one drawing, unless more are allowed. */

@@ -9,6 +9,7 @@
 #include "runtime/plan/picture/draw_parts.h"
 
 #define MARGIN 24.0
+#define ALONE_MARGIN 6.0 /* of a plan without reasons, which stands in a text */
 #define TITLE_SIZE 11.0
 #define TITLE_ROOM 20.0
 #define TEXT_SIZE 7.0
@@ -23,7 +24,15 @@
 #define PLAN_WIDTH 420.0 /* about how wide the plan is */
 #define BAR_INSET 1.6
 
-static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17};
+static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17},
+                    rose[3] = {0.96, 0.80, 0.78}, grey[3] = {0.62, 0.62, 0.62};
+
+/* What a rule that is to be met says yes to is green, and what it lacks red. What a rule says yes to that prunes the
+ * plan for it is red, and what it does not find there is no fault. */
+static const double *colour_of(const tn_drawn_reason *reason, bool matched)
+{
+    return matched ? (reason->drops ? red : green) : (reason->drops ? grey : red);
+}
 
 typedef struct picture {
     cairo_t *context;
@@ -34,7 +43,8 @@ typedef struct picture {
     tn_draw_extent extent;
     tn_draw_table table;
     double scale; /* points a nanometre */
-    double left;  /* of the plan */
+    double margin;
+    double left; /* of the plan */
     double plan_width, plan_height;
     double width, height;
 } picture;
@@ -71,7 +81,6 @@ static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
 {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     cairo_t *context = cairo_create(surface);
-    p->left = MARGIN + LABEL_WIDTH + GAP + TN_MARK_ROOM;
     if (p->roles.to_scale) {
         measure_to_scale(p);
     } else {
@@ -81,8 +90,11 @@ static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
     }
     cairo_destroy(context);
     cairo_surface_destroy(surface);
-    p->width = p->left + p->plan_width + TN_MARK_ROOM + GAP + EVIDENCE_WIDTH + MARGIN;
-    p->height = 2 * MARGIN + (p->title ? TITLE_ROOM : 0) + p->plan_height;
+    /* beside a plan alone there is nothing to say */
+    p->margin = count > 0 || p->title ? MARGIN : ALONE_MARGIN;
+    p->left = p->margin + (count > 0 ? LABEL_WIDTH + GAP + TN_MARK_ROOM : fmax(TN_MARK_ROOM, p->table.name_width));
+    p->width = p->left + p->plan_width + TN_MARK_ROOM + p->margin + (count > 0 ? GAP + EVIDENCE_WIDTH : 0);
+    p->height = 2 * p->margin + (p->title ? TITLE_ROOM : 0) + p->plan_height;
     for (size_t i = 0; i < count; i++)
         p->height += ROW_HEIGHT + (reasons[i].depth == 0 ? RULE_ROOM : 0);
 }
@@ -117,12 +129,14 @@ static void bars(const picture *p, const tn_stretch *stretches, size_t count, do
 }
 
 /* Where the part was looked for in vain. */
-static void line_of_absence(const picture *p, tn_stretch region, double y)
+static void line_of_absence(const picture *p, const tn_drawn_reason *reason, double y)
 {
+    tn_stretch region = reason->region;
+    const double *colour = colour_of(reason, false);
     double middle = y + ROW_HEIGHT / 2;
     cairo_move_to(p->context, p->left + tray_at(p, region.begin) + 1, middle);
     cairo_line_to(p->context, p->left + tray_at(p, region.end) - 1, middle);
-    cairo_set_source_rgb(p->context, red[0], red[1], red[2]);
+    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
     cairo_set_line_width(p->context, 0.7);
     cairo_stroke(p->context);
     cairo_set_source_rgb(p->context, 0, 0, 0);
@@ -130,19 +144,19 @@ static void line_of_absence(const picture *p, tn_stretch region, double y)
 
 static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y)
 {
-    bars(p, reason->marks, reason->mark_count, y, green, true);
+    bars(p, reason->marks, reason->mark_count, y, colour_of(reason, true), true);
     if (reason->matched)
         return;
     if (reason->region.begin < reason->region.end && reason->mark_count == 0)
-        line_of_absence(p, reason->region, y);
-    bars(p, &reason->partly, 1, y, pale, true);
-    bars(p, &reason->lacking, 1, y, red, false);
+        line_of_absence(p, reason, y);
+    bars(p, &reason->partly, 1, y, reason->drops ? rose : pale, true);
+    bars(p, &reason->lacking, 1, y, colour_of(reason, false), false);
 }
 
 /* A sign before the text: a filled square where the part matches, an open one where it does not. */
 static void draw_sign(const picture *p, const tn_drawn_reason *reason, double x, double y)
 {
-    const double *colour = reason->matched ? green : red;
+    const double *colour = colour_of(reason, reason->matched);
     cairo_rectangle(p->context, x, y + 4.2, 4.6, 4.6);
     cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
     cairo_set_line_width(p->context, 1);
@@ -202,7 +216,7 @@ static void draw_grid(const picture *p, double from, double to)
 
 static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t count)
 {
-    double y = MARGIN;
+    double y = p->margin;
     if (p->title) {
         tn_type_face(p->context, TITLE_SIZE, true);
         tn_type_fit(p->context, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);

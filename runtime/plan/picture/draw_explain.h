@@ -1,5 +1,5 @@
 /* Why a plan is as a rule says, as a picture: the plan, and under it a row for each part of the rules, with the trays
- * that it matched in green and what it lacks in red. */
+ * that it matched in green and what it lacks in red; of a rule that prunes the plan, what it matched in red. */
 #ifndef TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
 #define TARTAN_PLAN_PICTURE_DRAW_EXPLAIN_H
 
@@ -12,7 +12,7 @@ typedef struct tn_drawn_reason {
     const char *text, *evidence; /* evidence may be NULL */
     unsigned depth;
     bool matched;
-    bool drops;              /* a rule that drops the plan */
+    bool drops;              /* the rule prunes the plan: what matched is to blame */
     const tn_stretch *marks; /* where it matched */
     uint32_t mark_count;
     tn_stretch region;  /* where it was looked for */

@@ -40,6 +40,30 @@ static tn_status check_field(const tn_checker *checker, uint32_t index)
                               "two values of a field are spelled alike");
 }
 
+/* Is the field what the older one is, with its values in their order, and perhaps more? */
+static bool has_values(const tn_module *module, const tn_field_record *field, const tn_field_record *older)
+{
+    bool same = field->kind == older->kind && field->value_count >= older->value_count &&
+                strcmp(tn_text(module, field->name), tn_text(module, older->name)) == 0;
+    for (uint32_t v = 0; same && v < older->value_count; v++)
+        same = same_value(module, field->kind, &module->VALUE_records[field->value_first + v],
+                          &module->VALUE_records[older->value_first + v]);
+    return same;
+}
+
+static tn_status check_older(const tn_checker *checker, const tn_schema_record *schema, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    if (schema->from == TN_NO_RECORD)
+        return TN_OK;
+    const tn_schema_record *older = &module->SCHEMA_records[schema->from];
+    bool has = older->field_count <= schema->field_count;
+    for (uint32_t i = 0; has && i < older->field_count; i++)
+        has = has_values(module, &module->FIELD_records[schema->field_first + i],
+                         &module->FIELD_records[older->field_first + i]);
+    return has ? TN_OK : tn_refuse(checker, "schema %u lacks a field or value of the schema it is made from", index);
+}
+
 static tn_status check_schema(const tn_checker *checker, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -53,6 +77,9 @@ static tn_status check_schema(const tn_checker *checker, uint32_t index)
     for (uint32_t i = 0; i < schema->forbid_count; i++)
         if (module->SPEC_records[schema->forbid_first + i].schema != index)
             return tn_refuse(checker, "schema %u forbids a tray of another schema", index);
+    tn_status status = check_older(checker, schema, index);
+    if (status != TN_OK)
+        return status;
     return tn_check_different(checker, &fields->name, sizeof *fields, schema->field_count,
                               "two fields of a schema have the same name");
 }
@@ -206,6 +233,8 @@ static void list_schema(tn_lister *lister, uint32_t index)
     const tn_schema_record *schema = &lister->module->SCHEMA_records[index];
     fprintf(lister->out, "\nschema %u  ", index);
     tn_list_name(lister, schema->name);
+    if (schema->from != TN_NO_RECORD)
+        fprintf(lister->out, " from schema %u", schema->from);
     tn_list_doc(lister, schema->doc);
     tn_list_place(lister, schema->file, schema->begin);
     for (uint32_t i = 0; i < schema->field_count; i++)

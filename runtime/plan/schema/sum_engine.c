@@ -1,4 +1,5 @@
 /* Verifies and lists sums, their terms and measures, and the code that says what a tray counts. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/module/engine.h"
@@ -49,6 +50,36 @@ static tn_status check_sums(const tn_checker *checker)
     return TN_OK;
 }
 
+/* Puts the names of the measures into the order of their schemas. ends[s]: where those of schema s end. */
+static void order_names(const tn_module *module, tn_string *names, size_t *ends)
+{
+    for (size_t i = 0; i < module->MEASURE_count; i++)
+        ends[module->MEASURE_records[i].schema + 1]++;
+    for (size_t s = 0; s < module->SCHEMA_count; s++)
+        ends[s + 1] += ends[s];
+    for (size_t i = 0; i < module->MEASURE_count; i++)
+        names[ends[module->MEASURE_records[i].schema]++] = module->MEASURE_records[i].name;
+}
+
+/* Measures of one schema differ in their names. */
+static tn_status check_measure_names(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    if (module->MEASURE_count == 0)
+        return TN_OK;
+    tn_string *names = calloc(module->MEASURE_count, sizeof *names);
+    size_t *ends = calloc(module->SCHEMA_count + 1, sizeof *ends);
+    tn_status status = names && ends ? TN_OK : tn_fail_memory(checker->error);
+    if (status == TN_OK)
+        order_names(module, names, ends);
+    for (size_t s = 0, begin = 0; status == TN_OK && s < module->SCHEMA_count; begin = ends[s++])
+        status = tn_check_different(checker, names + begin, sizeof *names, ends[s] - begin,
+                                    "two measures of a schema have the same name");
+    free(ends);
+    free(names);
+    return status;
+}
+
 static tn_status verify(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
@@ -56,10 +87,7 @@ static tn_status verify(const tn_checker *checker)
     for (size_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
         if (module->SUM_records[module->MEASURE_records[i].sum].schema != module->MEASURE_records[i].schema)
             status = tn_refuse(checker, "measure %zu names a sum of another schema", i);
-    if (status != TN_OK)
-        return status;
-    return tn_check_different(checker, &module->MEASURE_records->name, sizeof *module->MEASURE_records,
-                              module->MEASURE_count, "two measures have the same name");
+    return status == TN_OK ? check_measure_names(checker) : status;
 }
 
 static const tn_function_record *function_of(const tn_checker *checker)
@@ -98,7 +126,7 @@ static tn_status check_summed(const tn_checker *checker, const tn_instruction *i
 static tn_status check_rational(const tn_checker *checker, const tn_instruction *instruction)
 {
     return is_rational(checker->module, (tn_string)instruction->first) ? TN_OK
-                                                                       : tn_refuse(checker, "a number that is none");
+                                                                       : tn_refuse(checker, "a number of a sum is not a fraction of whole numbers");
 }
 
 static tn_status check_extent(const tn_checker *checker, const tn_instruction *instruction)

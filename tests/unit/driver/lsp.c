@@ -393,6 +393,45 @@ static void test_rename_across_documents(void **state)
     rmdir(folder);
 }
 
+static bool offers(const json_t *items, const char *label)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(items, i,
+                       item) if (strcmp(json_string_value(json_object_get(item, "label")), label) == 0) return true;
+    return false;
+}
+
+/* In a rule of a schema that is made from another, words of both are known. */
+static void test_schema_made_from_another(void **state)
+{
+    static const char uri[] = "untitled:newer.plan";
+    static const char text[] = "schema old { use = room | store  w = 1m | 2m }\n"
+                               "schema new from old { use = ... | lab  glazed = flag }\n"
+                               "rule r using new = tray(use lab, room)\n";
+    (void)state;
+    session s;
+    start(&s);
+    open_document(&s, uri, text);
+    int inside = ask(&s, "textDocument/completion", at(uri, text, (size_t)(strstr(text, "lab, room") - text)));
+    int room = ask(&s, "textDocument/definition", at(uri, text, (size_t)(strstr(text, ", room)") + 2 - text)));
+    int lab = ask(&s, "textDocument/definition", at(uri, text, (size_t)(strstr(text, "lab, ") - text)));
+    int old = ask(&s, "textDocument/definition", at(uri, text, (size_t)(strstr(text, "from old") + 5 - text)));
+    serve(&s);
+    const json_t *items = answer(&s, inside, "result");
+    if (json_is_object(items))
+        items = json_object_get(items, "items");
+    static const char *const offered[] = {"room", "store", "lab", "w", "glazed"};
+    for (size_t i = 0; i < sizeof offered / sizeof *offered; i++)
+        assert_true(offers(items, offered[i]));
+    const int ids[] = {room, lab, old}, lines[] = {0, 1, 0};
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *range = json_object_get(answer(&s, ids[i], "result"), "range");
+        assert_int_equal(json_integer_value(json_object_get(json_object_get(range, "start"), "line")), lines[i]);
+    }
+    finish(&s);
+}
+
 static void write_file(const char *folder, const char *name, const char *text, bool there)
 {
     char path[200];
@@ -755,6 +794,7 @@ int main(void)
         cmocka_unit_test(test_random_edits),
         cmocka_unit_test(test_positions_are_utf16),
         cmocka_unit_test(test_rename_across_documents),
+        cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_rename_in_files_that_are_not_open),
         cmocka_unit_test(test_wrong_headers),
         cmocka_unit_test(test_wrong_messages),

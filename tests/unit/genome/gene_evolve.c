@@ -179,7 +179,8 @@ static void test_choice(void **state)
     assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
     const tn_individual *const *members = tn_evolution_members(e, &count);
     uint64_t a = members[4]->id, b = members[7]->id;
-    uint32_t places[] = {4, 7, 7}, beyond[] = {61};
+    const tn_chosen places[] = {{.number = 4, .weight = 1}, {.number = 7, .weight = 1}, {.number = 7, .weight = 1}},
+                    beyond[] = {{.number = 61, .weight = 1}};
     assert_int_equal(tn_evolution_choose(e, beyond, 1, NULL), TN_INVALID);
     assert_int_equal(tn_evolution_choose(e, places, 3, NULL), TN_OK);
     assert_int_equal(tn_evolution_step(e, NULL), TN_OK);
@@ -244,9 +245,8 @@ static void test_csv(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads), cmocka_unit_test(test_replay),
-        cmocka_unit_test(test_better),      cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),
-        cmocka_unit_test(test_csv),
+        cmocka_unit_test(test_threads), cmocka_unit_test(test_replay), cmocka_unit_test(test_better),
+        cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),  cmocka_unit_test(test_csv),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,7 +82,7 @@ static size_t mutate(mutating *m, tn_vary_options options, uint64_t round, size_
     for (uint64_t i = 0; i < LENGTH; i++)
         codons[i] = UINT64_MAX - i; /* nothing that mutation draws */
     tn_genome parent = {codons, LENGTH, LENGTH}, children[2] = {0}, *into[2] = {&children[0], &children[1]};
-    tn_parent parents[2] = {{&parent, USED}, {&parent, USED}};
+    tn_parent parents[2] = {{&parent, USED, 1}, {&parent, USED, 1}};
     tn_chance chance = tn_chance_for(4, TN_PURPOSE_BIRTH, 0, round);
     uint8_t kinds[2];
     size_t changed = 0;

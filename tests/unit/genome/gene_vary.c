@@ -95,7 +95,7 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
                   *twice[2] = {&copies[0], &copies[1]};
         tn_mapping mapping;
         tn_mapper_derive(f->mapper, genomes[a].codons, genomes[a].count, &f->mapping, &mapping, NULL);
-        tn_parent parents[2] = {{&genomes[a], mapping.used}, {&genomes[b], 0}};
+        tn_parent parents[2] = {{&genomes[a], mapping.used, 1}, {&genomes[b], 0, 1}};
         uint8_t kinds[2], same[2];
         tn_chance chance = tn_chance_for(5, TN_PURPOSE_BIRTH, 1, round), repeated = chance;
         assert_int_equal(tn_breed(breeder, &options, &chance, parents, into, kinds, NULL), TN_OK);
@@ -153,7 +153,7 @@ static void test_linear_crossover(void **state)
                 second[i] = 200 + i;
             tn_genome a = {first, 10, 10}, b = {second, 7, 7}, children[2] = {0},
                       *into[2] = {&children[0], &children[1]};
-            tn_parent parents[2] = {{&a, 0}, {&b, 0}};
+            tn_parent parents[2] = {{&a, 0, 1}, {&b, 0, 1}};
             tn_vary_options options = {.crossover = (tn_crossover)c,
                                        .crossover_rate = 1,
                                        .mutation = TN_MUTATE_CODONS,

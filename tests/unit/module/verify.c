@@ -179,7 +179,8 @@ static void test_second_schema(void **state)
     tn_builder_add_SCHEMA(builder, &(tn_schema_record){.name = tn_builder_string(builder, "other"),
                                                        .field_first = 4,
                                                        .field_count = 1,
-                                                       .forbid_count = 1});
+                                                       .forbid_count = 1,
+                                                       .from = TN_NO_RECORD});
     sample_field(builder, "width", TN_FIELD_CHOICE, TN_ROLE_NONE);
     sample_value(builder, "a", "a", "", 0, 0);
     sample_value(builder, "b", "b", "", 0, 0);
@@ -194,6 +195,36 @@ static void test_second_schema(void **state)
     sample_value(builder, "a", "a", "", 0, 0);
     sample_value(builder, "b", "b", "", 0, 0);
     expect(builder, TN_INVALID, "two schemas have the same name");
+}
+
+/* A schema that is made from the first: the first field as it is there, or without its second value. */
+static void test_schema_made_from_another(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 4; count += 3) {
+        tn_builder *builder = sample_builder();
+        tn_schema_record schema = sample_SCHEMA(0);
+        schema.name = tn_builder_string(builder, "newer");
+        schema.from = 0;
+        schema.field_first = 4;
+        schema.field_count = count;
+        schema.forbid_count = 0;
+        tn_builder_add_SCHEMA(builder, &schema);
+        uint32_t value_first = 8;
+        for (uint32_t f = 0; f < count; f++) {
+            tn_field_record field = sample_FIELD(f);
+            field.value_first = value_first;
+            value_first += field.value_count;
+            tn_builder_add_FIELD(builder, &field);
+            for (uint32_t v = 0; v < field.value_count; v++) {
+                tn_value_record value = sample_VALUE(sample_FIELD(f).value_first + v);
+                tn_builder_add_VALUE(builder, &value);
+            }
+        }
+        expect(builder, count == 4 ? TN_OK : TN_INVALID,
+               count == 4 ? NULL : "schema 1 lacks a field or value of the schema it is made from");
+    }
+    REFUSED(SCHEMA, tn_schema_record, 0, from = 1, "schema 0: from is schema 1, which is not there");
 }
 
 static void test_specifiers(void **state)
@@ -253,7 +284,7 @@ static void test_functions(void **state)
     REFUSED(FUNCTION, tn_function_record, 1, code_end = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 0, "function 0, code offset 0: its code is not the stretch");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 5, "LESS runs past its end");
-    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong into this kind of code");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong in this kind of code");
     tn_builder *builder = sample_builder();
     tn_builder_emit(builder, TN_OP_NOT, 0, 0);
     expect(builder, TN_INVALID, "code that belongs to no function or production");
@@ -285,7 +316,7 @@ static void test_operands(void **state)
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no spec 2");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "there is no function 5");
-    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is no part of a rule");
+    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is not part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_OCCURRENCES, 9, 0, RETURN)), TN_INVALID,
@@ -378,6 +409,7 @@ int main(void)
         cmocka_unit_test(test_as_the_compiler),
         cmocka_unit_test(test_grammars_end),
         cmocka_unit_test(test_second_schema),
+        cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_specifiers),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_rules_and_libraries),

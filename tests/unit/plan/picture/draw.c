@@ -152,7 +152,7 @@ static int open_sheet(void **state)
     for (size_t i = 0; i < PLAN_COUNT; i++) {
         for (size_t k = 0; k < LENGTH; k++)
             s->trays[i][k] = (tn_tray)((i * 131 + k * 57) % s->schema->tray_count);
-        s->plans[i] = (tn_drawn_plan){s->trays[i], i % (LENGTH + 1), "123456789", NULL};
+        s->plans[i] = (tn_drawn_plan){s->trays[i], i % (LENGTH + 1), "123456789", NULL, NULL};
     }
     snprintf(s->path, sizeof s->path, "/tmp/tartan-draw-%ld", (long)getpid());
     *state = s;

@@ -20,7 +20,8 @@ typedef tn_status operation(const tn_schema *schema, tn_error *error);
 static tn_status draw(const tn_schema *schema, const char *extension, tn_error *error)
 {
     static const tn_tray trays[] = {1, 5, 9, 200};
-    const tn_drawn_plan plans[] = {{trays, 4, "1", "some"}, {trays, 2, "2", NULL}, {trays, 0, NULL, "others"}};
+    const tn_drawn_plan plans[] = {
+        {trays, 4, "1", "some", "7 m"}, {trays, 2, "2", NULL, NULL}, {trays, 0, NULL, "others", NULL}};
     const tn_draw_options options = {.title = "title", .number_name = "line", .dpi = 20};
     char path[64];
     snprintf(path, sizeof path, "/tmp/tartan-memory-draw-%ld.%s", (long)getpid(), extension);

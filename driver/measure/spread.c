@@ -1,0 +1,177 @@
+/* Makes the distribution of a measure, says it in words, and draws it. */
+#include "driver/measure/spread.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open/digits.h"
+#include "runtime/chart/chart.h"
+#include "runtime/number/rational.h"
+
+enum { LEAST, QUARTER, HALF, THREE_QUARTERS, MOST, MEAN, DEVIATION };
+
+static bool put_value(tn_spread *s, int fact, size_t i)
+{
+    mpq_t value;
+    tn_buffer text = {0};
+    mpq_init(value);
+    tn_distribution_value(&s->d, i, value);
+    bool ok = tn_amount_write(s->bins.unit, value, &text);
+    mpq_clear(value);
+    s->facts[fact] = text.data;
+    return ok;
+}
+
+/* Mean and deviation have many digits: six are shown. */
+static bool put_moments(tn_spread *s)
+{
+    mpq_t mean, variance;
+    tn_buffer about = {0}, root = {0}, deviation = {0};
+    mpq_inits(mean, variance, NULL);
+    tn_distribution_moments(&s->d, mean, variance);
+    tn_amount_convert(s->bins.unit, mean);
+    bool ok = tn_amount_write_about(s->bins.unit, mean, &about) &&
+              tn_amount_write_root(s->bins.unit, variance, &root) &&
+              tn_decimal_read(root.data, strlen(root.data), variance) &&
+              tn_amount_write_about(s->bins.unit, variance, &deviation);
+    mpq_clears(mean, variance, NULL);
+    s->facts[MEAN] = about.data;
+    s->facts[DEVIATION] = deviation.data;
+    free(root.data);
+    return ok;
+}
+
+static bool put_facts(tn_spread *s)
+{
+    static const char *const names[TN_SPREAD_FACTS] = {
+        "least", "a quarter is at most", "half is at most", "3 quarters at most", "most", "mean", "standard deviation"};
+    memcpy(s->names, names, sizeof names);
+    if (s->d.count == 0)
+        return true;
+    bool ok = put_value(s, LEAST, 0) && put_value(s, MOST, s->d.count - 1);
+    for (unsigned q = 1; ok && q <= 3; q++)
+        ok = put_value(s, LEAST + (int)q, tn_distribution_quartile(&s->d, q));
+    return ok && put_moments(s);
+}
+
+tn_status tn_spread_make(tn_spread *s, const tn_ready_library *ready, uint32_t measure, tn_error *error)
+{
+    const tn_module *module = ready->schema->module;
+    *s = (tn_spread){.ready = ready, .measure = &module->MEASURE_records[measure]};
+    tn_distribution_init(&s->d);
+    tn_bins_init(&s->bins, &s->d, tn_amount_unit_of(ready->schema, module->SUM_records[s->measure->sum].power));
+    tn_status status = tn_weighed_new(ready->library, &measure, 1, &s->weighed, error);
+    if (status == TN_OK)
+        status = tn_distribution_make(&s->d, s->weighed, error);
+    return status == TN_OK && !put_facts(s) ? tn_fail_memory(error) : status;
+}
+
+void tn_spread_clear(tn_spread *s)
+{
+    for (unsigned i = 0; i < TN_SPREAD_FACTS; i++)
+        free(s->facts[i]);
+    tn_bins_clear(&s->bins);
+    tn_distribution_clear(&s->d);
+    tn_weighed_free(s->weighed);
+}
+
+const char *tn_spread_name(const tn_spread *s)
+{
+    return tn_text(s->ready->schema->module, s->measure->name);
+}
+
+const char *tn_spread_doc(const tn_spread *s)
+{
+    return tn_text(s->ready->schema->module, s->measure->doc);
+}
+
+/* ---- the picture */
+
+static bool find_bars(const tn_spread *s, tn_chart_bar **bars, size_t *count)
+{
+    size_t room = 0;
+    tn_bin_row row;
+    bool ok = true;
+    tn_bin_row_init(&s->bins, &row);
+    while (ok && tn_bin_row_next(&s->bins, &row)) {
+        if (*count == room) {
+            room = room * 2 + 64;
+            tn_chart_bar *more = realloc(*bars, room * sizeof *more);
+            ok = more != NULL;
+            *bars = more ? more : *bars;
+        }
+        if (ok)
+            (*bars)[(*count)++] =
+                (tn_chart_bar){mpq_get_d(row.from), mpq_get_d(row.to), tn_bins_share(row.plans, s->d.all)};
+    }
+    tn_bin_row_clear(&row);
+    return ok;
+}
+
+static double value_at(const tn_spread *s, size_t i)
+{
+    mpq_t value;
+    mpq_init(value);
+    tn_bins_value(&s->bins, i, value);
+    double number = mpq_get_d(value);
+    mpq_clear(value);
+    return number;
+}
+
+static double mean_of(const tn_spread *s)
+{
+    mpq_t mean, variance;
+    mpq_inits(mean, variance, NULL);
+    tn_distribution_moments(&s->d, mean, variance);
+    tn_amount_convert(s->bins.unit, mean);
+    double number = mpq_get_d(mean);
+    mpq_clears(mean, variance, NULL);
+    return number;
+}
+
+/* "12 plans of mews, 5 values" */
+static bool write_about(const tn_spread *s, tn_buffer *text)
+{
+    char *all = tn_digits(s->d.all, true);
+    const char *unit = tn_amount_unit_name(s->bins.unit);
+    bool ok = all && tn_buffer_printf(text, "%s plan%s of %s, %zu value%s", all, mpz_cmp_ui(s->d.all, 1) ? "s" : "",
+                                      tn_text(s->ready->schema->module, s->ready->record->name), s->d.count,
+                                      s->d.count == 1 ? "" : "s");
+    if (ok && s->bins.binned)
+        ok = tn_buffer_printf(text, ", in bins of ") &&
+             tn_amount_write((tn_amount_unit){s->bins.unit.feet, 0}, s->bins.step, text) &&
+             tn_buffer_printf(text, "%s%s", *unit ? " " : "", unit);
+    free(all);
+    return ok;
+}
+
+static void take_numbers(const tn_spread *s, tn_histogram *h)
+{
+    if (s->d.count == 0)
+        return;
+    h->least = value_at(s, 0);
+    h->most = value_at(s, s->d.count - 1);
+    h->mean = mean_of(s);
+    for (unsigned q = 1; q <= 3; q++)
+        h->quartiles[q - 1] = value_at(s, tn_distribution_quartile(&s->d, q));
+    for (; h->fact_count < TN_SPREAD_FACTS; h->fact_count++)
+        h->facts[h->fact_count] = (tn_chart_fact){s->names[h->fact_count], s->facts[h->fact_count]};
+}
+
+tn_status tn_spread_draw(const tn_spread *s, tn_picture *to, tn_error *error)
+{
+    tn_chart_bar *bars = NULL;
+    tn_buffer about = {0};
+    tn_histogram h = {.title = tn_spread_name(s), .doc = tn_spread_doc(s), .unit = tn_amount_unit_name(s->bins.unit)};
+    bool ok = (s->d.count == 0 || find_bars(s, &bars, &h.count)) && write_about(s, &about);
+    tn_status status = ok ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK) {
+        h.bars = bars;
+        h.about = about.data;
+        take_numbers(s, &h);
+        status = tn_histogram_draw(&h, to, error);
+    }
+    free(about.data);
+    free(bars);
+    return status;
+}

@@ -1,0 +1,33 @@
+/* How the plans of a library are spread over a measure: the distribution, what is said of it in words, and its
+ * picture. */
+#ifndef TARTAN_DRIVER_MEASURE_SPREAD_H
+#define TARTAN_DRIVER_MEASURE_SPREAD_H
+
+#include "driver/plan/library.h"
+#include "runtime/base/picture.h"
+#include "runtime/plan/measure/bins.h"
+
+/* least, three quartiles, most, mean, standard deviation */
+#define TN_SPREAD_FACTS 7u
+
+typedef struct tn_spread {
+    const tn_ready_library *ready;
+    const tn_measure_record *measure;
+    tn_weighed *weighed;
+    tn_distribution d;
+    tn_bins bins;                       /* values one by one, until told otherwise */
+    const char *names[TN_SPREAD_FACTS]; /* "least" */
+    char *facts[TN_SPREAD_FACTS];       /* "146.88 m2"; none of a library without plans */
+} tn_spread;
+
+/* measure: a MEASURE record of the library's schema. Borrows the library. Clear in any case. */
+tn_status tn_spread_make(tn_spread *spread, const tn_ready_library *ready, uint32_t measure, tn_error *error);
+void tn_spread_clear(tn_spread *spread);
+
+const char *tn_spread_name(const tn_spread *spread);
+const char *tn_spread_doc(const tn_spread *spread);
+
+/* The histogram, of the rows that the bins are set to. */
+tn_status tn_spread_draw(const tn_spread *spread, tn_picture *to, tn_error *error);
+
+#endif

@@ -1,0 +1,243 @@
+/* Takes the drawings of a house: cuts it, looks at it from where the drawing is seen, and adds its marks. */
+#include "runtime/house/model/aspect.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "runtime/base/length_style.h"
+
+#define PLAN_CUT_NM INT64_C(1219200000) /* 4' */
+
+const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
+    [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL, [TN_SOLID_PARTITION] = TN_GROUP_WALL,
+    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR, [TN_SOLID_ROOFDECK] = TN_GROUP_ROOF,
+    [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,  [TN_SOLID_PANE] = TN_GROUP_PANE,
+    [TN_SOLID_LEAF] = TN_GROUP_LEAF,
+};
+
+void tn_prospect_clear(tn_prospect *prospect)
+{
+    tn_mesh_clear(&prospect->mesh);
+    free(prospect->cuts);
+    tn_marks_clear(&prospect->marks);
+    *prospect = (tn_prospect){0};
+}
+
+bool tn_house_has_storey(const tn_house *house, uint32_t storey)
+{
+    for (size_t i = 0; i < house->cell_count; i++)
+        if (house->cells[i].storey == storey)
+            return true;
+    return false;
+}
+
+/* Looking level at a side, or straight down with x to the right. */
+static tn_camera camera_of(const tn_aspect *aspect)
+{
+    static const double sides[] = {[TN_HOUSE_ANY_SIDE] = 0,
+                                   [TN_HOUSE_BACK] = -90,
+                                   [TN_HOUSE_FRONT] = 90,
+                                   [TN_HOUSE_LEFT] = 180,
+                                   [TN_HOUSE_RIGHT] = 0};
+    double width = tn_camera_default().width;
+    switch (aspect->kind) {
+    case TN_ASPECT_PLAN:
+        return (tn_camera){-90, 90, width};
+    case TN_ASPECT_SECTION_X:
+        return (tn_camera){0, 0, width};
+    case TN_ASPECT_SECTION_Y:
+        return (tn_camera){-90, 0, width};
+    case TN_ASPECT_ELEVATION:
+        return (tn_camera){sides[aspect->side], 0, width};
+    default:
+        return aspect->camera;
+    }
+}
+
+static void write_title(const tn_house *house, const tn_aspect *aspect, char *text, size_t size)
+{
+    static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "",
+                                        [TN_HOUSE_BACK] = "back",
+                                        [TN_HOUSE_FRONT] = "front",
+                                        [TN_HOUSE_LEFT] = "left",
+                                        [TN_HOUSE_RIGHT] = "right"};
+    const tn_house_form *form = house->form;
+    const tn_schema *schema = form->schema;
+    char at[64];
+    tn_length_style style =
+        tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[form->width]].name));
+    tn_length_write_style(aspect->at < 0 ? -aspect->at : aspect->at, style, at, sizeof at);
+    switch (aspect->kind) {
+    case TN_ASPECT_PLAN:
+        snprintf(text, size, "plan, %.50s",
+                 tn_text(form->module, form->module->STOREY_records[form->record->storey_first + aspect->storey].name));
+        return;
+    case TN_ASPECT_SECTION_X:
+    case TN_ASPECT_SECTION_Y:
+        snprintf(text, size, "section %c = %s%s", aspect->kind == TN_ASPECT_SECTION_X ? 'x' : 'y',
+                 aspect->at < 0 ? "-" : "", at);
+        return;
+    case TN_ASPECT_ELEVATION:
+        snprintf(text, size, "%s elevation", sides[aspect->side]);
+        return;
+    default:
+        snprintf(text, size, aspect->storeys ? "axonometric, roof off" : "axonometric");
+    }
+}
+
+/* Doors are drawn open on plans; furniture is left out where it is not wanted. */
+static void drop_parts(tn_blocks *blocks, const tn_aspect *aspect)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < blocks->count; i++) {
+        tn_solid_kind kind = blocks->items[i].kind;
+        if ((kind == TN_SOLID_LEAF && aspect->kind == TN_ASPECT_PLAN) || (kind == TN_SOLID_ITEM && aspect->bare))
+            continue;
+        blocks->items[kept++] = blocks->items[i];
+    }
+    blocks->count = kept;
+}
+
+/* What stands above the storeys that are shown: their walls end at the deck. */
+static void drop_above(const tn_house *house, tn_blocks *blocks, uint32_t storeys)
+{
+    double level = (double)(house->form->level[storeys] - house->form->record->deck);
+    size_t kept = 0;
+    for (size_t i = 0; i < blocks->count; i++)
+        if (blocks->items[i].low[2] < level)
+            blocks->items[kept++] = blocks->items[i];
+    blocks->count = kept;
+}
+
+static int64_t plan_level(const tn_house_form *form, uint32_t storey)
+{
+    int64_t clear = tn_form_clear(form, storey);
+    return form->level[storey] + (clear > PLAN_CUT_NM ? PLAN_CUT_NM : clear / 2);
+}
+
+/* Furniture that is cut is drawn like the rest of it, not hatched. */
+static void drop_item_cuts(tn_blocks *blocks)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < blocks->cut_count; i++)
+        if (blocks->cuts[i].kind != TN_SOLID_ITEM)
+            blocks->cuts[kept++] = blocks->cuts[i];
+    blocks->cut_count = kept;
+}
+
+static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *blocks, tn_error *error)
+{
+    drop_parts(blocks, aspect);
+    switch (aspect->kind) {
+    case TN_ASPECT_PLAN:
+        return tn_blocks_cut(blocks, 2, (double)plan_level(house->form, aspect->storey), false, error);
+    case TN_ASPECT_SECTION_X:
+        return tn_blocks_cut(blocks, 0, (double)aspect->at, false, error);
+    case TN_ASPECT_SECTION_Y:
+        return tn_blocks_cut(blocks, 1, (double)aspect->at, true, error);
+    default:
+        if (aspect->storeys && aspect->storeys <= house->form->record->storey_count)
+            drop_above(house, blocks, aspect->storeys);
+        return TN_OK;
+    }
+}
+
+static void measure(tn_prospect *prospect)
+{
+    tn_eye eye = tn_camera_eye(&prospect->camera);
+    for (int k = 0; k < 2; k++) {
+        prospect->low[k] = INFINITY;
+        prospect->high[k] = -INFINITY;
+    }
+    for (size_t v = 0; v < prospect->mesh.vertex_count; v++) {
+        tn_vector seen = tn_eye_sees(&eye, tn_vector_at(prospect->mesh.positions + 3 * v));
+        prospect->low[0] = fmin(prospect->low[0], seen.x);
+        prospect->high[0] = fmax(prospect->high[0], seen.x);
+        prospect->low[1] = fmin(prospect->low[1], seen.y);
+        prospect->high[1] = fmax(prospect->high[1], seen.y);
+    }
+}
+
+static tn_status missed(const tn_aspect *aspect, const tn_prospect *prospect, tn_error *error)
+{
+    tn_status status;
+    if (aspect->kind == TN_ASPECT_PLAN) {
+        status = tn_fail(error, TN_INVALID, E_USAGE, "the drawing `%s` would be empty: the house has no room there",
+                         prospect->title);
+        tn_error_help(error, "the section says how many storeys its zones have");
+        return status;
+    }
+    status = tn_fail(error, TN_INVALID, E_USAGE, "the %s cuts nothing of the house", prospect->title);
+    tn_error_help(error, "%s",
+                  aspect->kind == TN_ASPECT_SECTION_X
+                      ? "x is 0 at the left of the first tray, and grows to the right"
+                      : "y is 0 at the back of the spine, and grows to the front; zones behind the spine are negative");
+    return status;
+}
+
+static bool misses(const tn_house *house, const tn_aspect *aspect, const tn_blocks *blocks)
+{
+    if (aspect->kind == TN_ASPECT_PLAN)
+        return !tn_house_has_storey(house, aspect->storey);
+    return (aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y) && blocks->cut_count == 0;
+}
+
+tn_status tn_prospect_mark(const tn_house *house, double lettering, tn_prospect *prospect, tn_error *error)
+{
+    tn_marks_clear(&prospect->marks);
+    switch (prospect->aspect.kind) {
+    case TN_ASPECT_AXONOMETRIC:
+        return TN_OK;
+    case TN_ASPECT_PLAN:
+        return tn_marks_plan(house, prospect->aspect.storey, lettering, &prospect->marks, error);
+    default:
+        return tn_marks_levels(house, prospect->low, prospect->high, lettering, &prospect->marks, error);
+    }
+}
+
+static void stretch(double low[2], double high[2], double u, double v, double half_u, double half_v)
+{
+    low[0] = fmin(low[0], u - half_u);
+    high[0] = fmax(high[0], u + half_u);
+    low[1] = fmin(low[1], v - half_v);
+    high[1] = fmax(high[1], v + half_v);
+}
+
+void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[2])
+{
+    for (int k = 0; k < 2; k++) {
+        low[k] = prospect->low[k];
+        high[k] = prospect->high[k];
+    }
+    for (size_t i = 0; i < prospect->marks.count; i++) {
+        const tn_mark *m = &prospect->marks.items[i];
+        double wide = tn_mark_width(m->text) * m->high / 2, tall = m->high / 2;
+        stretch(low, high, m->u0, m->v0, m->upright ? tall : wide, m->upright ? wide : tall);
+        stretch(low, high, m->u1, m->v1, 0, 0);
+    }
+}
+
+tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
+                           tn_prospect *prospect, tn_error *error)
+{
+    tn_blocks blocks;
+    *prospect = (tn_prospect){.aspect = *aspect, .camera = camera_of(aspect)};
+    write_title(house, aspect, prospect->title, sizeof prospect->title);
+    tn_status status = tn_blocks_of(house, solids, &blocks, error);
+    if (status == TN_OK)
+        status = cut(house, aspect, &blocks, error);
+    if (status == TN_OK && misses(house, aspect, &blocks))
+        status = missed(aspect, prospect, error);
+    if (status == TN_OK)
+        status = tn_blocks_mesh(&blocks, tn_solid_groups, &prospect->mesh, error);
+    drop_item_cuts(&blocks);
+    if (status == TN_OK) {
+        prospect->cuts = blocks.cuts;
+        prospect->cut_count = blocks.cut_count;
+        blocks.cuts = NULL;
+        measure(prospect);
+    }
+    tn_blocks_clear(&blocks);
+    return status;
+}

@@ -1,0 +1,69 @@
+/* Drawings of a house: plans, sections, elevations and an axonometric view, before they are put on paper.
+ *
+ * What is drawn is a mesh before a camera, the faces of what was cut, and marks. A tn_prospect owns them; free it with
+ * tn_prospect_clear.
+ */
+#ifndef TARTAN_HOUSE_ASPECT_H
+#define TARTAN_HOUSE_ASPECT_H
+
+#include "runtime/geometry/camera.h"
+#include "runtime/house/model/marks.h"
+#include "runtime/house/model/model.h"
+
+/* What parts are drawn as: the groups of a prospect's mesh. */
+typedef enum tn_material_group {
+    TN_GROUP_WALL,
+    TN_GROUP_FLOOR,
+    TN_GROUP_ROOF,
+    TN_GROUP_ITEM,
+    TN_GROUP_PANE,
+    TN_GROUP_LEAF,
+    TN_GROUP_COUNT
+} tn_material_group;
+
+extern const uint32_t tn_solid_groups[TN_SOLID_COUNT];
+
+typedef enum tn_aspect_kind {
+    TN_ASPECT_PLAN,      /* cut 4' above the floor of a storey, or in the middle of a lower one */
+    TN_ASPECT_SECTION_X, /* what lies left of x = at, seen from the right */
+    TN_ASPECT_SECTION_Y, /* what lies before y = at, seen from the back */
+    TN_ASPECT_ELEVATION,
+    TN_ASPECT_AXONOMETRIC
+} tn_aspect_kind;
+
+typedef struct tn_aspect {
+    tn_aspect_kind kind;
+    uint32_t storey;    /* of a plan */
+    int64_t at;         /* of a section */
+    tn_house_side side; /* of an elevation */
+    tn_camera camera;   /* of the axonometric view */
+    uint32_t storeys;   /* of the axonometric view: only so many, without the deck above; 0: all, and the roof */
+    bool bare;          /* without what stands in the rooms */
+} tn_aspect;
+
+typedef struct tn_prospect {
+    tn_aspect aspect;
+    tn_camera camera;
+    tn_mesh mesh;      /* nanometres, groups as in tn_material_group */
+    tn_cut_face *cuts; /* u, v as the camera sees them */
+    size_t cut_count;
+    double low[2], high[2]; /* of all of it, without marks */
+    tn_marks marks;
+    char title[64];
+} tn_prospect;
+
+/* Without marks. E0904 for a section that misses the house, a plan of a storey that it does not have. */
+tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
+                           tn_prospect *prospect, tn_error *error);
+
+/* Makes the marks anew, with lettering so high in nanometres of the house. */
+tn_status tn_prospect_mark(const tn_house *house, double lettering, tn_prospect *prospect, tn_error *error);
+
+/* What the drawing takes with its marks. */
+void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[2]);
+void tn_prospect_clear(tn_prospect *prospect);
+
+/* Does the house have anything in the storey? */
+bool tn_house_has_storey(const tn_house *house, uint32_t storey);
+
+#endif

@@ -1,0 +1,97 @@
+/* Makes one mesh of the blocks of a house: the boundary of their union, worked out plane by plane. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/geometry/union/union.h"
+#include "runtime/house/model/model.h"
+
+/* The corners of each side in order, as in cut_box.c: bit 0 of a corner is high x, bit 1 y, bit 2 z. */
+static const uint8_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+/* A side without the corners that fall on the one before: where the top comes down to the bottom. */
+static void add_side(tn_cut_box *cell, const tn_house_block *block, int side)
+{
+    tn_cut_box_face face = {.side = (uint8_t)side};
+    if (side == 5 && block->top[0] != block->top[1])
+        face.side = TN_CUT_BOX_CAP;
+    for (int i = 0; i < 4; i++) {
+        uint8_t corner = sides[side][i];
+        if (corner & 4 && block->top[corner >> 1 & 1] <= block->low[2])
+            corner &= 3;
+        bool new = face.count == 0 || (face.corner[face.count - 1] != corner && face.corner[0] != corner);
+        if (new)
+            face.corner[face.count++] = corner;
+    }
+    if (face.count >= 3)
+        cell->faces[cell->face_count++] = face;
+}
+
+static void make_cell(const tn_house_block *block, tn_cut_box *cell)
+{
+    *cell = (tn_cut_box){.corner_count = 8};
+    for (int k = 0; k < 3; k++) {
+        cell->low[k] = block->low[k];
+        cell->high[k] = block->high[k];
+    }
+    for (int i = 0; i < 8; i++) {
+        cell->at[i][0] = i & 1 ? block->high[0] : block->low[0];
+        cell->at[i][1] = i & 2 ? block->high[1] : block->low[1];
+        cell->at[i][2] = i & 4 ? block->top[i >> 1 & 1] : block->low[2];
+    }
+    for (int side = 0; side < 6; side++)
+        add_side(cell, block, side);
+}
+
+/* A block without a height, width or depth is none. */
+static bool is_solid(const tn_house_block *b)
+{
+    return b->low[0] < b->high[0] && b->low[1] < b->high[1] && b->low[2] < b->high[2];
+}
+
+/* Turns the groups of cells into those of kinds of parts. */
+static tn_status name_groups(const uint32_t *kinds, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh,
+                             tn_error *error)
+{
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        uint32_t kind = kinds[mesh->face_group[f]];
+        mesh->face_group[f] = groups ? groups[kind] : kind;
+    }
+    mesh->group_count = TN_SOLID_COUNT;
+    if (groups)
+        return TN_OK;
+    mesh->group_names = calloc(TN_SOLID_COUNT, sizeof *mesh->group_names);
+    if (!mesh->group_names)
+        return tn_fail_memory(error);
+    for (int i = 0; i < TN_SOLID_COUNT; i++)
+        snprintf(mesh->group_names[i], sizeof mesh->group_names[i], "%s", tn_solid_kind_text((tn_solid_kind)i));
+    return TN_OK;
+}
+
+tn_status tn_blocks_mesh(const tn_blocks *blocks, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh, tn_error *error)
+{
+    tn_cut_box *cells = malloc((blocks->count + 1) * sizeof *cells);
+    uint32_t *kinds = malloc((blocks->count + 1) * sizeof *kinds);
+    tn_union united = {0};
+    size_t count = 0;
+    tn_status status = cells && kinds ? TN_OK : tn_fail_memory(error);
+    *mesh = (tn_mesh){0};
+    for (size_t i = 0; status == TN_OK && i < blocks->count; i++) {
+        if (!is_solid(&blocks->items[i]))
+            continue;
+        kinds[count] = blocks->items[i].kind;
+        make_cell(&blocks->items[i], &cells[count++]);
+    }
+    if (status == TN_OK)
+        status = tn_union_make(cells, count, &united, error);
+    if (status == TN_OK)
+        status = name_groups(kinds, groups, &united.mesh, error);
+    if (status == TN_OK) {
+        *mesh = united.mesh;
+        united.mesh = (tn_mesh){0};
+    }
+    tn_union_clear(&united);
+    free(cells);
+    free(kinds);
+    return status;
+}

@@ -1,0 +1,48 @@
+/* Fills the openings of a house: doors with leaves, windows with panes. */
+#include "runtime/house/model/model.h"
+
+bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole)
+{
+    const tn_opening_record *o = tn_form_opening(house->form, face->kind);
+    if (!o)
+        return false;
+    const tn_rectangle *at = &face->at;
+    bool in_y = at->x0 == at->x1;
+    int64_t half = tn_face_thickness(house, face) / 2, floor = house->form->level[face->storey];
+    int64_t from = tn_opening_from(in_y ? at->y0 + at->y1 : at->x0 + at->x1, o->wide), to = from + o->wide;
+    *hole = in_y ? (tn_box){at->x0 - half, at->x0 + half, from, to, 0, 0}
+                 : (tn_box){from, to, at->y0 - half, at->y0 + half, 0, 0};
+    hole->z0 = floor + o->sill;
+    hole->z1 = hole->z0 + o->high;
+    return true;
+}
+
+/* As thick as wanted, or as the wall where that is thinner. */
+static void make_thin(int64_t thick, int64_t *from, int64_t *to)
+{
+    int64_t over = (*to - *from - thick) / 2;
+    if (over > 0) {
+        *from += over;
+        *to -= over;
+    }
+}
+
+tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        tn_box hole;
+        if (!tn_house_hole(house, face, &hole))
+            continue;
+        bool leaf = tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE;
+        int64_t thick = leaf ? TN_LEAF_NM : TN_PANE_NM;
+        if (face->at.x0 == face->at.x1)
+            make_thin(thick, &hole.x0, &hole.x1);
+        else
+            make_thin(thick, &hole.y0, &hole.y1);
+        status =
+            tn_solids_add(solids, (tn_solid){.kind = leaf ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = i, .at = hole}, error);
+    }
+    return status;
+}

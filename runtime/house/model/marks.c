@@ -1,0 +1,110 @@
+/* Keeps marks of drawings; draws dimensions and levels. */
+#include "runtime/house/model/marks_parts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/base/length_style.h"
+
+void tn_marks_clear(tn_marks *marks)
+{
+    free(marks->items);
+    *marks = (tn_marks){0};
+}
+
+static void add(tn_marks *marks, tn_mark mark)
+{
+    if (!tn_array_reserve_from(&marks->items, &marks->room, 64, marks->count, 1, sizeof *marks->items))
+        marks->failed = true;
+    else
+        marks->items[marks->count++] = mark;
+}
+
+void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1)
+{
+    add(marks, (tn_mark){TN_MARK_LINE, layer, u0, v0, u1, v1, .high = 0});
+}
+
+void tn_marks_arc(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1)
+{
+    add(marks, (tn_mark){TN_MARK_ARC, layer, u0, v0, u1, v1, .high = 0});
+}
+
+void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
+                   const char *text)
+{
+    tn_mark mark = {TN_MARK_TEXT, layer, u, v, u, v, high, upright, ""};
+    snprintf(mark.text, sizeof mark.text, "%s", text);
+    add(marks, mark);
+}
+
+double tn_mark_width(const char *text)
+{
+    return 0.62 * (double)strlen(text); /* letters and digits of a sans serif, on the mean, with a little room */
+}
+
+/* The unit in which the schema's author writes widths. */
+static tn_length_style style_of(const tn_house *house)
+{
+    const tn_schema *schema = house->form->schema;
+    return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
+}
+
+void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
+                        double lettering)
+{
+    char text[64];
+    double tick = lettering * 0.4, middle = (from + to) / 2, room = to - from;
+    tn_length_write_style((int64_t)(room + 0.5), style_of(house), text, sizeof text);
+    if (upright) {
+        tn_marks_line(marks, TN_MARK_DIMENSION, at, from, at, to);
+        tn_marks_line(marks, TN_MARK_DIMENSION, at - tick, from - tick, at + tick, from + tick);
+        tn_marks_line(marks, TN_MARK_DIMENSION, at - tick, to - tick, at + tick, to + tick);
+    } else {
+        tn_marks_line(marks, TN_MARK_DIMENSION, from, at, to, at);
+        tn_marks_line(marks, TN_MARK_DIMENSION, from - tick, at - tick, from + tick, at + tick);
+        tn_marks_line(marks, TN_MARK_DIMENSION, to - tick, at - tick, to + tick, at + tick);
+    }
+    double high = lettering, wide = tn_mark_width(text) * lettering;
+    if (wide > room)
+        high *= room / wide;
+    if (high < 0.4 * lettering)
+        return; /* nobody could read it */
+    tn_marks_text(marks, TN_MARK_DIMENSION, upright ? at - 0.8 * lettering : middle,
+                  upright ? middle : at + 0.8 * lettering, high, upright, text);
+}
+
+/* ---- levels */
+
+static void put_level(tn_marks *marks, const tn_house *house, double u, double v, double lettering, const char *name)
+{
+    char text[sizeof marks->items->text], length[64];
+    tn_length_write_style((int64_t)(v + 0.5), style_of(house), length, sizeof length);
+    snprintf(text, sizeof text, "%.30s%s%.15s", name, name[0] ? " " : "", length);
+    double wide = tn_mark_width(text) * lettering;
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, v, u, v);
+    tn_marks_text(marks, TN_MARK_DIMENSION, u - lettering - wide / 2, v + 0.7 * lettering, lettering, false, text);
+}
+
+tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], double lettering,
+                          tn_marks *marks, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    double ground = -(double)form->record->deck, u = low[0] - lettering, beyond = 3 * lettering;
+    tn_marks_line(marks, TN_MARK_GROUND, low[0] - beyond, ground, high[0] + beyond, ground);
+    double last = -1e30;
+    for (uint32_t k = 0; k <= form->record->storey_count; k++) {
+        double v = (double)form->level[k];
+        bool top = k == form->record->storey_count;
+        if (v > high[1] || v - last < 1.6 * lettering)
+            continue;
+        put_level(marks, house, u, v, lettering,
+                  top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name));
+        last = v;
+    }
+    if (high[1] - last >= 1.6 * lettering)
+        put_level(marks, house, u, high[1], lettering, "top");
+    return marks->failed ? tn_fail_memory(error) : TN_OK;
+}

@@ -1,0 +1,63 @@
+/* A house as blocks, which can be cut by planes across the axes and become one mesh.
+ *
+ * A block is a box whose top may slope in y: a wall, a deck, or the stretch of a roof between two points of its line.
+ * Blocks do not overlap. Coordinates are nanometres as doubles: whole numbers, but for the lines of roofs and where
+ * these are cut. A tn_blocks owns its arrays; free them with tn_blocks_clear.
+ */
+#ifndef TARTAN_HOUSE_MODEL_H
+#define TARTAN_HOUSE_MODEL_H
+
+#include "runtime/geometry/mesh.h"
+#include "runtime/house/solids.h"
+
+/* of, item: as in tn_solid; of a roof, the cell. */
+typedef struct tn_house_block {
+    tn_solid_kind kind;
+    uint32_t of, item;
+    double low[3], high[3]; /* high[2] is the higher of the two tops */
+    double top[2];          /* at low[1] and at high[1] */
+} tn_house_block;
+
+/* A polygon in the plane of a cut, counter-clockwise for whoever sees the cut. Coordinates are the two other axes. */
+typedef struct tn_cut_face {
+    tn_solid_kind kind;
+    uint32_t of;
+    double at[4][2];
+} tn_cut_face;
+
+typedef struct tn_blocks {
+    tn_house_block *items;
+    size_t count, room;
+    tn_cut_face *cuts; /* what the last cut left open */
+    size_t cut_count, cut_room;
+} tn_blocks;
+
+void tn_blocks_clear(tn_blocks *blocks);
+
+/* The blocks of a house, with the leaves of its doors and the panes of its windows (tn_house_leaves). */
+tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error);
+
+/* Keeps what lies below (or, `above`, beyond) the plane across an axis, in blocks->items; blocks->cuts are the faces in
+ * the plane of what was cut through. */
+tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error);
+
+/* The boundary of the union, closed and two-manifold, in triangles; nanometres, z up. A group for each kind of part:
+ * groups[kind] says which; names are those of kinds where `groups` is NULL. */
+tn_status tn_blocks_mesh(const tn_blocks *blocks, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh,
+                         tn_error *error);
+
+/* ---- leaves.c */
+
+/* What fills an opening: a leaf 1 3/4" thick where one walks through, otherwise a pane of 1"; in the middle of its
+ * wall. */
+#define TN_LEAF_NM INT64_C(44450000)
+#define TN_PANE_NM INT64_C(25400000)
+
+/* The hole that an opening of this height leaves in a face: across the wall it is as thick as the wall. False where
+ * the face has no opening. */
+bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole);
+
+/* Adds leaves and panes to the solids; `of` is their face. */
+tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error);
+
+#endif

@@ -1,0 +1,22 @@
+/* The parts of drawing a house. Internal to runtime/house/picture. */
+#ifndef TARTAN_HOUSE_DRAW_PARTS_H
+#define TARTAN_HOUSE_DRAW_PARTS_H
+
+#include "runtime/draw/canvas.h"
+#include "runtime/house/picture/draw.h"
+#include "runtime/scene/view.h"
+
+#define TN_LETTERING 5.5 /* points */
+
+/* A drawing of a sheet, and where it stands. */
+typedef struct tn_house_drawn {
+    tn_prospect prospect;
+    tn_view *view;
+    double low[2], high[2]; /* with its marks, nanometres */
+    double x, y;            /* of its lower left corner, points */
+} tn_house_drawn;
+
+/* Paints a drawing where it stands, points_per_nm its scale. */
+void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);
+
+#endif

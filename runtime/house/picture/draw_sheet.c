@@ -1,0 +1,264 @@
+/* Puts drawings of a house on paper: chooses scale and paper, sets them in rows, and writes what they are. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "runtime/base/length_style.h"
+#include "runtime/draw/paper.h"
+#include "runtime/draw/type.h"
+#include "runtime/house/picture/draw_parts.h"
+
+#define MARGIN 28.0
+#define GAP 26.0
+#define CAPTION 18.0
+#define HEADING 24.0
+#define NOTE_LEADING 8.5
+#define NOTE_LINES 3u
+#define LEGIBLE_METRIC 100u /* scales at which a plan of a house can be read: 1:100, 1/8" */
+#define LEGIBLE_FEET 96u
+#define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
+#define VIEW_HEIGHT 620.0
+
+typedef struct sheet {
+    const tn_house *house;
+    const tn_house_drawing *drawing;
+    tn_house_drawn *drawn; /* [drawing->count]; owned */
+    bool metric;
+    uint32_t scale;
+    double points;        /* a nanometre, in points */
+    double width, height; /* of the page */
+    double foot;          /* room for notes and the scale bar */
+} sheet;
+
+static tn_length_style style_of(const tn_house *house)
+{
+    const tn_schema *schema = house->form->schema;
+    return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
+}
+
+static tn_status take_view(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
+                           tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
+{
+    tn_sight sight = {0};
+    tn_status status = tn_prospect_take(house, solids, aspect, &drawn->prospect, error);
+    if (status == TN_OK)
+        status = tn_sight_of_mesh(&drawn->prospect.mesh, &sight, error);
+    if (status == TN_OK) {
+        sight.closed = true;
+        sight.watch = watch;
+        status = tn_view_take(&sight, &drawn->prospect.camera, &drawn->view, error);
+    }
+    tn_sight_clear(&sight);
+    return status;
+}
+
+static void clear(sheet *s)
+{
+    for (size_t i = 0; s->drawn && i < s->drawing->count; i++) {
+        tn_view_free(s->drawn[i].view);
+        tn_prospect_clear(&s->drawn[i].prospect);
+    }
+    free(s->drawn);
+}
+
+/* ---- laying out */
+
+static double wide(const sheet *s, const tn_house_drawn *d)
+{
+    return (d->high[0] - d->low[0]) * s->points;
+}
+
+static double high(const sheet *s, const tn_house_drawn *d)
+{
+    return (d->high[1] - d->low[1]) * s->points;
+}
+
+static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
+{
+    tn_status status = TN_OK;
+    s->scale = scale;
+    s->points = TN_POINTS_PER_NM / scale;
+    for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++) {
+        tn_house_drawn *d = &s->drawn[i];
+        status = tn_prospect_mark(s->house, TN_LETTERING / s->points, &d->prospect, error);
+        tn_prospect_extent(&d->prospect, d->low, d->high);
+    }
+    return status;
+}
+
+/* How many drawings go into the row that starts with this one, and how high it becomes. */
+static size_t measure_row(const sheet *s, size_t first, double room, double *across, double *down)
+{
+    size_t count = 0;
+    *across = *down = 0;
+    for (size_t i = first; i < s->drawing->count; i++, count++) {
+        double w = wide(s, &s->drawn[i]) + (count ? GAP : 0);
+        if (count && *across + w > room)
+            break;
+        *across += w;
+        *down = fmax(*down, high(s, &s->drawn[i]));
+    }
+    return count;
+}
+
+/* Sets the drawings in rows; how high and wide they become. */
+static void set_rows(sheet *s, double room, double *most, double *down)
+{
+    double y = MARGIN + (s->drawing->title ? HEADING : 0);
+    *most = 0;
+    for (size_t first = 0; first < s->drawing->count;) {
+        double across, row;
+        size_t count = measure_row(s, first, room, &across, &row);
+        double gap = count > 1 ? (room - across) / (double)(count + 1) : (room - across) / 2, x = MARGIN + gap;
+        for (size_t i = first; i < first + count; i++) {
+            s->drawn[i].x = x;
+            s->drawn[i].y = y + row;
+            x += wide(s, &s->drawn[i]) + GAP + (count > 1 ? gap : 0);
+        }
+        *most = fmax(*most, across);
+        y += row + CAPTION + GAP;
+        first += count;
+    }
+    *down = y - GAP;
+}
+
+/* Does everything fit on a page of this size? */
+static bool fits(sheet *s, double width, double height)
+{
+    double most, down;
+    set_rows(s, width - 2 * MARGIN, &most, &down);
+    s->width = width;
+    s->height = height;
+    return most <= width - 2 * MARGIN && down + s->foot + MARGIN <= height;
+}
+
+static tn_status choose_paper(sheet *s, tn_error *error)
+{
+    const tn_paper *papers;
+    const uint32_t *scales;
+    size_t paper_count = tn_paper_choices(s->metric, &papers), scale_count = tn_scale_choices(s->metric, &scales);
+    for (int legible = 1; legible >= 0; legible--) {
+        for (size_t p = legible ? 0 : paper_count - 1; p < paper_count; p++) {
+            for (size_t i = 0; i < scale_count; i++) {
+                if (s->drawing->scale ? i > 0 : legible && scales[i] > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET))
+                    break;
+                tn_status status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
+                if (status != TN_OK || fits(s, papers[p].width, papers[p].height))
+                    return status;
+            }
+        }
+    }
+    tn_status status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the drawings do not fit on a sheet of paper");
+    tn_error_help(error, "choose a smaller --scale (a larger number), or write single drawings: --view");
+    return status;
+}
+
+/* One drawing gets a page of its size. */
+static tn_status choose_page(sheet *s, tn_error *error)
+{
+    const uint32_t *scales;
+    size_t count = tn_scale_choices(s->metric, &scales);
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
+        if (s->drawing->scale || (wide(s, &s->drawn[0]) <= VIEW_WIDTH && high(s, &s->drawn[0]) <= VIEW_HEIGHT))
+            break;
+    }
+    double most, down;
+    s->width = fmax(wide(s, &s->drawn[0]), 240) + 2 * MARGIN;
+    set_rows(s, s->width - 2 * MARGIN, &most, &down);
+    s->height = down + s->foot + MARGIN;
+    return status;
+}
+
+/* ---- painting */
+
+static void paint_captions(const sheet *s, cairo_t *cr)
+{
+    char scale[32];
+    tn_scale_write(s->scale, s->metric, scale, sizeof scale);
+    for (size_t i = 0; i < s->drawing->count; i++) {
+        const tn_house_drawn *d = &s->drawn[i];
+        double middle = d->x + wide(s, d) / 2;
+        cairo_set_source_rgb(cr, 0, 0, 0);
+        tn_type_face(cr, 7.5, true);
+        tn_type_line(cr, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->prospect.title);
+    }
+}
+
+/* A bar of four feet or metres, in black and white, at the right of the foot. */
+static void paint_bar(const sheet *s, cairo_t *cr, double y)
+{
+    char text[64];
+    int64_t unit = s->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
+    double step = (double)unit * s->points, x = s->width - MARGIN - 4 * step;
+    tn_scale_write(s->scale, s->metric, text, sizeof text);
+    tn_type_face(cr, 6.5, false);
+    cairo_set_source_rgb(cr, 0, 0, 0);
+    tn_type_line(cr, x - 8, y + 4, TN_ALIGN_RIGHT, text);
+    cairo_set_line_width(cr, 0.5);
+    for (int i = 0; i <= 4; i++) {
+        tn_length_write_style(unit * i, style_of(s->house), text, sizeof text);
+        if (i % 2 == 0)
+            tn_type_line(cr, x + step * i, y + 12, TN_ALIGN_CENTRE, text);
+        if (i == 4)
+            break;
+        cairo_rectangle(cr, x + step * i, y, step, 4);
+        if (i % 2 == 0)
+            cairo_fill_preserve(cr);
+        cairo_stroke(cr);
+    }
+}
+
+static void paint_foot(const sheet *s, cairo_t *cr)
+{
+    double y = s->height - MARGIN - s->foot + 14,
+           bar = (double)(s->metric ? 1000000000 : TN_FOOT_NM * 4) * s->points * 4;
+    double room = s->width - 2 * MARGIN - bar - 90;
+    paint_bar(s, cr, y);
+    if (s->drawing->count == 1 && s->drawing->aspects[0].kind == TN_ASPECT_AXONOMETRIC && room < 120)
+        room = 120;
+    tn_type_face(cr, 6.5, false);
+    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+    y += 4;
+    for (size_t i = 0; i < s->drawing->note_count && room > 60; i++)
+        y += NOTE_LEADING * tn_type_paragraph(cr, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
+}
+
+static void paint(const sheet *s, const tn_canvas *canvas)
+{
+    cairo_t *cr = tn_canvas_context(canvas);
+    if (s->drawing->title) {
+        tn_type_face(cr, 13, true);
+        tn_type_fit(cr, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
+    }
+    for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
+        tn_draw_prospect(canvas, &s->drawn[i], s->points);
+    paint_captions(s, cr);
+    paint_foot(s, cr);
+}
+
+tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn_house_drawing *drawing, tn_picture *to,
+                        tn_error *error)
+{
+    sheet s = {.house = house,
+               .drawing = drawing,
+               .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
+               .metric = style_of(house) != TN_STYLE_FEET,
+               .foot = 22 + NOTE_LEADING * (double)drawing->note_count};
+    tn_canvas *canvas = NULL;
+    tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < drawing->count; i++)
+        status = take_view(solids, &drawing->aspects[i], house, &s.drawn[i], to->watch, error);
+    if (status == TN_OK)
+        status = drawing->count == 1 ? choose_page(&s, error) : choose_paper(&s, error);
+    if (status == TN_OK)
+        status = tn_canvas_begin(to, s.width, s.height, drawing->title, &canvas, error);
+    if (status == TN_OK) {
+        paint(&s, canvas);
+        status = tn_canvas_commit(canvas, error);
+    }
+    tn_canvas_free(canvas);
+    clear(&s);
+    return status;
+}
