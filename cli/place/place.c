@@ -232,12 +232,8 @@ static const tn_option options[] = {
          "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
          "a model on standard output"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
-<<<<<<< HEAD
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
-    TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, parted by blanks"),
-=======
     TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
->>>>>>> main
     MAYBE("stats", 0, "[table|json]", stats, "table|json",
           "print figures: parts, steps, alternatives looked at, cells"),
     FLAG("trace", 0, trace, "print of every symbol which alternatives did not fit, and what was in the way"),

@@ -14,12 +14,8 @@ void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model,
 /* Parts by name and colour, in the order of their first: part,colour,number; of a kit also title, mass and price. */
 tn_status tn_place_write_list(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error);
 
-<<<<<<< HEAD
-/* The steps that were taken (kept), as the grammar's author wrote them, parted by blanks; of a kit, as connection
- * grammars write them. */
-=======
-/* The steps that were taken (kept), as the grammar's author wrote them, separated by blanks. */
->>>>>>> main
+/* The steps that were taken (kept), as the grammar's author wrote them, separated by blanks; of a kit,
+ * as connection grammars write them. */
 void tn_place_write_program(const tn_placed_model *model, const tn_place_rules *rules, FILE *out);
 
 /* A step of a kit as the terminals of a connection grammar; boxes have even sides. */
