@@ -220,7 +220,7 @@ bool tn_job_takes_text(tn_job *job, const char *path)
 {
     if (!tn_job_draws(path))
         return true;
-    tn_diagnostic *d = tn_job_usage(job, "%.200s is a picture's name, and what goes there is text", path);
+    tn_diagnostic *d = tn_job_usage(job, "%.200s is the name of a picture, and this output is text", path);
     tn_help(tn_job_diagnostics(job), d, "end its name otherwise; plans and rules are drawn by `tartan draw`");
     return false;
 }

@@ -7,6 +7,7 @@
 
 #include "runtime/geometry/write.h"
 #include "runtime/house/describe.h"
+#include "runtime/house/export/export.h"
 #include "runtime/house/picture/draw.h"
 
 typedef enum tn_house_file {
@@ -16,13 +17,16 @@ typedef enum tn_house_file {
     FILE_OBJ,
     FILE_PLY,
     FILE_GLB,
+    FILE_IFC,
+    FILE_DXF,
     FILE_SVG,
     FILE_PDF,
     FILE_PNG,
     FILE_KINDS
 } tn_house_file;
-static const char *const endings[] = {NULL, ".json", ".csv", ".obj", ".ply", ".glb", ".svg", ".pdf", ".png"};
-#define ENDINGS ".json, .csv, .obj, .ply, .glb, .svg, .pdf or .png"
+static const char *const endings[] = {NULL,   ".json", ".csv", ".obj", ".ply", ".glb",
+                                      ".ifc", ".dxf",  ".svg", ".pdf", ".png"};
+#define ENDINGS ".json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
 
 /* A house on its way to files. */
 typedef struct tn_house_writer {
@@ -88,6 +92,30 @@ static tn_status make_mesh(const tn_house_writer *w, tn_mesh *mesh, tn_error *er
     return status;
 }
 
+/* What a form says of itself. */
+static const char *form_name(const tn_house *house)
+{
+    const tn_form_record *form = house->form->record;
+    const char *doc = tn_text(house->form->module, form->doc);
+    return doc[0] ? doc : tn_text(house->form->module, form->name);
+}
+
+/* What the house is called in files and on sheets. */
+static const char *title_of(const tn_house_writer *w)
+{
+    if (w->outputs->title)
+        return w->outputs->title;
+    return w->outputs->name ? w->outputs->name : form_name(w->house);
+}
+
+/* Drawings as lines. TN_STOPPED: a view is wrong, which is recorded. */
+static tn_status write_dxf(const tn_house_writer *w, FILE *out, tn_error *error)
+{
+    tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
+    size_t count = tn_house_views(w->job, w->house, w->outputs, aspects);
+    return count ? tn_house_write_dxf(w->house, w->solids, aspects, count, out, error) : TN_STOPPED;
+}
+
 static tn_status write_mesh(const tn_house_writer *w, tn_house_file kind, FILE *out, tn_error *error)
 {
     tn_mesh mesh;
@@ -103,14 +131,6 @@ static tn_status write_mesh(const tn_house_writer *w, tn_house_file kind, FILE *
 
 /* ---- drawings */
 
-/* What a form says of itself. */
-static const char *form_name(const tn_house *house)
-{
-    const tn_form_record *form = house->form->record;
-    const char *doc = tn_text(house->form->module, form->doc);
-    return doc[0] ? doc : tn_text(house->form->module, form->name);
-}
-
 static void draw(const tn_house_writer *w, const char *path)
 {
     tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
@@ -123,9 +143,7 @@ static void draw(const tn_house_writer *w, const char *path)
     const char *notes[] = {line.data ? line.data : ""};
     tn_house_drawing drawing = {.aspects = aspects,
                                 .count = count,
-                                .title = w->outputs->title  ? w->outputs->title
-                                         : w->outputs->name ? w->outputs->name
-                                                            : form_name(w->house),
+                                .title = title_of(w),
                                 .notes = notes,
                                 .note_count = count > 1,
                                 .scale = (uint32_t)w->outputs->scale.value};
@@ -166,9 +184,11 @@ static void write_file(const tn_house_writer *w, const char *path)
     }
     if (!tn_job_output(w->job, path, &output))
         return;
-    tn_status status =
-        kind >= FILE_OBJ ? write_mesh(w, kind, output.stream, &error) : write_text(w, kind, output.stream, &error);
-    if (status != TN_OK)
+    tn_status status = kind < FILE_OBJ    ? write_text(w, kind, output.stream, &error)
+                       : kind < FILE_IFC  ? write_mesh(w, kind, output.stream, &error)
+                       : kind == FILE_IFC ? tn_house_write_ifc(w->house, w->solids, title_of(w), output.stream, &error)
+                                          : write_dxf(w, output.stream, &error);
+    if (status != TN_OK && status != TN_STOPPED) /* a wrong view is said already */
         tn_job_fail(w->job, &error);
     tn_job_close(w->job, &output, status == TN_OK);
 }

@@ -114,7 +114,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 #define SETTINGS house_settings
 static const tn_option options[] = {
     LIST("output", 'o', "FILE", outputs.files,
-         "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .svg, .pdf or .png; a folder (with "
+         "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png; a "
+         "folder (with "
          "a "
          "/ at its end) gets all of them; may be repeated"),
     LIST("view", 0, "VIEW", outputs.views,
@@ -129,7 +130,7 @@ static const tn_option options[] = {
     TEXT("title", 0, "TEXT", outputs.title, "the title of a picture; by default the number of the house"),
     NUMBER("dpi", 0, "N", outputs.dpi, 10, 1200, "resolution of a .png (default 150)"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
-    TEXT("library", 0, "NAME", library, "of which library of houses the number is; may be left out where there is one"),
+    TEXT("library", 0, "NAME", library, "the library of houses that the number belongs to; may be left out where the file has one"),
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
     NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
 };
@@ -146,7 +147,8 @@ const tn_command tn_command_house = {
         "functions ; faces ; tiles`. Parts at its end that leave no choice may be left out. #P:V is variant V of the "
         "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written. "
         "JSON has everything, in whole nanometres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
-        "house as one closed mesh in metres, in groups by what its parts are. SVG, PDF and PNG are drawings to scale: "
+        "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "
+        "millimetres. SVG, PDF, PNG and DXF are drawings to scale: "
         "a sheet of all, or those that --view names.",
     .example = "$ tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; wall window wall\"\n14' "
                "room:14' none ; 1 gable(9:12) 1 flat ; "

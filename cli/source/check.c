@@ -207,7 +207,7 @@ static void check(tn_job *job, const char *path)
     const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
     if (settings->figures && !tn_module_has_grammar(module))
-        tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
+        tn_job_usage(job, "--figures is about grammars, and %.200s is not one", path);
     else if (settings->relations && module->RULE_count == 0)
         tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
     else if (tn_module_has_grammar(module))

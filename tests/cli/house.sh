@@ -54,7 +54,7 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
         cmp "$scratch/one.svg" "$scratch/two.svg" || fail "two pictures of $view differ"
     done
     "$TARTAN" house cottage '#10:77' -o "$scratch/all/"
-    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.glb house.json house.obj house.pdf house.ply house.png house.svg'
+    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.pdf house.ply house.png house.svg'
 fi
 
 # The house is one closed mesh: each edge is there twice, once in each direction.

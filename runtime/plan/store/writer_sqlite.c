@@ -137,7 +137,7 @@ static tn_status look(tn_plan_writer *writer, bool *is_new, tn_error *error)
     free(id);
     if (status != TN_OK || *is_new || is_library)
         return status;
-    tn_fail(error, TN_IO, E_CANNOT_WRITE, "%s: the file is there already, and it is no plan library", writer->path);
+    tn_fail(error, TN_IO, E_CANNOT_WRITE, "%s: the file exists already, and it is not a plan library", writer->path);
     tn_error_help(error, "name another file, or remove this one");
     return TN_IO;
 }
@@ -152,7 +152,7 @@ static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item
     if (status == TN_OK && !same) {
         status = tn_fail(error, TN_INVALID, E_PLAN_RESUME, "%s: its %s is %.100s, and now it would be %.100s",
                          writer->path, item->key, found ? found : "not known", item->value ? item->value : "none");
-        tn_error_help(error, "a library is gone on with from the same rules and command; leave out --resume to start "
+        tn_error_help(error, "an interrupted library is continued with the same rules and the same command; leave out --resume to start "
                              "anew");
     }
     free(found);

@@ -217,7 +217,7 @@ static tn_status open_format(tn_plan_reader *reader, tn_error *error)
     if (reader->format == TN_FORMAT_SQLITE && !sqlite)
         return refuse_text(reader, "is no SQLite library", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_BIN && !bin)
-        return refuse_text(reader, "is no file of packed plans", "leave the format out, and it is found", error);
+        return refuse_text(reader, "is not a file of packed plans", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_SQLITE)
         return open_sqlite(reader, error);
     return reader->format == TN_FORMAT_BIN ? tn_reader_bin_open(reader, error) : open_text(reader, error);

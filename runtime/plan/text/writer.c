@@ -171,7 +171,7 @@ static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
 static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
 {
     if (options->resume) {
-        tn_fail(error, TN_INVALID, E_USAGE, "%s: only SQLite libraries can be gone on with", writer->path);
+        tn_fail(error, TN_INVALID, E_USAGE, "%s: only an interrupted SQLite library can be continued", writer->path);
         tn_error_help(error, "write to a file that ends in .sqlite");
         return TN_INVALID;
     }

@@ -1,0 +1,184 @@
+/* Writes drawings of a house as DXF, release 12: the oldest that every CAD program reads. Group codes and values in
+ * turn, a line each; the reference is Autodesk's "DXF Reference", chapters on LAYER, LINE, ARC and TEXT. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "runtime/geometry/visible.h"
+#include "runtime/house/export/export.h"
+
+#define LETTERING_NM 100e6 /* 2 mm high at 1:50 */
+#define HATCH_NM 60e6      /* between lines */
+#define GAP_NM 3e9
+#define TOLERANCE_NM 1000.0
+
+/* Layers of marks come first, in the order of tn_mark_layer. */
+enum { LAYER_SEEN = TN_MARK_LAYERS, LAYER_CUT, LAYER_HATCH, LAYER_TITLE, LAYER_COUNT };
+
+static const struct {
+    const char *name;
+    int colour; /* of AutoCAD's index */
+} layers[LAYER_COUNT] = {
+    [TN_MARK_DOOR] = {"DOORS", 30},
+    [TN_MARK_STAIR] = {"STAIRS", 8},
+    [TN_MARK_VOID] = {"VOIDS", 9},
+    [TN_MARK_GROUND] = {"GROUND", 7},
+    [TN_MARK_DIMENSION] = {"DIMENSIONS", 8},
+    [TN_MARK_NAME] = {"NAMES", 7},
+    [LAYER_SEEN] = {"SEEN", 7},
+    [LAYER_CUT] = {"CUT", 1},
+    [LAYER_HATCH] = {"HATCH", 253},
+    [LAYER_TITLE] = {"TITLES", 7},
+};
+
+/* Where a drawing stands on the sheet: its u, v move by this. */
+typedef struct tn_dxf {
+    FILE *out;
+    double du, dv;
+} tn_dxf;
+
+static void begin(const tn_dxf *dxf, const char *entity, int layer)
+{
+    fprintf(dxf->out, "0\n%s\n8\n%s\n", entity, layers[layer].name);
+}
+
+static void point(const tn_dxf *dxf, int code, double u, double v)
+{
+    fprintf(dxf->out, "%d\n%.6f\n%d\n%.6f\n%d\n0.0\n", code, (u + dxf->du) / 1e6, code + 10, (v + dxf->dv) / 1e6,
+            code + 20);
+}
+
+static void line(const tn_dxf *dxf, int layer, double u0, double v0, double u1, double v1)
+{
+    begin(dxf, "LINE", layer);
+    point(dxf, 10, u0, v0);
+    point(dxf, 11, u1, v1);
+}
+
+static void text(const tn_dxf *dxf, int layer, double u, double v, double high, bool upright, const char *words)
+{
+    begin(dxf, "TEXT", layer);
+    point(dxf, 10, u, v);
+    fprintf(dxf->out, "40\n%.6f\n1\n", high / 1e6);
+    for (const char *c = words; *c; c++)
+        putc(*c >= ' ' && *c <= '~' ? *c : '?', dxf->out);
+    fprintf(dxf->out, "\n50\n%d.0\n72\n1\n73\n2\n", upright ? 90 : 0);
+    point(dxf, 11, u, v);
+}
+
+static void mark(const tn_dxf *dxf, const tn_mark *m)
+{
+    if (m->kind == TN_MARK_TEXT) {
+        text(dxf, m->layer, m->u0, m->v0, 0.7 * m->high, m->upright, m->text);
+    } else if (m->kind == TN_MARK_LINE) {
+        line(dxf, m->layer, m->u0, m->v0, m->u1, m->v1);
+    } else {
+        double u = m->u1 - m->u0, v = m->v1 - m->v0;
+        int from = fabs(u) > fabs(v) ? (u > 0 ? 0 : 180) : (v > 0 ? 90 : 270);
+        begin(dxf, "ARC", m->layer);
+        point(dxf, 10, m->u0, m->v0);
+        fprintf(dxf->out, "40\n%.6f\n50\n%d.0\n51\n%d.0\n", (fabs(u) + fabs(v)) / 1e6, from, (from + 90) % 360);
+    }
+}
+
+/* ---- what was cut */
+
+/* Lines at 45 degrees across a polygon, on a grid that all polygons share. */
+static void hatch(const tn_dxf *dxf, const tn_cut_face *face)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < 4; i++) {
+        low = fmin(low, face->at[i][1] - face->at[i][0]);
+        high = fmax(high, face->at[i][1] - face->at[i][0]);
+    }
+    for (double k = ceil(low / HATCH_NM); k * HATCH_NM < high; k++) {
+        double ends[2][2];
+        int found = 0;
+        for (int i = 0; i < 4 && found < 2; i++) {
+            const double *a = face->at[i], *b = face->at[(i + 1) % 4];
+            double over_a = a[1] - a[0] - k * HATCH_NM, over_b = b[1] - b[0] - k * HATCH_NM;
+            if ((over_a < 0) == (over_b < 0))
+                continue;
+            double t = over_a / (over_a - over_b);
+            ends[found][0] = a[0] + t * (b[0] - a[0]);
+            ends[found++][1] = a[1] + t * (b[1] - a[1]);
+        }
+        if (found == 2)
+            line(dxf, LAYER_HATCH, ends[0][0], ends[0][1], ends[1][0], ends[1][1]);
+    }
+}
+
+/* How near the plane of the cut is to the eye; INFINITY where nothing is cut. */
+static double cut_depth(const tn_prospect *p, const tn_seen_line *lines, size_t count)
+{
+    double depth = -INFINITY;
+    bool cut = p->aspect.kind == TN_ASPECT_PLAN || p->aspect.kind == TN_ASPECT_SECTION_X ||
+               p->aspect.kind == TN_ASPECT_SECTION_Y;
+    for (size_t i = 0; i < count; i++)
+        depth = fmax(depth, fmax(lines[i].from[2], lines[i].to[2]));
+    return cut ? depth - TOLERANCE_NM : INFINITY;
+}
+
+static tn_status write_prospect(const tn_dxf *dxf, const tn_prospect *p, tn_error *error)
+{
+    tn_eye eye = tn_camera_eye(&p->camera);
+    tn_seen_line *lines;
+    size_t count;
+    tn_status status = tn_mesh_visible(&p->mesh, &eye, TOLERANCE_NM, &lines, &count, error);
+    double depth = cut_depth(p, lines, count);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        const double *a = lines[i].from, *b = lines[i].to;
+        line(dxf, a[2] > depth && b[2] > depth ? LAYER_CUT : LAYER_SEEN, a[0], a[1], b[0], b[1]);
+    }
+    for (size_t i = 0; status == TN_OK && i < p->cut_count; i++)
+        if (p->cuts[i].kind != TN_SOLID_PANE && p->cuts[i].kind != TN_SOLID_LEAF)
+            hatch(dxf, &p->cuts[i]);
+    for (size_t i = 0; status == TN_OK && i < p->marks.count; i++)
+        mark(dxf, &p->marks.items[i]);
+    free(lines);
+    return status;
+}
+
+/* ---- the file */
+
+static void write_head(FILE *out)
+{
+    fputs("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
+          "0\nTABLE\n2\nLTYPE\n70\n2\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n40\n0.0\n"
+          "0\nLTYPE\n2\nDASHED\n70\n0\n3\n__ __ __\n72\n65\n73\n2\n40\n300.0\n49\n200.0\n49\n-100.0\n0\nENDTAB\n",
+          out);
+    fprintf(out, "0\nTABLE\n2\nLAYER\n70\n%d\n", LAYER_COUNT);
+    for (int i = 0; i < LAYER_COUNT; i++)
+        fprintf(out, "0\nLAYER\n2\n%s\n70\n0\n62\n%d\n6\n%s\n", layers[i].name, layers[i].colour,
+                i == TN_MARK_VOID ? "DASHED" : "CONTINUOUS");
+    fputs("0\nENDTAB\n0\nTABLE\n2\nSTYLE\n70\n1\n0\nSTYLE\n2\nSTANDARD\n70\n0\n40\n0.0\n41\n1.0\n50\n0.0\n71\n0\n42\n"
+          "100.0\n3\ntxt\n4\n\n0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+          out);
+}
+
+tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
+                             FILE *out, tn_error *error)
+{
+    tn_dxf dxf = {.out = out};
+    double at = 0;
+    tn_status status = TN_OK;
+    write_head(out);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        tn_prospect p;
+        double low[2], high[2];
+        status = tn_prospect_take(house, solids, &aspects[i], &p, error);
+        if (status == TN_OK)
+            status = tn_prospect_mark(house, LETTERING_NM, &p, error);
+        if (status == TN_OK) {
+            tn_prospect_extent(&p, low, high);
+            dxf.du = at - low[0];
+            dxf.dv = -p.low[1];
+            status = write_prospect(&dxf, &p, error);
+            text(&dxf, LAYER_TITLE, (low[0] + high[0]) / 2, low[1] - 3 * LETTERING_NM, 1.4 * LETTERING_NM, false,
+                 p.title);
+            at += high[0] - low[0] + GAP_NM;
+        }
+        tn_prospect_clear(&p);
+    }
+    fputs("0\nENDSEC\n0\nEOF\n", out);
+    return status;
+}

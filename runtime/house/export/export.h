@@ -1,0 +1,21 @@
+/* Houses for other programs: building models (IFC) and drawings (DXF). */
+#ifndef TARTAN_HOUSE_EXPORT_H
+#define TARTAN_HOUSE_EXPORT_H
+
+#include <stdio.h>
+
+#include "runtime/house/model/aspect.h"
+
+/* IFC4 as STEP text, in millimetres: storeys, spaces (rooms), walls with openings, doors and windows that fill these,
+ * posts as columns, decks as slabs, roofs, stairs and furniture, with materials and quantities. `name` is the house's.
+ * Identifiers are hashes of the name, the house's line and the part, so that the same house has the same bytes.
+ * TN_MEMORY. */
+tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, const char *name, FILE *out,
+                             tn_error *error);
+
+/* DXF, release 12, in millimetres: the drawings side by side, hidden lines removed, a layer for each kind of line.
+ * Errors as tn_prospect_take. */
+tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
+                             FILE *out, tn_error *error);
+
+#endif

@@ -1,0 +1,241 @@
+/* Adds the parts of a house to its building model: walls with what fills their openings, posts, decks, roofs, stairs
+ * and furniture. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "runtime/house/export/ifc_parts.h"
+
+/* The storey at hand is where a part stands: that of its face, its cell, or its own. */
+static uint32_t storey_of(const tn_ifc *ifc, const tn_solid *s)
+{
+    uint32_t last = ifc->house->form->record->storey_count - 1;
+    switch (s->kind) {
+    case TN_SOLID_OUTSIDE:
+    case TN_SOLID_PARTY:
+    case TN_SOLID_PARTITION:
+    case TN_SOLID_PANE:
+    case TN_SOLID_LEAF:
+        return ifc->house->faces[s->of].storey;
+    case TN_SOLID_ITEM:
+    case TN_SOLID_ROOFDECK:
+        return ifc->house->cells[s->of].storey;
+    default: /* a deck above the last storey belongs to that */
+        return s->of > last ? last : s->of;
+    }
+}
+
+/* Where a part stands: at the low corner of its box, above the floor of the storey at hand. */
+static unsigned place(tn_ifc *ifc, const tn_box *b)
+{
+    double floor = (double)ifc->house->form->level[ifc->storey];
+    return tn_stepfile_placement(&ifc->step, ifc->placement, (double)b->x0, (double)b->y0, (double)b->z0 - floor);
+}
+
+static unsigned shape(tn_ifc *ifc, const tn_box *b)
+{
+    return tn_stepfile_box(&ifc->step, (double)(b->x1 - b->x0), (double)(b->y1 - b->y0), (double)(b->z1 - b->z0));
+}
+
+/* Cubic metres. */
+static double volume_of(const tn_box *b)
+{
+    return (double)(b->x1 - b->x0) / 1e9 * ((double)(b->y1 - b->y0) / 1e9) * ((double)(b->z1 - b->z0) / 1e9);
+}
+
+static void put_volume(tn_ifc *ifc, unsigned part, const char *set, double volume)
+{
+    tn_stepfile *step = &ifc->step;
+    unsigned quantity = tn_stepfile_add(step, "IFCQUANTITYVOLUME('NetVolume',$,$,%.9f,$)", volume);
+    unsigned quantities = tn_stepfile_add(step, "IFCELEMENTQUANTITY('%s',$,'%s',$,$,(#%u))",
+                                          tn_stepfile_guid(step, "volume", part).text, set, quantity);
+    tn_stepfile_add(step, "IFCRELDEFINESBYPROPERTIES('%s',$,$,$,(#%u),#%u)",
+                    tn_stepfile_guid(step, "volume of part", part).text, part, quantities);
+}
+
+static void keep(tn_ifc *ifc, tn_solid_kind kind, unsigned part, tn_stepfile_list *list)
+{
+    tn_stepfile_list_add(list, part);
+    tn_stepfile_list_add(&ifc->made[kind], part);
+}
+
+/* ---- walls */
+
+static void cover(tn_box *all, const tn_box *b)
+{
+    all->x0 = b->x0 < all->x0 ? b->x0 : all->x0;
+    all->x1 = b->x1 > all->x1 ? b->x1 : all->x1;
+    all->y0 = b->y0 < all->y0 ? b->y0 : all->y0;
+    all->y1 = b->y1 > all->y1 ? b->y1 : all->y1;
+    all->z0 = b->z0 < all->z0 ? b->z0 : all->z0;
+    all->z1 = b->z1 > all->z1 ? b->z1 : all->z1;
+}
+
+static bool is_wall(tn_solid_kind kind)
+{
+    return kind == TN_SOLID_OUTSIDE || kind == TN_SOLID_PARTY || kind == TN_SOLID_PARTITION;
+}
+
+/* The leaf or pane of an opening, which it fills. */
+static void fill(tn_ifc *ifc, uint32_t face, unsigned opening, const tn_box *hole, tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    const tn_house_form *form = ifc->house->form;
+    const tn_opening_record *o = tn_form_opening(form, ifc->house->faces[face].kind);
+    const tn_rectangle *wall = &ifc->house->faces[face].at;
+    bool door = o->flags & TN_PASSAGE, along_x = wall->y0 == wall->y1;
+    tn_box at = *hole;
+    int64_t thick = door ? TN_LEAF_NM : TN_PANE_NM;
+    int64_t *low = along_x ? &at.y0 : &at.x0, *high = along_x ? &at.y1 : &at.x1, over = (*high - *low - thick) / 2;
+    *low += over > 0 ? over : 0;
+    *high -= over > 0 ? over : 0;
+    unsigned where = place(ifc, &at), body = shape(ifc, &at);
+    unsigned part = tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,%s,%s,.%s.,%s,$)",
+                                    door ? "IFCDOOR" : "IFCWINDOW", tn_stepfile_guid(step, "filling", face).text,
+                                    tn_stepfile_text(tn_text(form->module, o->name)).text, where, body,
+                                    tn_stepfile_mm((double)o->high).text, tn_stepfile_mm((double)o->wide).text,
+                                    door ? "DOOR" : "WINDOW", door ? ".SINGLE_SWING_LEFT." : ".SINGLE_PANEL.");
+    tn_stepfile_add(step, "IFCRELFILLSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "fills", face).text, opening,
+                    part);
+    keep(ifc, door ? TN_SOLID_LEAF : TN_SOLID_PANE, part, list);
+}
+
+/* The wall of a face as one box, and the opening that is cut out of it. `first` is the first of its boxes. */
+static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
+{
+    const tn_solid *s = &ifc->solids->boxes[first];
+    tn_stepfile *step = &ifc->step;
+    tn_box all = s->at, hole;
+    double volume = 0;
+    for (size_t i = first; i < ifc->solids->box_count; i++) {
+        const tn_solid *other = &ifc->solids->boxes[i];
+        if (!is_wall(other->kind) || other->of != s->of)
+            continue;
+        cover(&all, &other->at);
+        volume += volume_of(&other->at);
+    }
+    bool open = tn_house_hole(ifc->house, &ifc->house->faces[s->of], &hole);
+    if (open)
+        cover(&all, &hole);
+    unsigned where = place(ifc, &all), body = shape(ifc, &all);
+    unsigned wall = tn_stepfile_add(step, "IFCWALL('%s',$,'%s',$,$,#%u,#%u,$,.%s.)",
+                                    tn_stepfile_guid(step, "wall", s->of).text, tn_solid_kind_text(s->kind), where,
+                                    body, s->kind == TN_SOLID_PARTITION ? "PARTITIONING" : "SOLIDWALL");
+    ifc->walls[s->of] = wall;
+    keep(ifc, s->kind, wall, list);
+    put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
+    if (!open)
+        return;
+    unsigned at = place(ifc, &hole), cut = shape(ifc, &hole);
+    unsigned opening = tn_stepfile_add(step, "IFCOPENINGELEMENT('%s',$,$,$,$,#%u,#%u,$,.OPENING.)",
+                                       tn_stepfile_guid(step, "opening", s->of).text, at, cut);
+    tn_stepfile_add(step, "IFCRELVOIDSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "voids", s->of).text, wall,
+                    opening);
+    fill(ifc, s->of, opening, &hole, list);
+}
+
+/* ---- other boxes */
+
+static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    const tn_module *module = ifc->house->form->module;
+    unsigned where = place(ifc, &s->at), body = shape(ifc, &s->at);
+    char head[128];
+    snprintf(head, sizeof head, "'%s',$,'%.60s',$,$,#%u,#%u,$", tn_stepfile_guid(step, "box", number).text,
+             s->kind == TN_SOLID_ITEM ? tn_stepfile_text(tn_text(module, module->TILE_BOX_records[s->item].name)).text
+                                      : tn_solid_kind_text(s->kind),
+             where, body);
+    unsigned part;
+    switch (s->kind) {
+    case TN_SOLID_POST:
+        part = tn_stepfile_add(step, "IFCCOLUMN(%s,.COLUMN.)", head);
+        put_volume(ifc, part, "Qto_ColumnBaseQuantities", volume_of(&s->at));
+        break;
+    case TN_SOLID_ITEM:
+        part = tn_stepfile_add(step, "IFCFURNITURE(%s,.NOTDEFINED.)", head);
+        break;
+    default:
+        part = tn_stepfile_add(step, "IFCSLAB(%s,.%s.)", head,
+                               s->kind == TN_SOLID_ROOFDECK ? "ROOF"
+                               : s->of == 0                 ? "BASESLAB"
+                                                            : "FLOOR");
+        put_volume(ifc, part, "Qto_SlabBaseQuantities", volume_of(&s->at));
+    }
+    keep(ifc, s->kind, part, list);
+}
+
+/* ---- roofs and stairs */
+
+/* The end of a roof, extruded along x. The profile's axes are y and z of the house. */
+static unsigned put_profile(tn_ifc *ifc, const tn_prism *p, double floor)
+{
+    tn_stepfile *step = &ifc->step;
+    const tn_roof_point *points = ifc->solids->points + p->point_first;
+    tn_stepfile_list line = {0};
+    double base = (double)p->base - floor;
+    unsigned first = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
+                                     tn_stepfile_mm(tn_fraction_value(points[0].y)).text, tn_stepfile_mm(base).text);
+    tn_stepfile_list_add(&line, first);
+    tn_stepfile_list_add(&line, tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
+                                                tn_stepfile_mm(tn_fraction_value(points[p->point_count - 1].y)).text,
+                                                tn_stepfile_mm(base).text));
+    for (size_t i = p->point_count; i-- > 0;)
+        tn_stepfile_list_add(&line, tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
+                                                    tn_stepfile_mm(tn_fraction_value(points[i].y)).text,
+                                                    tn_stepfile_mm(tn_fraction_value(points[i].z) - floor).text));
+    tn_stepfile_list_add(&line, first);
+    const char *list = tn_stepfile_list_text(&line);
+    unsigned curve = tn_stepfile_add(step, "IFCPOLYLINE(%s)", list ? list : "()");
+    ifc->failed |= line.text.failed;
+    tn_stepfile_list_clear(&line);
+    return tn_stepfile_add(step, "IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#%u)", curve);
+}
+
+static void put_roof(tn_ifc *ifc, unsigned number, tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    const tn_prism *p = &ifc->solids->prisms[number];
+    unsigned profile = put_profile(ifc, p, (double)ifc->house->form->level[ifc->storey]);
+    unsigned y = tn_stepfile_add(step, "IFCDIRECTION((0.,1.,0.))");
+    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", step->origin, step->x, y);
+    char solid[16];
+    snprintf(solid, sizeof solid, "(#%u)",
+             tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
+                             tn_stepfile_mm((double)(p->x1 - p->x0)).text));
+    unsigned body = tn_stepfile_shape(step, solid),
+             where = tn_stepfile_placement(step, ifc->placement, (double)p->x0, 0, 0);
+    unsigned roof = tn_stepfile_add(step, "IFCROOF('%s',$,'roof',$,$,#%u,#%u,$,.NOTDEFINED.)",
+                                    tn_stepfile_guid(step, "roof", number).text, where, body);
+    keep(ifc, TN_SOLID_ROOF, roof, list);
+}
+
+static void put_stairs(tn_ifc *ifc, tn_stepfile_list *list)
+{
+    for (uint32_t i = 0; i < ifc->house->face_count; i++) {
+        const tn_face *face = &ifc->house->faces[i];
+        if (face->relation != TN_FACE_UNDER || face->kind != TN_FACE_STAIR ||
+            ifc->house->cells[face->first].storey != ifc->storey)
+            continue;
+        unsigned where = tn_stepfile_placement(&ifc->step, ifc->placement, (double)face->at.x0, (double)face->at.y0, 0);
+        tn_stepfile_list_add(list, tn_stepfile_add(&ifc->step, "IFCSTAIR('%s',$,'stair',$,$,#%u,$,$,.NOTDEFINED.)",
+                                                   tn_stepfile_guid(&ifc->step, "stair", i).text, where));
+    }
+}
+
+void tn_ifc_elements(tn_ifc *ifc, tn_stepfile_list *list)
+{
+    for (size_t i = 0; i < ifc->solids->box_count; i++) {
+        const tn_solid *s = &ifc->solids->boxes[i];
+        if (storey_of(ifc, s) != ifc->storey)
+            continue;
+        if (!is_wall(s->kind))
+            put_box(ifc, s, (unsigned)i, list);
+        else if (!ifc->walls[s->of])
+            put_wall(ifc, i, list);
+    }
+    for (unsigned i = 0; i < ifc->solids->prism_count; i++)
+        if (ifc->house->cells[ifc->solids->prisms[i].of].storey == ifc->storey)
+            put_roof(ifc, i, list);
+    put_stairs(ifc, list);
+}

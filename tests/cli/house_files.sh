@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# A house for other programs: its IFC, JSON and DXF agree, each reference leads somewhere, and the same house has the same bytes.
+name=house_files
+. "$(dirname "$0")/golden.bash"
+
+walk="12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3'"
+walk="$walk ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entry hall void seat | bath stair stair | store passage passage"
+walk="$walk | kitchen dining bedroom seat ; glass open glass ; bath-room.back line-kitchen.back table.back bed.back"
+hut="14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back"
+
+# made FILE HOUSE: writes the files that are looked at.
+made() {
+    mkdir -p "$scratch/$3"
+    "$TARTAN" house "$1" "$2" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf"
+}
+python=python3
+/usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3 # another Python may come first, without the package
+made lahave-form "$walk" walk
+made cottage "$hut" hut
+made lahave-form "$walk" again
+is 'the walk-through' "$($python "$here/../house_files.py" "$scratch/walk")" fine
+is 'a hut' "$($python "$here/../house_files.py" "$scratch/hut")" fine
+cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
+cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'
+is 'a wrong view leaves no drawing' "$("$TARTAN" house cottage "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1
+finish

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER (as `tartan house -o FOLDER/` writes it).
+
+The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity (ISO 16739-1:2018, inherited ones
+included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
+of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed."""
+import json
+import re
+import sys
+from collections import Counter
+from fractions import Fraction as F
+
+ARITY = {
+    "IFCAXIS2PLACEMENT2D": 2, "IFCAXIS2PLACEMENT3D": 3, "IFCARBITRARYCLOSEDPROFILEDEF": 3, "IFCBUILDING": 12, "IFCBUILDINGSTOREY": 10,
+    "IFCCARTESIANPOINT": 1, "IFCCOLUMN": 9, "IFCDIRECTION": 1, "IFCDOOR": 13, "IFCELEMENTQUANTITY": 6, "IFCEXTRUDEDAREASOLID": 4,
+    "IFCFURNITURE": 9, "IFCGEOMETRICREPRESENTATIONCONTEXT": 6, "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": 10, "IFCLOCALPLACEMENT": 2,
+    "IFCMATERIAL": 3, "IFCOPENINGELEMENT": 9, "IFCPOLYLINE": 1, "IFCPRODUCTDEFINITIONSHAPE": 3, "IFCPROJECT": 9, "IFCQUANTITYAREA": 5,
+    "IFCQUANTITYVOLUME": 5, "IFCRECTANGLEPROFILEDEF": 5, "IFCRELAGGREGATES": 6, "IFCRELASSOCIATESMATERIAL": 6,
+    "IFCRELCONTAINEDINSPATIALSTRUCTURE": 6, "IFCRELDEFINESBYPROPERTIES": 6, "IFCRELFILLSELEMENT": 6, "IFCRELSPACEBOUNDARY": 9,
+    "IFCRELVOIDSELEMENT": 6, "IFCROOF": 9, "IFCSHAPEREPRESENTATION": 4, "IFCSITE": 14, "IFCSIUNIT": 4, "IFCSLAB": 9, "IFCSPACE": 11,
+    "IFCSTAIR": 9, "IFCUNITASSIGNMENT": 1, "IFCWALL": 9, "IFCWINDOW": 13,
+}
+ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCFURNITURE IFCDOOR IFCWINDOW".split()
+PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
+# attribute -> what it may refer to
+REFERENCES = {
+    ("IFCLOCALPLACEMENT", 0): ["IFCLOCALPLACEMENT"], ("IFCLOCALPLACEMENT", 1): ["IFCAXIS2PLACEMENT3D"],
+    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF", "IFCARBITRARYCLOSEDPROFILEDEF"],
+    ("IFCEXTRUDEDAREASOLID", 1): ["IFCAXIS2PLACEMENT3D"], ("IFCEXTRUDEDAREASOLID", 2): ["IFCDIRECTION"],
+    ("IFCARBITRARYCLOSEDPROFILEDEF", 2): ["IFCPOLYLINE"], ("IFCPOLYLINE", 0): ["IFCCARTESIANPOINT"],
+    ("IFCSHAPEREPRESENTATION", 3): ["IFCEXTRUDEDAREASOLID"], ("IFCPRODUCTDEFINITIONSHAPE", 2): ["IFCSHAPEREPRESENTATION"],
+    ("IFCRELVOIDSELEMENT", 4): ["IFCWALL"], ("IFCRELVOIDSELEMENT", 5): ["IFCOPENINGELEMENT"],
+    ("IFCRELFILLSELEMENT", 4): ["IFCOPENINGELEMENT"], ("IFCRELFILLSELEMENT", 5): ["IFCDOOR", "IFCWINDOW"],
+    ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 4): ELEMENTS, ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5): ["IFCBUILDINGSTOREY"],
+    ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"],
+    ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE"],
+    ("IFCRELSPACEBOUNDARY", 4): ["IFCSPACE"], ("IFCRELSPACEBOUNDARY", 5): ["IFCWALL"],
+    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL"],
+    ("IFCPROJECT", 8): ["IFCUNITASSIGNMENT"],
+    **{(p, 5): ["IFCLOCALPLACEMENT"] for p in PRODUCTS}, **{(p, 6): ["IFCPRODUCTDEFINITIONSHAPE"] for p in PRODUCTS},
+}
+failures = []
+
+
+def check(what, holds):
+    if not holds:
+        failures.append(what)
+
+
+def arguments(text):
+    """The attributes of an instance: split at commas outside of brackets and quotes."""
+    parts, depth, quoted, start = [], 0, False, 0
+    for i, c in enumerate(text):
+        if c == "'":
+            quoted = not quoted
+        elif not quoted and c in "()":
+            depth += 1 if c == "(" else -1
+        elif not quoted and c == "," and depth == 0:
+            parts.append(text[start:i])
+            start = i + 1
+    return parts + [text[start:]]
+
+
+def read_ifc(path):
+    text = open(path, encoding="ascii").read()
+    check("a STEP file", text.startswith("ISO-10303-21;\nHEADER;\n") and text.endswith("ENDSEC;\nEND-ISO-10303-21;\n"))
+    made = {}
+    for line in text.split("DATA;\n")[1].split("ENDSEC;")[0].splitlines():
+        number, name, inside = re.fullmatch(r"#(\d+)=(\w+)\((.*)\);", line).groups()
+        check(f"#{number} once", int(number) not in made)
+        made[int(number)] = (name, arguments(inside))
+    return made
+
+
+def references(argument):
+    return [int(n) for n in re.findall(r"#(\d+)", re.sub(r"'[^']*'", "", argument))]
+
+
+def check_ifc(made):
+    ids = Counter()
+    for number, (name, args) in made.items():
+        check(f"{name}, known", name in ARITY)
+        check(f"#{number}={name} has {len(args)} attributes", len(args) == ARITY.get(name))
+        for i, argument in enumerate(args):
+            for to in references(argument):
+                check(f"#{number} refers to #{to}", to in made)
+                wanted = REFERENCES.get((name, i))
+                check(f"#{number}={name}: {made[to][0]} as attribute {i}", wanted is None or made[to][0] in wanted)
+        if name.startswith("IFCREL") or name in PRODUCTS or name in ("IFCPROJECT", "IFCELEMENTQUANTITY"):
+            check(f"#{number}: an identifier", re.fullmatch(r"'[0-3][0-9A-Za-z_$]{21}'", args[0]))
+            ids[args[0]] += 1
+        check(f"#{number}: reals have a point", not any(re.fullmatch(r"-?\d+(E-?\d+)?", a) for a in args if name != "IFCGEOMETRICREPRESENTATIONCONTEXT"))
+    check("identifiers are unique", all(n == 1 for n in ids.values()))
+    inside = Counter(to for name, args in made.values() if name == "IFCRELCONTAINEDINSPATIALSTRUCTURE" for to in references(args[4]))
+    for number, (name, _) in made.items():
+        check(f"#{number}={name} is in one storey", name not in ELEMENTS or inside[number] == 1)
+
+
+def volume_of(made, product):
+    """Cubic millimetres, of all solids of its shape."""
+    total = F(0)
+    shape = made[references(made[product][1][6])[0]]
+    for representation in references(shape[1][2]):
+        for solid in references(made[representation][1][3]):
+            profile, _, _, depth = made[solid][1]
+            name, args = made[references(profile)[0]]
+            if name == "IFCRECTANGLEPROFILEDEF":
+                area = F(args[3]) * F(args[4])
+            else:
+                points = [[F(c) for c in made[p][1][0].strip("()").split(",")] for p in references(made[references(args[2])[0]][1][0])]
+                check("a profile is closed", points[0] == points[-1])
+                area = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:])) / 2
+            check("a solid has a volume", area > 0 and F(depth) > 0)
+            total += area * F(depth)
+    return total
+
+
+def compare(made, house):
+    of = lambda name: [n for n, (entity, _) in made.items() if entity == name]
+    box = lambda s: F((s["box"][1] - s["box"][0]) * (s["box"][3] - s["box"][2]) * (s["box"][5] - s["box"][4]), 10**18)
+    kinds = Counter(s["kind"] for s in house["solids"])
+    walls = {(s["kind"], s["of"]) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")}
+    plain = {"wall", "party", "open", "floor", "stair"}
+    openings = [f for f in house["faces"] if f["kind"] not in plain]
+    check("as many walls", len(of("IFCWALL")) == len(walls))
+    check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
+    check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"])
+    check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
+    check("as many roofs", len(of("IFCROOF")) == len(house["roofs"]))
+    check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == len(of("IFCOPENINGELEMENT")) == len(openings))
+    check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]))
+    check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
+    solid = sum(volume_of(made, n) for n in of("IFCWALL")) - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
+    check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
+    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE") for n in of(name))
+    check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
+    roofs = F(0)
+    for r in house["roofs"]:
+        line = [(F(y), F(z) - r["base"]) for y, z in r["profile"]]
+        roofs += (r["x"][1] - r["x"][0]) * sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(line, line[1:]))
+    check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
+
+
+def check_dxf(path):
+    lines = open(path, encoding="ascii").read().split("\n")
+    groups = list(zip(lines[0:-1:2], lines[1::2]))
+    check("codes are numbers", all(code.strip().isdigit() for code, _ in groups))
+    check("ends", groups[-1] == ("0", "EOF"))
+    layers, at, known, used = [], None, set(), Counter()
+    for code, value in groups:
+        if code == "0":
+            at = value
+        elif code == "2" and at == "LAYER":
+            known.add(value)
+        elif code == "8":
+            used[value] += 1
+    check(f"layers {set(used) - known}", set(used) <= known)
+    for layer in ("SEEN", "CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):
+        check(f"something is on {layer}", used[layer])
+    try:
+        import ezdxf
+    except ImportError:
+        return
+    auditor = ezdxf.readfile(path).audit()
+    check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
+
+
+folder = sys.argv[1]
+made = read_ifc(folder + "/house.ifc")
+check_ifc(made)
+compare(made, json.load(open(folder + "/house.json")))
+check_dxf(folder + "/house.dxf")
+print("\n".join(failures[:20]) or "fine")
