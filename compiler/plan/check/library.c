@@ -241,12 +241,12 @@ static void stand_in_form(tn_check *check, tn_checked_library *library, tn_check
                                      "library `%s` has houses of form `%s`", from->name, other);
         tn_note(check->diagnostics, d, &from->ast->name->node.span, "library `%s` is here", from->name);
         tn_help(check->diagnostics, d, "write `in %s`, or begin with a library of plans", other);
-    } else if (form->schema && from->schema && form->schema != from->schema) {
+    } else if (form->schema && library->schema && form->schema != library->schema) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, word->node.span,
                                      "form `%s` is of schema `%s`, and the plans are of schema `%s`", form->name,
-                                     form->schema->name, from->schema->name);
+                                     form->schema->name, library->schema->name);
         tn_note(check->diagnostics, d, &form->ast->name->node.span, "form `%s` is here", form->name);
-        tn_help(check->diagnostics, d, "name a form of schema `%s`", from->schema->name);
+        tn_help(check->diagnostics, d, "name a form of schema `%s`", library->schema->name);
     } else if (!from->form) {
         library->form = form;
         library->plans = from;
