@@ -220,6 +220,19 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
 #define TN_PLACE_COLOUR_MAX INT32_MAX
 
+#define TN_KIT_LENGTH_MAX INT64_C(1000000000000) /* millionths of an LDU */
+#define TN_KIT_COUNTED_MAX 32u
+#define TN_CONDITION_TEST 1u /* of a test, not a requirement */
+typedef enum tn_axis {
+    TN_AXIS_UP,
+    TN_AXIS_DOWN,
+    TN_AXIS_LEFT,
+    TN_AXIS_RIGHT,
+    TN_AXIS_FRONT,
+    TN_AXIS_BACK,
+    TN_AXIS_COUNT
+} tn_axis;
+
 /* ---- solids */
 
 #define TN_SOLID_COORDINATE_MAX 1e9  /* of a box's faces and sizes */
