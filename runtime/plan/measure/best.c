@@ -35,6 +35,7 @@ struct tn_best {
     int64_t sign[TN_WEIGHED_MAX];
     tn_numbering numbers; /* left << 32 | state -> place */
     place *places;
+    uint32_t place_count; /* one fewer than the numbers where memory ran out */
     size_t place_room;
     size_t *given; /* [max - min + 1]: plans of each length given so far */
 };
@@ -56,7 +57,7 @@ void tn_best_free(tn_best *best)
 {
     if (!best)
         return;
-    for (uint32_t i = 0; i < best->numbers.count; i++) {
+    for (uint32_t i = 0; i < best->place_count; i++) {
         free(best->places[i].found);
         free(best->places[i].heap);
     }
@@ -144,6 +145,7 @@ static tn_status place_of(tn_best *best, uint32_t left, uint32_t state, uint32_t
         best->place_room = room;
     }
     best->places[*index] = (place){.left = left, .state = state};
+    best->place_count = *index + 1;
     return TN_OK;
 }
 
