@@ -154,7 +154,7 @@ tn_status tn_too_far(derivation *d, uint32_t step, uint32_t alternative)
 /* After every step a world without a filled cell gets a shell, as in the published program. */
 tn_status tn_bound_empty_world(derivation *d)
 {
-    return tn_cells_count(d->cells) > 0 ? TN_OK : tn_bound_ball(d->cells, DEFAULT_RADIUS, d->error);
+    return !tn_world_is_empty(d) ? TN_OK : tn_bound_ball(d->cells, DEFAULT_RADIUS, d->error);
 }
 
 tn_status tn_set_bound(derivation *d, const tn_frame *frame, const tn_step *step)
