@@ -32,7 +32,9 @@ struct tn_house_variants {
     tn_wheels shared, own; /* those of `faces` that clauses can depend on, and the others, by their cell: count.c */
     tn_room_questions questions;
     struct tn_sections *sections; /* what was counted on the plan at hand: section.h */
-    size_t *tiles;                /* how many fit in each cell; 1 where it has none */
+    tn_tray *counted;             /* that plan */
+    size_t counted_length;
+    size_t *tiles; /* how many fit in each cell; 1 where it has none */
     size_t tile_room;
 };
 

@@ -270,6 +270,20 @@ static tn_status go_through_section(tn_house_variants *v, const visitor *seen_by
     return status == TN_OK && !taken ? go_through_functions(v, seen_by, stop, error) : status;
 }
 
+/* What was counted of the sections of the plan before is of no use, unless this is the same. */
+static tn_status begin_plan(tn_house_variants *v, const tn_tray *trays, size_t length, tn_error *error)
+{
+    if (v->counted && v->counted_length == length && memcmp(v->counted, trays, length * sizeof *trays) == 0)
+        return TN_OK;
+    tn_sections_forget(v->sections);
+    v->counted_length = 0;
+    if (!tn_array_resize((void **)&v->counted, length + 1, sizeof *v->counted))
+        return tn_fail_memory(error);
+    memcpy(v->counted, trays, length * sizeof *trays);
+    v->counted_length = length;
+    return TN_OK;
+}
+
 static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t length, const visitor *seen_by,
                             tn_error *error)
 {
@@ -278,13 +292,13 @@ static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t l
     tn_status status;
     v->work = v->work_limit;
     memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
-    tn_sections_forget(v->sections);
-    do {
+    status = begin_plan(v, trays, length, error);
+    for (bool more = true; status == TN_OK && !stop && more; more = next_section(v->form, shapes)) {
         tn_house_clear(&v->house);
         status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
         if (status == TN_OK && tn_house_section_stands(&v->house))
             status = go_through_section(v, seen_by, &stop, error);
-    } while (status == TN_OK && !stop && next_section(v->form, shapes));
+    }
     return status;
 }
 
@@ -461,6 +475,7 @@ void tn_house_variants_free(tn_house_variants *v)
     if (v->sections)
         tn_sections_free(v->sections);
     free(v->sections);
+    free(v->counted);
     tn_memos_free(v);
     free(v->stages);
     free(v->runs);

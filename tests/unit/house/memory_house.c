@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/house/export/export.h"
+#include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_house.h"
@@ -52,6 +53,22 @@ static tn_status count(tn_error *error)
     return status;
 }
 
+static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
+{
+    (void)context, (void)one, (void)changed, (void)error;
+    return TN_OK;
+}
+
+static tn_status change(tn_error *error)
+{
+    tn_house_rules *rules;
+    tn_status status = tn_house_rules_new(&made.form, 0, &rules, error);
+    if (status == TN_OK)
+        status = tn_house_changes(&house, rules, made.all, TN_NO_CELL, seen, NULL, error);
+    tn_house_rules_free(rules);
+    return status;
+}
+
 static tn_status build(tn_error *error)
 {
     tn_solids built;
@@ -89,6 +106,7 @@ static void test_failing(void **state)
 {
     (void)state;
     expect_robust(count);
+    expect_robust(change);
     expect_robust(build);
     expect_robust(mesh);
     expect_robust(write_ifc);

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/test_house.h"
 
@@ -126,9 +127,102 @@ static void test_limits(void **state)
     free(plan.trays);
 }
 
+/* ---- changes */
+
+/* Ranks that were listed. */
+typedef struct listed {
+    tn_house_variants *variants;
+    bool of[6000];
+    size_t count;
+} listed;
+
+static tn_status list(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+{
+    listed *l = context;
+    mpz_t rank;
+    (void)change;
+    mpz_init(rank);
+    tn_status status = tn_house_variants_rank(l->variants, changed, rank, error);
+    if (status == TN_OK) {
+        assert_false(l->of[mpz_get_ui(rank)]); /* each once */
+        l->of[mpz_get_ui(rank)] = true;
+        l->count++;
+    }
+    mpz_clear(rank);
+    return status;
+}
+
+static void tile_text(const tn_house *house, uint32_t cell, char text[TN_VARIANT_TEXT])
+{
+    tn_variants v;
+    tn_error error;
+    text[0] = '\0';
+    assert_int_equal(tn_tile_variants(house, cell, &v, &error), TN_OK);
+    if (house->cells[cell].variant < v.count)
+        tn_variant_text(&made.form, &v.variants[house->cells[cell].variant], text);
+    tn_variants_clear(&v);
+}
+
+/* In how many choices two houses on one plan differ; many, where their cells are not the same. */
+static size_t differences(const tn_house *a, const tn_house *b)
+{
+    size_t count = 0;
+    if (a->cell_count != b->cell_count || a->face_count != b->face_count)
+        return 100;
+    for (uint32_t i = 0; i < made.form.record->choice_count; i++)
+        count += a->shapes[i] != b->shapes[i];
+    for (uint32_t i = 0; i < a->cell_count; i++) {
+        char one[TN_VARIANT_TEXT], other[TN_VARIANT_TEXT];
+        tile_text(a, i, one);
+        tile_text(b, i, other);
+        count += a->cells[i].function != b->cells[i].function;
+        count += strcmp(one, other) != 0;
+    }
+    for (size_t i = 0; i < a->face_count; i++)
+        count += a->faces[i].kind != b->faces[i].kind;
+    return count;
+}
+
+/* Every house that differs in one choice is listed, and each listed one is a house of the library. */
+static void test_changes(void **state)
+{
+    (void)state;
+    tn_house_variants *some = variants_of(made.some, 0);
+    tn_plan plan = test_house_plan(&made, "8' room:12' open:4' | 10' room:10' empty");
+    tn_house_rules *rules;
+    tn_house_counts counts;
+    tn_error error = {0};
+    size_t found = 0, more = 0;
+    uint64_t houses = count_of(some, &plan, &counts);
+    assert_int_equal(tn_house_rules_new(&made.form, 0, &rules, &error), TN_OK);
+    for (uint64_t i = 0; i < houses; i += 3) {
+        tn_house house;
+        listed l = {.variants = some};
+        take(some, &plan, i, &house);
+        assert_int_equal(tn_house_changes(&house, rules, made.some, TN_NO_CELL, list, &l, &error), TN_OK);
+        assert_false(l.of[i]);
+        for (uint64_t k = 0; k < houses; k++) {
+            tn_house other;
+            take(some, &plan, k, &other);
+            bool near = differences(&house, &other) == 1;
+            assert_true(!near || l.of[k]);
+            found += near;
+            tn_house_clear(&other);
+        }
+        more += l.count;
+        tn_house_clear(&house);
+    }
+    assert_true(found > 5 && more >= found);
+    tn_house_rules_free(rules);
+    tn_house_counts_clear(&counts);
+    tn_house_variants_free(some);
+    free(plan.trays);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_limits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_limits),
+                                       cmocka_unit_test(test_changes)};
     test_house_make(&made);
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     test_house_clear(&made);
