@@ -80,7 +80,7 @@ static tartan_status check_choices(const tartan_evolution_options *o, tartan_err
 {
     if ((unsigned)o->initialisation > TARTAN_INITIALISE_PI_GROW || (unsigned)o->selection > TARTAN_SELECT_NSGA2 ||
         (unsigned)o->crossover > TARTAN_CROSS_SUBTREE || (unsigned)o->mutation > TARTAN_MUTATE_SUBTREE)
-        return tn_api_refuse(error, TARTAN_INVALID, "a choice of the options is none of its enumeration");
+        return tn_api_refuse(error, TARTAN_INVALID, "an option's choice is not a value of its enumeration");
     if (!(o->truncation >= 0 && o->truncation <= 1) || !(o->crossover_rate <= 1) || !(o->tail <= 100) ||
         !(o->mutation_rate <= 1000000))
         return tn_api_refuse(error, TARTAN_INVALID, "a share or rate of the options is out of its range");

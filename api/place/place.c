@@ -107,16 +107,16 @@ tartan_status tartan_placement_count(const tartan_placement *placement, tartan_p
 
 /* ---- as text */
 
-static tn_status write_ldraw(const tn_placed_model *model, FILE *out, tn_error *error)
+static tn_status write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error)
 {
     (void)error;
-    tn_place_write_ldraw(model, out);
+    tn_place_write_ldraw(module, model, out);
     return TN_OK;
 }
 
 static tartan_status write_text(const tartan_placement *placement,
-                                tn_status (*write)(const tn_placed_model *, FILE *, tn_error *), char **text,
-                                size_t *size, tartan_error *error)
+                                tn_status (*write)(const tn_module *, const tn_placed_model *, FILE *, tn_error *),
+                                char **text, size_t *size, tartan_error *error)
 {
     char *made = NULL;
     size_t made_size = 0;
@@ -126,7 +126,7 @@ static tartan_status write_text(const tartan_placement *placement,
     FILE *out = open_memstream(&made, &made_size);
     if (!out)
         return tn_api_memory(error);
-    tn_status status = write(&placement->model, out, &found);
+    tn_status status = write(placement->rules.module, &placement->model, out, &found);
     bool failed = ferror(out) != 0;
     failed |= fclose(out) != 0;
     if (status == TN_OK && failed)

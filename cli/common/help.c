@@ -67,7 +67,7 @@ void tn_help_overview(FILE *out)
           "COMMAND\n  tartan --version\n\nCommands:\n",
           out);
     for (size_t i = 0; i < tn_commands_count; i++)
-        fprintf(out, "  %-12s%s\n", tn_commands[i]->name, tn_commands[i]->summary);
+        fprintf(out, "  %-14s%s\n", tn_commands[i]->name, tn_commands[i]->summary);
     fputs("\nA file of the standard library is named without folder and extension: lahave, square, genr8.\n"
           "\nExit codes: 0 done; 1 the rules or the input are wrong, or a test failed; 2 wrong usage;\n"
           "3 a file could not be read or written; 4 a limit was reached; 70 an internal error; 130 interrupted.\n",

@@ -162,6 +162,8 @@ static void show(tn_job *job)
     job->errors += list->error_count;
     job->warnings += list->warning_count;
     job->stopped |= list->stopped;
+    if (job->listener)
+        job->listener->listen(job->listener, list);
     if (list->count || list->failed || options.json)
         tn_diagnostics_show(list, &options, stderr);
     if (list->failed)
@@ -176,10 +178,18 @@ void tn_job_show(tn_job *job)
         show(job);
 }
 
+static void close_file(tn_job *job)
+{
+    const tn_sources *sources = &job->opened.compilation.sources;
+    for (size_t i = 0; job->read && i < sources->count; i++)
+        tn_files_read_add(job->read, sources->files[i].path);
+    tn_close(&job->opened);
+}
+
 void tn_job_next(tn_job *job)
 {
     show(job);
-    tn_close(&job->opened);
+    close_file(job);
     tn_diagnostics_init(tn_job_diagnostics(job), &job->opened.compilation.sources);
 }
 
@@ -193,7 +203,7 @@ int tn_job_end(tn_job *job)
 {
     say_what_is_missing(job);
     show(job);
-    tn_close(&job->opened);
+    close_file(job);
     if (job->errors || (job->warnings && job->settings->werror))
         worsen(job, TN_EXIT_INVALID);
     return job->exit_code;
@@ -210,7 +220,7 @@ bool tn_job_takes_text(tn_job *job, const char *path)
 {
     if (!tn_job_draws(path))
         return true;
-    tn_diagnostic *d = tn_job_usage(job, "%.200s is a picture's name, and what goes there is text", path);
+    tn_diagnostic *d = tn_job_usage(job, "%.200s is the name of a picture, and this output is text", path);
     tn_help(tn_job_diagnostics(job), d, "end its name otherwise; plans and rules are drawn by `tartan draw`");
     return false;
 }

@@ -6,6 +6,7 @@
 #ifndef TARTAN_CLI_COMMON_JOB_H
 #define TARTAN_CLI_COMMON_JOB_H
 
+#include "cli/common/files_read.h"
 #include "cli/common/options.h"
 #include "driver/open/findings.h"
 #include "driver/open/open.h"
@@ -21,8 +22,15 @@ enum {
     TN_EXIT_INTERRUPTED = 130, /* as shells report SIGINT */
 };
 
+/* Who is told what there was to say about each file, before it is forgotten. The list is sorted. */
+typedef struct tn_listener {
+    void (*listen)(struct tn_listener *listener, const tn_diagnostics *list);
+} tn_listener;
+
 typedef struct tn_job {
     const tn_settings *settings;
+    tn_listener *listener;      /* or NULL */
+    struct tn_files_read *read; /* or NULL: the names of all files that are read are added to it */
     tn_opened opened;
     bool open;
     int exit_code;           /* the gravest so far */

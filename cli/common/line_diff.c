@@ -128,7 +128,7 @@ static void write_hunk(const change *changes, size_t begin, size_t end, size_t o
     }
 }
 
-static void write_changes(const char *path, const change *changes, size_t count, FILE *out)
+static void write_changes(const char *path, const char *how, const change *changes, size_t count, FILE *out)
 {
     size_t old_line = 0, new_line = 0, done = 0;
     bool headed = false;
@@ -136,7 +136,7 @@ static void write_changes(const char *path, const change *changes, size_t count,
         if (changes[i].sign == ' ')
             continue;
         if (!headed)
-            fprintf(out, "--- %s\n+++ %s (formatted)\n", path, path);
+            fprintf(out, "--- %s\n+++ %s (%s)\n", path, path, how);
         headed = true;
         size_t begin = i - done > CONTEXT ? i - CONTEXT : done, end = hunk_end(changes, count, i);
         for (; done < begin; done++) { /* all of these are unchanged */
@@ -152,7 +152,7 @@ static void write_changes(const char *path, const change *changes, size_t count,
     }
 }
 
-bool tn_line_diff(const char *path, const char *old_text, const char *new_text, FILE *out)
+bool tn_line_diff(const char *path, const char *how, const char *old_text, const char *new_text, FILE *out)
 {
     line_list a = {0}, b = {0};
     change *changes = NULL;
@@ -161,7 +161,7 @@ bool tn_line_diff(const char *path, const char *old_text, const char *new_text, 
         changes = calloc(a.count + b.count + 1, sizeof *changes);
     done = done && changes;
     if (done)
-        write_changes(path, changes, compare(&a, &b, changes), out);
+        write_changes(path, how, changes, compare(&a, &b, changes), out);
     free(a.items);
     free(b.items);
     free(changes);

@@ -104,7 +104,7 @@ static tn_status unknown_letter(parse *p, const char *letters)
     tn_status status =
         tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option -%.60s", p->command->name, letters);
     if (letters[0] >= '0' && letters[0] <= '9')
-        tn_error_help(p->error, "numbers here are 0 or more; what is no option goes after --");
+        tn_error_help(p->error, "numbers here are 0 or more; an operand that begins with - goes after --");
     return see_help(p, status);
 }
 

@@ -148,7 +148,7 @@ static tn_status tally_text(tn_numbered *n, const char *text, size_t max_length,
     tn_status status = text[0] == '#' ? plan_of_rank(n, text + 1, strlen(text) - 1, trays, &length, error)
                                       : tn_plan_parse_line(n->schema, text, strlen(text), max_length, &plan, error);
     if (status == TN_OK && text[0] != '#' && !tn_library_rank(n->plans, plan.trays, plan.length, rank)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is none of the library's");
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is not in the library");
         tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
     }
     if (status == TN_OK)

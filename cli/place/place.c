@@ -7,12 +7,12 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
-#include "driver/place/place.h"
+#include "driver/place/kit.h"
 
 typedef struct place_settings {
     tn_settings common;
     tn_option_list outputs;
-    const char *program;
+    const char *program, *model;
     tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit;
     int stats, engine;
     bool trace, header, keep_partial;
@@ -25,6 +25,7 @@ typedef struct placing {
     const place_settings *settings;
     tn_place_rules rules;
     tn_placed_model model;
+    uint32_t chosen; /* model of a kit */
 } placing;
 
 static out_format format_of(const char *path)
@@ -46,7 +47,7 @@ static bool check_options(tn_job *job)
         ldraw |= format_of(path) == OUT_LDRAW;
         if (format_of(path) != OUT_NONE)
             continue;
-        tn_diagnostic *d = tn_job_usage(job, "%.200s does not say what is to be written", path);
+        tn_diagnostic *d = tn_job_usage(job, "the name %.200s does not say which format to write", path);
         tn_help(tn_job_diagnostics(job), d, "end its name in .ldr (a model) or .csv (a list of its parts)");
         return false;
     }
@@ -68,8 +69,9 @@ static void write_header(const placing *p, FILE *out)
     const tn_module *module = p->rules.module;
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     fprintf(out, "0 %s\n0 seed %" PRIu64 ", rules %016" PRIx64 ", %s\n",
-            tn_text(module, module->GRAMMAR_records[0].name), p->settings->seed.value,
-            producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
+            tn_text(module, p->rules.space ? p->rules.space->name : module->GRAMMAR_records[0].name),
+            p->settings->seed.value, producer ? (uint64_t)producer->sources_hash : 0,
+            producer ? tn_text(module, producer->version) : "tartan");
 }
 
 static void write_output(placing *p, const char *path)
@@ -80,11 +82,11 @@ static void write_output(placing *p, const char *path)
     if (!tn_job_output(p->job, path, &output))
         return;
     if (format_of(path) == OUT_LIST) {
-        status = tn_place_write_list(&p->model, output.stream, &error);
+        status = tn_place_write_list(p->rules.module, &p->model, output.stream, &error);
     } else {
-        if (p->settings->header)
+        if (p->settings->header || p->rules.space)
             write_header(p, output.stream);
-        tn_place_write_ldraw(&p->model, output.stream);
+        tn_place_write_ldraw(p->rules.module, &p->model, output.stream);
     }
     if (status != TN_OK)
         tn_job_fail(p->job, &error);
@@ -151,19 +153,58 @@ static tn_place_options options_of(placing *p)
                               .context = p};
 }
 
+/* The rules of the grammar, or of one model of a kit. */
+static tn_status make_rules(placing *p, tn_error *error)
+{
+    const tn_module *module = p->job->opened.module;
+    if (!module->KIT_count && p->settings->model) {
+        tn_job_usage(p->job, "--model is of a kit: %.200s is none", p->settings->common.operands.items[0]);
+        return TN_STOPPED;
+    }
+    if (module->KIT_count) {
+        tn_status status = tn_kit_choose(&p->job->opened, p->settings->model, &p->chosen);
+        tn_job_status(p->job, status);
+        return status == TN_OK ? tn_place_rules_of_model(module, p->chosen, &p->rules, error) : TN_STOPPED;
+    }
+    return tn_place_rules_make(module, &p->rules, error);
+}
+
+/* Does what was placed meet what its model requires? */
+static tn_status check_conditions(placing *p)
+{
+    tn_placed_measures measured;
+    tn_error error;
+    tn_kit_tally tally = {0};
+    if (!p->rules.space)
+        return TN_OK;
+    tn_status status =
+        tn_placed_measure(p->rules.module, p->rules.space, &p->model, tn_interrupt_waiting(), &measured, &error);
+    if (status == TN_OK)
+        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, &tally);
+    else
+        tn_job_fail(p->job, &error);
+    tn_placed_measures_clear(&measured);
+    return status;
+}
+
 static void run_placing(placing *p)
 {
     tn_error error;
-    tn_status status = tn_place_rules_make(p->job->opened.module, &p->rules, &error);
+    tn_status status = make_rules(p, &error);
+    if (status == TN_STOPPED)
+        return; /* has been said */
     if (status != TN_OK) {
         tn_fail(&error, status, E_NOT_PLACING, "%.200s holds nothing to place", p->settings->common.operands.items[0]);
-        tn_error_help(&error, "%s", tn_opened_help(&p->job->opened, "connection grammars are .pcfg files").text);
+        tn_error_help(&error, "%s",
+                      tn_opened_help(&p->job->opened, "connection grammars are .pcfg files, kits .kit files").text);
         tn_job_fail(p->job, &error);
         return;
     }
     tn_place_options options = options_of(p);
     tn_job_show(p->job);
     status = tn_place_model(&p->job->opened, &p->rules, &options, &p->model);
+    if (status == TN_OK)
+        status = check_conditions(p);
     tn_job_status(p->job, status);
     if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0))
         write_all(p);
@@ -191,11 +232,12 @@ static const tn_option options[] = {
          "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
          "a model on standard output"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
-    TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, parted by blanks"),
+    TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
+    TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json",
           "print figures: parts, steps, alternatives looked at, cells"),
     FLAG("trace", 0, trace, "print of every symbol which alternatives did not fit, and what was in the way"),
-    FLAG("header", 0, header, "begin an .ldr file with how it was made"),
+    FLAG("header", 0, header, "begin an .ldr file with how it was made (of a kit, it always does)"),
     FLAG("keep-partial", 0, keep_partial, "where the run cannot go on, write what was placed before"),
     CHOICE("engine", 0, "ENGINE", engine, "auto|vm",
            "vm looks ahead step by step; auto, the default, does what can be worked out beforehand once"),
@@ -209,21 +251,26 @@ static const tn_option options[] = {
 
 const tn_command tn_command_place = {
     .name = "place",
-    .summary = "place parts by a connection grammar",
-    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.pcfg... --trace",
+    .summary = "place parts by a connection grammar or a kit",
+    .usage =
+        "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.kit [--model NAME] [-o OUT]...\n"
+        "FILE --trace",
     .description =
         "Derives a model from a connection grammar and writes it. The files are one grammar together, in the order "
         "given, and the first rule's symbol is expanded: its alternatives are tried in their order, and the first that "
         "finds room is taken; where their probabilities sum to 1, one is drawn. Without -o a summary is printed.\n\n"
         "Where the published program for these grammars comes to its end, the .ldr file has the same bytes. Where a "
         "part has no room, the run ends with exit code 1, says what is in the way and since when, and writes nothing "
-        "unless --keep-partial is given.",
+        "unless --keep-partial is given.\n\n"
+        "A kit's model is placed inside its space, and then held to what it requires. Its .ldr file begins with how it "
+        "was "
+        "made.",
     .example = "$ tartan place wall.pcfg bricks.pcfg -o wall.ldr -o parts.csv",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
     .ask_less = "make the bounds smaller",
-    .operands = "at least one FILE.pcfg",
+    .operands = "at least one FILE",
     .operands_min = 1,
     .operands_max = SIZE_MAX,
     .run = run,

@@ -69,7 +69,8 @@ static void write_refusal(tn_job *job, const tn_place_rules *rules, const tn_pla
     if (!o->known) {
         fputs(" has nothing to touch", out);
     } else if (!o->has_step) {
-        fprintf(out, " meets a bound at %d %d %d", o->cell[0], o->cell[1], o->cell[2]);
+        fprintf(out, " meets %s at %d %d %d", rules->space ? "the end of the space" : "a bound", o->cell[0], o->cell[1],
+                o->cell[2]);
     } else {
         fprintf(out, " meets, at %d %d %d, what ", o->cell[0], o->cell[1], o->cell[2]);
         write_step(job, rules, o->step, out);
@@ -89,6 +90,8 @@ void tn_place_trace(tn_job *job, const tn_place_rules *rules, const tn_place_eve
     fputc(' ', out);
     if (event->outcome == TN_PLACE_REFUSED)
         write_refusal(job, rules, event, out);
+    else if (rules->space && rules->alternatives[event->alternative].count == 0)
+        fputs("is left open", out);
     else
         fputs(words[event->outcome], out);
     fputc('\n', out);

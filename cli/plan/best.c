@@ -181,7 +181,7 @@ static bool open_sink(sink *s, uint64_t wanted)
     if (s->draws && wanted > TN_DRAW_PLANS_DEFAULT) {
         tn_help(tn_job_diagnostics(s->job),
                 tn_job_usage(s->job, "a picture shows at most %u plans", TN_DRAW_PLANS_DEFAULT),
-                "ask for fewer, or write them to a file that is no picture");
+                "ask for fewer, or write them to a file that is not a picture");
         return false;
     }
     s->json = format == TN_FORMAT_JSON;

@@ -21,6 +21,7 @@ typedef struct count_settings {
     const char *by;   /* the measure that is counted by */
     const char *step;
     tn_option_number bins;
+    bool watch;
     const char *output;
 } count_settings;
 
@@ -346,13 +347,13 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
     return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
 }
 
-static int run(const tn_command *command, const tn_settings *common)
+static int count_once(const tn_settings *common, tn_files_read *read)
 {
-    (void)command;
     const count_settings *settings = (const count_settings *)common;
     tn_job job;
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
+    job.read = read;
     bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
@@ -362,6 +363,14 @@ static int run(const tn_command *command, const tn_settings *common)
     }
     tn_library_close(&ready);
     return tn_job_end(&job);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    if (!((const count_settings *)common)->watch)
+        return count_once(common, NULL);
+    return tn_watch_files(common, count_once);
 }
 
 #define SETTINGS count_settings
@@ -375,6 +384,7 @@ static const tn_option options[] = {
          "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
+    FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
 };

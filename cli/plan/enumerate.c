@@ -203,7 +203,7 @@ static bool check_options(tn_job *job)
     const enumerate_settings *settings = settings_of(job);
     if (!settings->written.resume || (settings->written.output && strcmp(settings->written.output, "-") != 0))
         return true;
-    tn_job_usage(job, "--resume needs the database that it is to go on with: -o FILE.sqlite");
+    tn_job_usage(job, "--resume needs the database to continue: -o FILE.sqlite");
     return false;
 }
 
@@ -237,9 +237,10 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
+    OPTION_COLUMNS,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
-    FLAG("resume", 0, written.resume, "go on with a database that was interrupted: nothing twice, nothing missing"),
+    FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTIONS_LIBRARY_LIMITS,
 };
 

@@ -371,7 +371,7 @@ const tn_command tn_command_explain = {
     .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o "
              "STEPS.svg]",
     .description =
-        "Says which clauses of a library drop a plan, and shows for each clause how its parts come out. + marks a "
+        "Says which clauses of a library drop a plan, and shows for each clause which of its parts hold. + marks a "
         "part that matches, with its trays. - marks a part that does not match, with what comes closest. For a "
         "rule that does not match, the largest part that does is shown. A distance needs only one source that is "
         "far from every destination, so one is shown.\n\n"

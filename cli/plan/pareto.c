@@ -162,8 +162,8 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS pareto_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
-    WISH("least", wanted, "the less of MEASURE the better"),
-    WISH("most", wanted, "the more of MEASURE the better"),
+    WISH("least", wanted, "prefer plans with less of MEASURE"),
+    WISH("most", wanted, "prefer plans with more of MEASURE"),
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,

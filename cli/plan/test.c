@@ -7,6 +7,7 @@
 #include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/solid/solid.h"
+#include "driver/place/kit.h"
 #include "driver/plan/coverage.h"
 #include "runtime/base/utf8.h"
 
@@ -111,6 +112,14 @@ static void test_solids(tn_job *job, test_report *report)
     free(text);
 }
 
+static void test_kit(tn_job *job, test_report *report)
+{
+    tn_kit_tally tally;
+    tn_job_status(job, tn_kit_tests_run(&job->opened, tn_interrupt_waiting(), &tally));
+    report->counts.passed += tally.passed;
+    report->counts.failed += tally.failed;
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -124,6 +133,10 @@ static int run(const tn_command *command, const tn_settings *common)
             continue;
         if (job.opened.module->SOLID_count) {
             test_solids(&job, &report);
+            continue;
+        }
+        if (job.opened.module->KIT_count) {
+            test_kit(&job, &report);
             continue;
         }
         tn_job_status(&job,
@@ -163,7 +176,9 @@ const tn_command tn_command_test = {
         "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
         "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
         "are those that the library generates or, without a library, all plans of up to 4 trays.\n\n"
-        "For designs of boxes it prints what they measure, and checks their requirements.",
+        "For designs of boxes it prints what they measure, and checks their requirements. Of a kit every model is "
+        "placed "
+        "with seed 0 and held to its requirements and its tests.",
     .example = "$ tartan test lahave",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -1,5 +1,6 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
@@ -8,6 +9,8 @@
 #include "cli/plan/answers.h"
 #include "cli/plan/relations.h"
 #include "cli/solid/solid.h"
+#include "cli/source/fix.h"
+#include "cli/source/sarif.h"
 #include "driver/breed/grammar_report.h"
 
 typedef struct check_settings {
@@ -19,6 +22,8 @@ typedef struct check_settings {
     bool with_tests, with_counts;
     const char *before; /* the file before an edit, to compare with */
     tn_option_number max_boxes;
+    bool fix, yes, watch;
+    const char *sarif; /* where a SARIF log goes */
 } check_settings;
 
 static const check_settings *settings_of(const tn_job *job)
@@ -158,6 +163,14 @@ static void answer(tn_job *job)
     tn_library_close(&ready);
 }
 
+static bool takes_standard_input(const tn_option_list *operands)
+{
+    for (size_t i = 0; i < operands->count; i++)
+        if (strcmp(operands->items[i], "-") == 0)
+            return true;
+    return false;
+}
+
 static bool check_options(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
@@ -178,6 +191,12 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "--json is about --relations, or --test alone: give one of them");
     else if (settings->json && settings->with_tests && settings->common.operands.count > 1)
         tn_job_usage(job, "--test --json takes one FILE; `tartan test --json` takes several");
+    else if (settings->yes && !settings->fix)
+        tn_job_usage(job, "--yes is about --fix: give that too");
+    else if (settings->watch && (settings->fix || settings->output || settings->sarif))
+        tn_job_usage(job, "--watch goes without --fix, --sarif and --output");
+    else if (settings->fix && takes_standard_input(&settings->common.operands))
+        tn_job_usage(job, "--fix is about files, and standard input is none");
     else
         return true;
     return false;
@@ -188,7 +207,7 @@ static void check(tn_job *job, const char *path)
     const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
     if (settings->figures && !tn_module_has_grammar(module))
-        tn_job_usage(job, "--figures is about grammars, and %.200s is none", path);
+        tn_job_usage(job, "--figures is about grammars, and %.200s is not one", path);
     else if (settings->relations && module->RULE_count == 0)
         tn_job_usage(job, "--relations is about the rules of plans, and %.200s has none", path);
     else if (tn_module_has_grammar(module))
@@ -228,21 +247,57 @@ static bool open_operand(tn_job *job, size_t i)
     return open;
 }
 
-static int run(const tn_command *command, const tn_settings *common)
+static void check_all(tn_job *job)
 {
+    const check_settings *settings = settings_of(job);
+    const tn_option_list *operands = &settings->common.operands;
     bool joined = false;
-    (void)command;
-    tn_job job;
-    tn_job_begin(&job, common);
-    bool going = check_options(&job);
-    for (size_t i = 0; going && i < common->operands.count; i++) {
-        const char *path = common->operands.items[i];
+    for (size_t i = 0; i < operands->count; i++) {
+        const char *path = operands->items[i];
         bool part = tn_path_joins(path);
-        if ((!part || !joined) && open_operand(&job, i))
-            check(&job, path);
+        if (settings->fix && !tn_fix_file(job, path, settings->yes))
+            return;
+        if (settings->fix && tn_job_diagnostics(job)->count > 0)
+            tn_job_next(job);
+        if ((!part || !joined) && open_operand(job, i))
+            check(job, path);
         joined |= part;
     }
+}
+
+static int check_once(const tn_settings *common, tn_files_read *read)
+{
+    const check_settings *settings = (const check_settings *)common;
+    tn_job job;
+    tn_sarif sarif;
+    tn_job_begin(&job, common);
+    job.read = read;
+    if (settings->sarif) {
+        tn_sarif_begin(&sarif);
+        job.listener = &sarif.listener;
+    }
+    bool going = check_options(&job);
+    if (going)
+        check_all(&job);
+    int exit_code = tn_job_end(&job);
+    if (!settings->sarif)
+        return exit_code;
+    tn_error error;
+    tn_status status = going ? tn_sarif_write(&sarif, settings->sarif, &error) : TN_OK;
+    tn_sarif_clear(&sarif);
+    if (status == TN_OK)
+        return exit_code;
+    tn_job_begin(&job, common);
+    tn_job_fail(&job, &error);
     return tn_job_end(&job);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    const check_settings *settings = (const check_settings *)common;
+    bool watched = settings->watch && !settings->fix && !settings->sarif && !settings->output;
+    return watched ? tn_watch_files(common, check_once) : check_once(common, NULL);
 }
 
 #define SETTINGS check_settings
@@ -257,6 +312,11 @@ static const tn_option options[] = {
     FLAG("test", 0, with_tests, "also run the file's tests, as `tartan test` does"),
     FLAG("count", 0, with_counts, "also count the library's plans, as `tartan count` does"),
     TEXT("diff", 0, "OLD", before, "also compare the library with the one of OLD, as `tartan diff OLD FILE` does"),
+    FLAG("fix", 0, fix, "show what the suggested replacements change in FILE, ask, and write it"),
+    FLAG("yes", 0, yes, "with --fix: write without asking"),
+    FLAG("watch", 0, watch, "check again whenever a file that was read changes; Ctrl-C ends"),
+    TEXT("sarif", 0, "LOG", sarif,
+         "also write what is found to LOG in SARIF 2.1.0, for code hosts; - is standard output"),
     OPTION_LIBRARY,
     OPTION_WERROR,
     OPTION_MAX_STATES,
@@ -267,7 +327,8 @@ static const tn_option options[] = {
 const tn_command tn_command_check = {
     .name = "check",
     .summary = "check rule files for errors and warnings",
-    .usage = "FILE... [--no-analysis] [--figures] [--test]\nFILE --test --json\nFILE [--test] [--count] [--diff OLD] "
+    .usage = "FILE... [--no-analysis] [--figures] [--test] [--watch] [--sarif LOG]\nFILE... --fix [--yes]\nFILE --test "
+             "--json\nFILE [--test] [--count] [--diff OLD] "
              "[--library "
              "NAME]\nFILE --relations [--examples] [--json]",
     .description =
@@ -281,10 +342,13 @@ const tn_command tn_command_check = {
         "without end, and a design of boxes (.solid) if boxes are squashed, clipped away or apart. Several "
         "connection grammars (.pcfg) are one grammar, in the order given.\n\n"
         "With --test, --count or --diff the answers of these commands are given too. That is faster than one "
-        "command after another, because they share most of their work.",
+        "command after another, because they share most of their work.\n\n"
+        "--fix applies the replacements that errors and warnings suggest, the same that editors offer, and shows the "
+        "difference first. It writes a file whole or not at all, and only after a person has said yes or with --yes. "
+        "A suggestion can be wrong: read the difference. What is left is shown as without --fix.",
     .example = "$ tartan check houses.plan\n$ tartan check houses.plan --relations --examples\n$ tartan check "
                "houses.plan --test --count "
-               "--diff old.plan",
+               "--diff old.plan\n$ tartan check houses.plan --fix",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),

@@ -59,7 +59,7 @@ static void write_diff(tn_job *job, const char *path, const char *old_text, cons
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
-    if (tn_line_diff(path, old_text, new_text, output.stream)) {
+    if (tn_line_diff(path, "formatted", old_text, new_text, output.stream)) {
         tn_job_commit(job, &output);
         return;
     }

@@ -44,7 +44,7 @@ static void enter_names(tn_bnf_grammar *g)
         tn_diagnostic *diagnostic = tn_report(g->reader->diagnostics, E_GRAMMAR_DUPLICATE, rule->name_span,
                                               "%.*s has a rule already", (int)rule->name.length, rule->name.text);
         tn_note(g->reader->diagnostics, diagnostic, &g->rules[g->names[place]]->name_span, "it is here");
-        tn_help(g->reader->diagnostics, diagnostic, "put the alternatives together, parted by |");
+        tn_help(g->reader->diagnostics, diagnostic, "put the alternatives together, separated by |");
     }
 }
 

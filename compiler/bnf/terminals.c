@@ -239,7 +239,7 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     rule->broken |= count == 0 || word_goes_on || top > TN_BNF_PRODUCTIONS_MAX;
     if (count == 0 || word_goes_on) {
         tn_diagnostic *diagnostic =
-            tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE wants a whole number of up to nine digits");
+            tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE takes a whole number of up to nine digits");
         tn_help(reader->diagnostics, diagnostic,
                 "GE_RANGE:3 stands for 0 | 1 | 2; numbers of a data set are not known here");
         return true;
@@ -295,7 +295,7 @@ static void bad_token(tn_bnf_reader *reader, const tn_bnf_item *item, const char
 {
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_TOKEN, item->span, "%s", what);
     tn_help(reader->diagnostics, diagnostic,
-            "in the genr8 dialect blanks part all tokens; quote what is to be text: 'x'");
+            "in the genr8 dialect all tokens are separated by blanks; quote what is to be text: 'x'");
 }
 
 static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)

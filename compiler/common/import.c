@@ -50,7 +50,7 @@ static void report_unresolved(tn_importer *importer, const tn_use *use, const ch
 {
     tn_code code = error->code == TN_CODE_NONE ? E_IMPORT_NOT_FOUND : error->code;
     tn_diagnostic *d = tn_report(importer->diagnostics, code, use->span, "%s", error->message);
-    tn_help(importer->diagnostics, d, "%s", error->help[0] ? error->help : "see that it is a file that may be read");
+    tn_help(importer->diagnostics, d, "%s", error->help[0] ? error->help : "check that it is a file that you may read");
     if (meant[0])
         tn_replace_with(importer->diagnostics, d, "\"%s\"", meant);
 }

@@ -111,7 +111,7 @@ static void report_unknown(tn_pcfg_grammar *g, const tn_pcfg_item *item, bool re
     if (g->partial)
         soften(list, d);
     if (is_epsilon(item->text)) {
-        tn_help(list, d, "an alternative that comes to nothing is left empty");
+        tn_help(list, d, "an alternative that does nothing is left empty");
         return;
     }
     uint32_t count = g->count < NAMES_MAX ? g->count : NAMES_MAX;
@@ -172,7 +172,7 @@ static void check_probabilities(const tn_pcfg_grammar *g, tn_pcfg_symbol *symbol
     }
     symbol->drawn = tn_place_draws(sum);
     if (sum >= 3) {
-        tn_report(list, E_PLACE_PROBABILITY, symbol->span, "the probabilities of %s sum to %g; 1 is all there is",
+        tn_report(list, E_PLACE_PROBABILITY, symbol->span, "the probabilities of %s sum to %g, which is more than 1",
                   symbol->name, sum);
     } else if (sum > 0 && !symbol->drawn && !g->partial) {
         tn_diagnostic *d = tn_report(list, W_PLACE_PROBABILITY_SUM, symbol->span,

@@ -97,7 +97,7 @@ static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *readi
 
 static bool made(const tn_module *module)
 {
-    return tn_module_has_places(module);
+    return tn_module_has_places(module) && module->KIT_count == 0;
 }
 
 static bool same(const tn_reading *one, const tn_reading *other)

@@ -189,7 +189,7 @@ static void settle_angle(const reading *r)
     if (angle % 90 == 0)
         return;
     tn_diagnostic *d = tn_report(r->diagnostics, W_PLACE_ANGLE, r->item->span,
-                                 "an angle of %d is no quarter turn: the step turns by %d", angle, turns * 90);
+                                 "an angle of %d is not a quarter turn: the step turns by %d", angle, turns * 90);
     tn_help(r->diagnostics, d, "write 0, 90, 180 or 270");
 }
 

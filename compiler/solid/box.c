@@ -177,7 +177,7 @@ static void twice(tn_solid_check *check, const tn_solid_part *part, const tn_sol
 {
     bool clips = part->kind == TN_SOLID_CLIP_NORMAL || part->kind == TN_SOLID_CLIP_ANGLES;
     tn_diagnostic *d = clips ? report(check, E_SOLID_CLIP, part->span, "this box is clipped twice")
-                             : report(check, E_SOLID_TWICE, part->span, "this part of the box is there twice");
+                             : report(check, E_SOLID_TWICE, part->span, "this part of the box is given twice");
     tn_note(check->diagnostics, d, &before->span, "the first is here");
     tn_help(check->diagnostics, d, "%s",
             clips ? "a box has one plane: split it into two boxes that meet, and clip each" : "leave one of them out");
@@ -212,7 +212,7 @@ static bool says_where(tn_solid_check *check, const tn_solid_item *item, const p
     if (from)
         d = report(check, E_SOLID_BOX, (at ? at : size)->span, "this box has its corners already");
     else if (at || size)
-        d = report(check, E_SOLID_BOX, item->span, at ? "this box has no size" : "this box has a size and no place");
+        d = report(check, E_SOLID_BOX, item->span, at ? "this box has no size" : "this box has a size but no place");
     else
         d = report(check, E_SOLID_BOX, item->span, "this box does not say where it is");
     tn_help(check->diagnostics, d, "a box is `at (x, y, z) size (w, h, d)`, or `from (x, y, z) to (x, y, z)`");

@@ -37,7 +37,7 @@ static void take_symmetry(tn_solid_check *check, const tn_solid_item *item)
         uint32_t flag = entry->axis < 3 ? 1u << entry->axis : 0;
         if (check->solid->flags & flag) {
             tn_diagnostic *d =
-                tn_report(check->diagnostics, E_SOLID_TWICE, entry->span, "this plane of symmetry is there twice");
+                tn_report(check->diagnostics, E_SOLID_TWICE, entry->span, "this plane of symmetry is given twice");
             tn_help(check->diagnostics, d, "leave one of them out");
             check->solid->wrong = true;
         }
@@ -60,7 +60,7 @@ static void take_model(tn_solid_check *check, const tn_solid_item *item)
             check->solid->model = i;
     if (check->solid->model != TN_MODEL_NONE)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, item->name.span, "`%.40s` is no unit of a design",
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, item->name.span, "`%.40s` is not a unit of a design",
                                  item->name.text ? item->name.text : "");
     tn_help(check->diagnostics, d, "write `model mm;`, `model cm;` or `model m;`");
     check->solid->wrong = true;
@@ -165,7 +165,7 @@ static void check_expressions(tn_solid_check *check, const tn_solid_item *item)
         } else if (item->kind == TN_SOLID_REQUIRES && constant(entry->expression, &value)) {
             tn_diagnostic *d = tn_report(check->diagnostics, W_REQUIREMENT_CONSTANT, entry->span,
                                          "this requirement %s holds", value != 0 ? "always" : "never");
-            tn_help(check->diagnostics, d, "it says nothing of the design: name what is measured, as in `parts = 1`");
+            tn_help(check->diagnostics, d, "it is not about the design: name a measure, as in `parts = 1`");
         }
     }
 }

@@ -157,7 +157,7 @@ static void goal_twice(check *c, const tn_study_item *item)
         if (strcmp(other->text, item->text) != 0 || other->span.file != item->span.file)
             continue;
         tn_diagnostic *d =
-            tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "the term `%s` is there twice", item->text);
+            tn_report(c->diagnostics, E_STUDY_TWICE, item->span, "the term `%s` is given twice", item->text);
         tn_note(c->diagnostics, d, &other->span, "the first is here");
         tn_help(c->diagnostics, d, "leave one of them out");
     }

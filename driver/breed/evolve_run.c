@@ -55,6 +55,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
                                   job->inputs ? job->inputs : "",
                                   job->seeds_text};
     size_t count = sizeof keys / sizeof *keys;
+    _Static_assert(sizeof keys == sizeof values, "a value for each key");
     return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
 }
 
@@ -77,7 +78,7 @@ static tn_status same_arithmetic(const tn_run *run, tn_error *error)
             "the run in %.200s was made with arithmetic %d, and this Tartan has arithmetic %d: sines and exponentials "
             "differ in their last digits",
             run->dir, was, TN_NUMERIC_VERSION);
-    tn_error_help(error, "go on with the Tartan that began it, or start another run with -o DIR");
+    tn_error_help(error, "continue with the version of Tartan that began it, or start another run with -o DIR");
     return TN_INVALID;
 }
 
@@ -179,7 +180,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     if (run->generations == 0 || !evaluator->adjust) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
-        tn_error_help(error, run->generations ? "targets and weights belong to growing, building and learning"
+        tn_error_help(error, run->generations ? "targets and weights are for growing, building and learning"
                                               : "change the study itself");
         return TN_INVALID;
     }
@@ -401,6 +402,13 @@ static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
     tn_status status = tn_run_store_get_meta(run->store, "grammar_path", &path, error);
     if (status == TN_OK)
         status = tn_run_store_get_meta(run->store, "grammar", &text, error);
+    if (status == TN_OK && path && !path[0]) { /* of forms: the study stands alone */
+        free(path);
+        free(text);
+        path = strdup("run.study");
+        text = NULL;
+        status = path ? tn_run_store_get_meta(run->store, "study", &text, error) : tn_fail_memory(error);
+    }
     if (status == TN_OK && (!path || !text))
         status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no grammar");
     if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)

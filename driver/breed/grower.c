@@ -46,12 +46,12 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
             g->goals[g->goal_count++] = goal;
     if (status == TN_OK && g->separately && g->goal_count > TN_OBJECTIVES_MAX) {
         status = tn_fail(error, TN_LIMIT, E_GROWTH_STUDY,
-                         "the growth study %.200s wants %zu things; `selection nsga2` weighs %u", path, g->goal_count,
+                         "the growth study %.200s has %zu goals; `selection nsga2` takes at most %u", path, g->goal_count,
                          TN_OBJECTIVES_MAX);
         tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
     }
     if (status == TN_OK && g->goal_count == 0) {
-        status = tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.200s wants nothing of a surface", path);
+        status = tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.200s has no goals for a surface", path);
         tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
     }
     g->study.options.threads = 1;
@@ -208,7 +208,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
                               : named->weight;
     if (!found || !change[length] || !tn_wish_read(change + length, &target, &weight)) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
-        tn_error_help(error, "name a term that the growth study wants, as \"%.60s target 3 weight 2\"",
+        tn_error_help(error, "name a term that is a goal of the growth study, as \"%.60s target 3 weight 2\"",
                       name_of(g, g->goals[0]));
         return TN_INVALID;
     }

@@ -183,7 +183,7 @@ static tn_status read_joined(const char *path, joined_file *file, tn_error *erro
     const char *name = file->found.path ? file->found.recorded : path;
     if (tn_path_joins(name) && !tn_module_has_magic(file->bytes, file->size))
         return TN_OK;
-    tn_fail(error, TN_INVALID, E_NOT_PLACING, "%.200s is no connection grammar, and cannot be one with other files",
+    tn_fail(error, TN_INVALID, E_NOT_PLACING, "%.200s is not a connection grammar, and cannot be joined to other files",
             path);
     tn_error_help(error, "name .pcfg files, or one file alone");
     return TN_INVALID;

@@ -100,9 +100,12 @@ tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const t
     tn_diagnostics *list = &opened->compilation.diagnostics;
     tn_status status = tn_place_derive(rules, options, model, &fault, &error);
     if (status == TN_OK && model->count == 0) {
-        tn_diagnostic *d = tn_report(list, E_PLACE_NOTHING, tn_place_alternative_span(rules, 0),
-                                     "the grammar comes to its end without placing a part");
-        tn_help(list, d, "a part is placed by 'Place(3001)'; --trace shows which alternatives did not fit");
+        tn_diagnostic *d =
+            tn_report(list, E_PLACE_NOTHING, tn_place_alternative_span(rules, rules->symbols[rules->start].first),
+                      "%s comes to its end without placing a part", rules->space ? "the model" : "the grammar");
+        tn_help(list, d, "%s; --trace shows which alternatives did not fit",
+                rules->space ? "a part needs room inside of the space where the model starts"
+                             : "a part is placed by 'Place(3001)'");
         return TN_INVALID;
     }
     if (status == TN_OK)

@@ -233,7 +233,7 @@ static tn_status tell_empty(const teller *t)
         tn_span place = clause_span(t, f->reasons[i]);
         const char *name = clause_name(t, f->reasons[i]);
         if (!f->plans[i].shown)
-            tn_note(list_of(t), d, &place, "`%s` is one of those that see to it", name);
+            tn_note(list_of(t), d, &place, "`%s` is one of the clauses that do this", name);
         snprintf(what, sizeof what,
                  f->reason_count == 1 ? "`%s` keeps out all plans, for example"
                                       : "without `%s` the others here would leave",

@@ -23,7 +23,7 @@ static bool add(gathering *g, tn_drawn_reason reason)
     return reason.text != NULL;
 }
 
-static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth)
+static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth, bool drops)
 {
     const tn_why *node = &why->nodes[index];
     char text[TN_PART_TEXT_MAX];
@@ -34,6 +34,7 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
                               .evidence = evidence.data,
                               .depth = depth + 1,
                               .matched = node->matched,
+                              .drops = drops,
                               .marks = node->stretch_count ? why->stretches + node->stretch_first : NULL,
                               .mark_count = tn_words_places(why, node) ? node->stretch_count : 0,
                               .region = node->region};
@@ -48,13 +49,14 @@ static bool add_rule(gathering *g, const tn_explained_rule *rule, bool full)
 {
     tn_explain_rows rows = {0};
     tn_buffer evidence = {0};
+    bool prunes = rule->drops && rule->holds;
     tn_buffer_printf(&evidence, "%s", rule->doc);
-    bool ok = add(
-        g, (tn_drawn_reason){
-               .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = rule->drops});
+    bool ok =
+        add(g, (tn_drawn_reason){
+                   .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = prunes});
     ok = ok && !evidence.failed && tn_explain_rows_make(&rule->why, full, &rows);
     for (uint32_t i = 0; ok && i < rows.count; i++)
-        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i]);
+        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i], prunes);
     tn_explain_rows_clear(&rows);
     return ok;
 }
@@ -70,24 +72,63 @@ static void write_title(const tn_explained *explained, tn_buffer *title)
                          explained->library->trays_min, explained->library->trays_max);
 }
 
+/* "nearest plans that are kept (there are others as near)" */
+static void write_near_title(const tn_explained *explained, tn_buffer *title)
+{
+    tn_buffer_printf(title,
+                     explained->near.count == 1 ? "the nearest plan that is kept" : "nearest plans that are kept");
+    if (explained->near.more)
+        tn_buffer_printf(title, " (there are others as near)");
+}
+
+/* The plans that are kept, each with how it differs. */
+static bool add_near(const tn_explained *explained, tn_drawn_plan *near)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < explained->near.count; i++) {
+        const tn_near_plan *plan = &explained->near.plans[i];
+        tn_buffer changes = {0};
+        ok = tn_words_changes(explained, plan, &changes);
+        near[i] = (tn_drawn_plan){.trays = plan->trays, .length = plan->length, .caption = changes.data};
+    }
+    return ok;
+}
+
+static void gathering_clear(gathering *g)
+{
+    for (size_t i = 0; i < g->count; i++) {
+        free((char *)(uintptr_t)g->reasons[i].text);
+        free((char *)(uintptr_t)g->reasons[i].evidence);
+    }
+    free(g->reasons);
+}
+
 tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture *to, tn_error *error)
 {
     gathering g = {0};
-    tn_buffer title = {0};
-    bool ok = true;
+    tn_buffer title = {0}, near_title = {0};
+    size_t near_count = explained->near_known ? explained->near.count : 0;
+    tn_drawn_plan *near = calloc(near_count + 1, sizeof *near);
+    bool ok = near && (near_count == 0 || add_near(explained, near));
     write_title(explained, &title);
+    write_near_title(explained, &near_title);
     for (size_t i = 0; ok && i < explained->count; i++)
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
-    const tn_drawn_plan plan = {.trays = explained->trays, .length = explained->length};
-    tn_status status = ok && !title.failed
-                           ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
-                           : tn_fail_memory(error);
-    for (size_t i = 0; i < g.count; i++) {
-        free((char *)(uintptr_t)g.reasons[i].text);
-        free((char *)(uintptr_t)g.reasons[i].evidence);
-    }
-    free(g.reasons);
+    const tn_drawn_reasons drawn = {.title = title.data,
+                                    .plan = {.trays = explained->trays, .length = explained->length},
+                                    .reasons = g.reasons,
+                                    .count = g.count,
+                                    .near_title = near_title.data,
+                                    .near = near,
+                                    .near_count = near_count};
+    tn_status status = ok && !title.failed && !near_title.failed ? tn_reasons_draw(explained->schema, &drawn, to, error)
+                                                                 : tn_fail_memory(error);
+    for (size_t i = 0; near && i < near_count; i++)
+        free((char *)(uintptr_t)near[i].caption);
+    free(near);
+    gathering_clear(&g);
+    free(near_title.data);
     free(title.data);
     return status;
 }

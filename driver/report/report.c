@@ -73,13 +73,13 @@ static bool put_finding(const tn_reporting *r, const tn_diagnostic *item)
     if (item->code != TN_CODE_NONE)
         tn_code_name(item->code, code);
     bool good = tn_report_html(r, "<div class=\"card\"><p>") && put_place(r, item->has_span, item->span) &&
-                (!*code || (tn_report_text(r, code) && tn_report_html(r, ": "))) && tn_report_text(r, item->message) &&
+                (!*code || (tn_report_text(r, code) && tn_report_html(r, ": "))) && tn_report_prose(r, item->message) &&
                 tn_report_html(r, "</p>\n");
     for (size_t n = 0; good && n < item->note_count; n++)
         good = tn_report_html(r, "<p class=\"quiet\">") && put_place(r, item->notes[n].has_span, item->notes[n].span) &&
-               tn_report_text(r, item->notes[n].text ? item->notes[n].text : "") && tn_report_html(r, "</p>\n");
+               tn_report_prose(r, item->notes[n].text ? item->notes[n].text : "") && tn_report_html(r, "</p>\n");
     if (good && item->help)
-        good = tn_report_html(r, "<p>") && tn_report_text(r, item->help) && tn_report_html(r, "</p>\n");
+        good = tn_report_html(r, "<p>") && tn_report_prose(r, item->help) && tn_report_html(r, "</p>\n");
     return good && tn_report_html(r, "</div>\n");
 }
 
@@ -96,7 +96,7 @@ static bool put_findings(const tn_reporting *r)
         good = put_finding(r, item);
         any = true;
     }
-    return good && (any || tn_report_html(r, "<p class=\"quiet\">`tartan check` has no warnings.</p>\n"));
+    return good && (any || tn_report_html(r, "<p class=\"quiet\"><code>tartan check</code> has no warnings.</p>\n"));
 }
 
 /* ---- limits */
@@ -117,12 +117,12 @@ static bool is_told(const tn_diagnostics *found, size_t i)
 static bool put_limit(const tn_reporting *r, const tn_diagnostic *item)
 {
     bool good =
-        tn_report_html(r, "<li>") && put_place(r, item->has_span, item->span) && tn_report_text(r, item->message);
+        tn_report_html(r, "<li>") && put_place(r, item->has_span, item->span) && tn_report_prose(r, item->message);
     for (size_t n = 0; good && n < item->note_count; n++)
-        good = tn_report_html(r, n ? ", " : " (") && tn_report_text(r, item->notes[n].text ? item->notes[n].text : "");
+        good = tn_report_html(r, n ? ", " : " (") && tn_report_prose(r, item->notes[n].text ? item->notes[n].text : "");
     good = good && (item->note_count == 0 || tn_report_html(r, ")"));
     if (good && item->help)
-        good = tn_report_html(r, "<br><span class=\"quiet\">") && tn_report_text(r, item->help) &&
+        good = tn_report_html(r, "<br><span class=\"quiet\">") && tn_report_prose(r, item->help) &&
                tn_report_html(r, "</span>");
     return good && tn_report_html(r, "</li>\n");
 }
@@ -154,8 +154,9 @@ static bool put_head(const tn_reporting *r)
            tn_report_text(r, name) && tn_report_html(r, "</title>\n") && tn_report_html(r, tn_report_head) &&
            tn_report_html(r, "<h1>") && tn_report_text(r, name) && tn_report_html(r, "</h1>\n<p>") &&
            tn_report_text(r, doc) &&
-           tn_report_html(r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "
-                             "href=\"#rules\">Rules</a> <a href=\"#plans\">Plans</a></nav>\n");
+           tn_report_html(
+               r, "</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "
+                  "href=\"#measures\">Measures</a> <a href=\"#rules\">Rules</a> <a href=\"#plans\">Plans</a></nav>\n");
 }
 
 static bool put_foot(const tn_reporting *r)
@@ -180,6 +181,8 @@ tn_status tn_report_page(tn_opened *opened, const tn_ready_library *ready, const
         status = put_chart(&r);
     if (status == TN_OK)
         status = tn_report_written(&r, put_findings(&r));
+    if (status == TN_OK)
+        status = tn_report_measures(&r);
     if (status == TN_OK)
         status = tn_report_rules(&r);
     if (status == TN_OK)

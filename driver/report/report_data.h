@@ -30,6 +30,9 @@ bool tn_report_html(const tn_reporting *r, const char *html);
 bool tn_report_text(const tn_reporting *r, const char *text);
 bool tn_report_text_part(const tn_reporting *r, const char *text, size_t size);
 
+/* A sentence in which what stands between backticks is code. */
+bool tn_report_prose(const tn_reporting *r, const char *text);
+
 /* A number with commas; a share of a whole, in per cent with two digits that count. */
 bool tn_report_number(const tn_reporting *r, const mpz_t number);
 bool tn_report_share(const tn_reporting *r, const mpz_t part, const mpz_t whole);
@@ -49,6 +52,10 @@ tn_status tn_report_put_explained(tn_reporting *r, const tn_explained *explained
 /* The chart of plans by length: `generated` and `kept` of lengths low, low + 1, ... */
 bool tn_report_chart(const tn_reporting *r, uint32_t low, const mpz_t *generated, const mpz_t *kept, size_t count);
 
+/* The plan alone. */
+tn_status tn_report_put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description);
+
+tn_status tn_report_measures(tn_reporting *r);
 tn_status tn_report_rules(tn_reporting *r);
 tn_status tn_report_plans(tn_reporting *r);
 

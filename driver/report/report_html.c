@@ -5,6 +5,7 @@
 
 #include "driver/open/digits.h"
 #include "runtime/base/utf8.h"
+#include "runtime/plan/picture/draw_explain.h"
 
 const char tn_report_head[] =
     "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<style>\n"
@@ -12,8 +13,9 @@ const char tn_report_head[] =
     "color:#222;background:#fff}\n"
     "h1{margin-bottom:0}h2{margin-top:2.5rem;border-bottom:1px solid #ccc}nav a{margin-right:1rem}\n"
     "a{color:#2a5599}svg{max-width:100%;height:auto}figure{margin:.5rem 0;overflow-x:auto}\n"
-    ".plan svg,.chart svg,details svg{min-width:38rem}small{font-weight:normal;color:#666}\n"
-    "pre{background:#f6f6f3;padding:.6rem;overflow:auto;font-size:13px}\n"
+    ".plan.dropped svg,.chart svg,.card>details>figure svg{min-width:38rem}small{font-weight:normal;color:#666}\n"
+    "pre{background:#f6f6f3;padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:13px}\n"
+    "code{background:#f6f6f3;padding:0 .2rem;font-size:13px;overflow-wrap:anywhere}\n"
     ".line{font:12px/1.4 monospace;color:#666;overflow-wrap:anywhere}\n"
     ".card{border:1px solid #ddd;border-radius:6px;padding:.8rem 1rem;margin:.8rem 0}\n"
     ".card h3{margin:0}.quiet{color:#666}.card p{margin:.4rem 0}\n"
@@ -23,7 +25,9 @@ const char tn_report_head[] =
     "#sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(32rem,100%),1fr));gap:.8rem}\n"
     ".plan{border:1px solid #ddd;border-radius:6px;padding:.6rem;overflow:hidden;min-width:0}.plan p{margin:.2rem 0}\n"
     ".plan.dropped{border-left:5px solid #b33;grid-column:1/-1}.plan.kept{border-left:5px solid #373}\n"
-    ".plan pre{white-space:pre-wrap;font-size:12px}\n"
+    ".plan pre{font-size:12px}\n"
+    ".best{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(24rem,100%),1fr));gap:.8rem}.best "
+    "p{margin:.2rem 0}\n"
     ".controls{position:sticky;top:0;background:#fff;padding:.5rem 0}input,select{font:inherit;max-width:100%}\n"
     "[hidden]{display:none}\n</style>\n";
 
@@ -93,6 +97,20 @@ bool tn_report_text(const tn_reporting *r, const char *text)
     return tn_report_text_part(r, text, strlen(text));
 }
 
+bool tn_report_prose(const tn_reporting *r, const char *text)
+{
+    bool good = true;
+    while (good && *text) {
+        const char *open = strchr(text, '`'), *close = open ? strchr(open + 1, '`') : NULL;
+        if (!close)
+            return tn_report_text(r, text);
+        good = tn_report_text_part(r, text, (size_t)(open - text)) && tn_report_html(r, "<code>") &&
+               tn_report_text_part(r, open + 1, (size_t)(close - open - 1)) && tn_report_html(r, "</code>");
+        text = close + 1;
+    }
+    return good;
+}
+
 bool tn_report_number(const tn_reporting *r, const mpz_t number)
 {
     char *digits = tn_digits(number, true);
@@ -156,9 +174,19 @@ tn_status tn_report_put_explained(tn_reporting *r, const tn_explained *explained
     return tn_report_put_picture(r, &picture, description, status);
 }
 
+/* ---- plans */
+
+tn_status tn_report_put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description)
+{
+    tn_picture picture = tn_report_next_picture(r);
+    const tn_drawn_reasons drawn = {.plan = {.trays = trays, .length = length}};
+    tn_status status = tn_reasons_draw(r->ready->schema, &drawn, &picture, r->error);
+    return tn_report_put_picture(r, &picture, description, status);
+}
+
 /* ---- the chart */
 
-enum { BAR_HEIGHT = 12, BAR_ROW = 34, BAR_LEFT = 60, BAR_WIDTH = 560, CHART_WIDTH = 860 };
+enum { BAR_HEIGHT = 12, BAR_ROW = 34, BAR_LEFT = 70, BAR_WIDTH = 560, DIGIT_WIDTH = 8 };
 
 /* The logarithm of a count in thousandths of its base ten, straight between powers of ten: exact on every machine. */
 static unsigned long magnitude(const mpz_t count)
@@ -189,11 +217,13 @@ bool tn_report_chart(const tn_reporting *r, uint32_t low, const mpz_t *generated
     unsigned long most = 0;
     for (size_t i = 0; i < count; i++)
         most = magnitude(generated[i]) > most ? magnitude(generated[i]) : most;
-    bool written = tn_buffer_printf(r->page,
-                                    "<figure class=\"chart\"><svg width=\"%d\" viewBox=\"0 0 %d %zu\" font-size=\"12\" "
-                                    "font-family=\"sans-serif\" role=\"img\" "
-                                    "aria-label=\"plans by length\">\n",
-                                    CHART_WIDTH, CHART_WIDTH, count * BAR_ROW + 10);
+    size_t digits = most / 1000 + 1, width = BAR_LEFT + BAR_WIDTH + DIGIT_WIDTH * (digits + digits / 3 + 1);
+    bool written =
+        tn_buffer_printf(r->page,
+                         "<figure class=\"chart\"><svg width=\"%zu\" viewBox=\"0 0 %zu %zu\" font-size=\"12\" "
+                         "font-family=\"sans-serif\" role=\"img\" "
+                         "aria-label=\"plans by length\">\n",
+                         width, width, count * BAR_ROW + 10);
     for (size_t i = 0; written && i < count; i++) {
         size_t y = i * BAR_ROW + 4;
         written = tn_buffer_printf(r->page, "<text x=\"0\" y=\"%zu\">%zu trays</text>", y + BAR_HEIGHT + 4, low + i) &&

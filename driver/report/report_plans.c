@@ -37,9 +37,10 @@ static tn_status put_plan(tn_reporting *r, const tn_explained *explained, const 
                 (explained->kept ? tn_report_html(r, ", rank ") && tn_report_number(r, rank) : put_by(r, explained)) &&
                 tn_report_html(r, "</p>\n");
     tn_status status = tn_report_written(r, good);
-    if (status == TN_OK)
-        status = tn_report_put_explained(
-            r, explained, explained->kept ? "a plan that is kept" : "a plan that is dropped, with the reasons");
+    if (status == TN_OK && explained->kept)
+        status = tn_report_put_plan(r, explained->trays, explained->length, "a plan that is kept");
+    else if (status == TN_OK)
+        status = tn_report_put_explained(r, explained, "a plan that is dropped, with the reasons");
     if (status == TN_OK)
         status = tn_report_written(
             r, tn_report_html(r, "<p class=\"line\">") && tn_report_plan(r, explained->trays, explained->length) &&

@@ -60,7 +60,7 @@ static inline tn_status tn_file_state_same(const tn_file_state *before, int file
                              now.changed.tv_nsec == before->changed.tv_nsec))
         return TN_OK;
     tn_fail(error, TN_IO, E_CANNOT_READ, "%.300s was changed while it was read", path);
-    tn_error_help(error, "see that nobody writes to it, and begin again");
+    tn_error_help(error, "make sure that no other program writes to it, and begin again");
     return TN_IO;
 }
 

@@ -12,8 +12,8 @@ typedef struct file_reason {
 } file_reason;
 
 static const file_reason read_reasons[] = {
-    {ENOENT, "there is no such file", "see that its name and folder are right"},
-    {ENOTDIR, "a part of its path is a file, not a folder", "see that its name and folder are right"},
+    {ENOENT, "there is no such file", "check its name and folder"},
+    {ENOTDIR, "a part of its path is a file, not a folder", "check its name and folder"},
     {EISDIR, "it is a folder", "name a file in it"},
     {EACCES, "you have no right to read it", "ask its owner for that, or name another file"},
 };

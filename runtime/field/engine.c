@@ -9,7 +9,7 @@ static tn_status verify(const tn_checker *checker)
     for (size_t i = 0; i < module->SURFACE_count; i++) {
         const tn_surface_record *r = &module->SURFACE_records[i];
         if (module->FUNCTION_records[r->function].kind != TN_FUNCTION_FIELD)
-            return tn_refuse(checker, "the function of surface %zu is no field", i);
+            return tn_refuse(checker, "the function of surface %zu is not a field", i);
         if (!(r->low_x < r->high_x && r->low_y < r->high_y && r->low_z < r->high_z))
             return tn_refuse(checker, "the box of surface %zu has no inside", i);
     }

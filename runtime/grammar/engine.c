@@ -82,7 +82,7 @@ static tn_status check_steps(tn_checker *checker, const tn_grammar_record *gramm
         status = tn_code_next(checker, TN_CODE_PLACE, &instruction);
         if (status != TN_OK)
             return status;
-        if ((instruction.opcode == TN_OP_PLACED) != (checker->offset + 1 == checker->end))
+        if ((instruction.opcode == TN_OP_PLACED) != (checker->offset + instruction.length == checker->end))
             return tn_refuse(checker, "a production ends with its one PLACED");
         if (instruction.opcode == TN_OP_DERIVE && !is_symbol(grammar, instruction.first))
             return tn_refuse(checker, "non-terminal %u is not of the grammar", (unsigned)instruction.first);

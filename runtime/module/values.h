@@ -32,7 +32,10 @@ typedef enum tn_field_role {
     TN_ROLE_LEVEL,  /* the n-th value has n levels */
     TN_ROLE_PUBLIC_END,
     TN_ROLE_GREAT_HALL,
-    TN_ROLE_BAND, /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_ROLE_BAND,  /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_ROLE_TEXT,  /* written large in the tray: what it is for */
+    TN_ROLE_TONE,  /* each value colours the tray in a tone of its own */
+    TN_ROLE_HATCH, /* each value but the first hatches it in a way of its own */
     TN_FIELD_ROLE_COUNT
 } tn_field_role;
 
@@ -217,9 +220,22 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_PLACE_SIZE_MAX (1 << 20) /* of a box or a ball, in cells */
 #define TN_PLACE_COLOUR_MAX INT32_MAX
 
+#define TN_KIT_LENGTH_MAX INT64_C(1000000000000) /* millionths of an LDU */
+#define TN_KIT_COUNTED_MAX 32u
+#define TN_CONDITION_TEST 1u /* of a test, not a requirement */
+typedef enum tn_axis {
+    TN_AXIS_UP,
+    TN_AXIS_DOWN,
+    TN_AXIS_LEFT,
+    TN_AXIS_RIGHT,
+    TN_AXIS_FRONT,
+    TN_AXIS_BACK,
+    TN_AXIS_COUNT
+} tn_axis;
+
 /* ---- solids */
 
-#define TN_SOLID_COORDINATE_MAX 1e9 /* of a box's faces and sizes */
+#define TN_SOLID_COORDINATE_MAX 1e9  /* of a box's faces and sizes */
 #define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
 
 /* Flags of a design. */

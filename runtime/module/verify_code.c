@@ -63,7 +63,7 @@ tn_status tn_code_next(const tn_checker *checker, tn_code_kind code, tn_instruct
     if (!info)
         return tn_refuse(checker, "%u is no opcode", opcode);
     if (info->code != code)
-        return tn_refuse(checker, "%s does not belong into this kind of code", info->name);
+        return tn_refuse(checker, "%s does not belong in this kind of code", info->name);
     if (info->length > checker->end - checker->offset)
         return tn_refuse(checker, "%s runs past its end", info->name);
     *instruction = tn_code_read(checker->module->code, checker->offset);

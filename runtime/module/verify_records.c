@@ -182,7 +182,7 @@ static tn_status measure_sources(tn_checker *checker)
     size_t left = checker->limits->bytes < UINT32_MAX ? checker->limits->bytes : UINT32_MAX;
     for (size_t i = 0; i < module->SOURCE_count; i++) {
         if (!is_string(module, module->SOURCE_records[i].text))
-            return tn_refuse(checker, "source %zu: text is no string", i);
+            return tn_refuse(checker, "source %zu: its text is not a string", i);
         size_t size = strnlen(tn_text(module, module->SOURCE_records[i].text), left + 1);
         if (size > left)
             return tn_fail(checker->error, TN_LIMIT, E_MODULE_TOO_LARGE,

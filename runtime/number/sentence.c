@@ -100,7 +100,7 @@ static void read_call(reader *r, const char *name, size_t length)
     }
     for (uint32_t k = 0; k < function->arity; k++) {
         if (k && !take(r, ','))
-            refuse(r, "a function wants another argument");
+            refuse(r, "a function needs another argument");
         read_sum(r);
     }
     if (!take(r, ')'))
@@ -150,7 +150,7 @@ static void read_factor(reader *r)
         read_name(r);
     } else {
         refuse(r,
-               r->at == r->size ? "the expression ends too soon" : "a number, a name or a parenthesis is wanted here");
+               r->at == r->size ? "the expression ends too soon" : "expected a number, a name or a parenthesis here");
     }
     r->nest--;
 }
@@ -187,6 +187,6 @@ tn_status tn_sentence_read(const char *text, size_t size, const char *const *nam
     read_sum(&r);
     take(&r, ' ');
     if (r.status == TN_OK && r.at < size)
-        refuse(&r, "the expression goes on where it should end");
+        refuse(&r, "there is more after the end of the expression");
     return r.status == TN_OK ? tn_formula_end(formula, error) : r.status;
 }

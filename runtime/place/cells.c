@@ -6,7 +6,7 @@
 
 #include "runtime/base/random.h"
 
-enum { SHIFT_X = 6, SHIFT_YZ = 4, ROWS = 16, FIRST_SLOTS = 64 };
+enum { SHIFT_X = 6, SHIFT_YZ = 4, ROWS = TN_CHUNK_ROWS, FIRST_SLOTS = 64 };
 
 typedef struct cell_chunk {
     int32_t at[3];            /* in chunks */
@@ -19,6 +19,9 @@ struct tn_cells {
     cell_chunk *last;
     uint64_t filled;
     tn_watch *watch;
+    const tn_cell_space *space; /* or NULL */
+    tn_status status;           /* of looking at the space */
+    tn_error error;
 };
 
 tn_cells *tn_cells_new(tn_watch *watch)
@@ -33,7 +36,20 @@ tn_cells *tn_cells_new(tn_watch *watch)
     cells->slots = slots;
     cells->slot_count = FIRST_SLOTS;
     cells->watch = watch;
+    cells->status = TN_OK;
     return cells;
+}
+
+void tn_cells_bound(tn_cells *cells, const tn_cell_space *space)
+{
+    cells->space = space;
+}
+
+tn_status tn_cells_status(const tn_cells *cells, tn_error *error)
+{
+    if (cells->status != TN_OK && error)
+        *error = cells->error;
+    return cells->status;
 }
 
 void tn_cells_free(tn_cells *cells)
@@ -102,6 +118,10 @@ static tn_status make_chunk(tn_cells *cells, const int32_t at[3], cell_chunk **m
     if (!chunk)
         return tn_fail_memory(error);
     memcpy(chunk->at, at, sizeof chunk->at);
+    if (cells->space && (status = cells->space->outside(cells->space->context, at, chunk->row, error)) != TN_OK) {
+        free(chunk);
+        return status;
+    }
     cells->slots[slot_of(cells, at)] = chunk;
     cells->chunk_count++;
     *made = cells->last = chunk;
@@ -206,11 +226,33 @@ static bool any_of_all(const tn_cells *cells, const tn_cell_box *box)
     return false;
 }
 
+/* In a space the chunks that a box lies in are made where they are not there: they hold what is outside. */
+static bool any_in_space(tn_cells *cells, const tn_cell_box *box, chunk_part *part)
+{
+    const tn_cell_box *all = &cells->space->box;
+    for (int k = 0; k < 3; k++)
+        if (box->low[k] < all->low[k] || box->high[k] > all->high[k])
+            return true;
+    do {
+        cell_chunk *chunk;
+        if (cells->status == TN_OK)
+            cells->status = make_chunk(cells, part->at, &chunk, &cells->error);
+        if (cells->status != TN_OK)
+            return true;
+        cut_part(box, part);
+        if (part_any(chunk, part))
+            return true;
+    } while (next_part(box, part));
+    return false;
+}
+
 bool tn_cells_any(tn_cells *cells, const tn_cell_box *box)
 {
     chunk_part part;
     if (!first_part(box, &part))
         return false;
+    if (cells->space)
+        return any_in_space(cells, box, &part);
     if (count_parts(box) > (double)cells->slot_count)
         return any_of_all(cells, box);
     do {

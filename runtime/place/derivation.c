@@ -39,7 +39,7 @@ tn_status tn_past_limit(derivation *d, const char *what, uint64_t limit, const c
 {
     tn_fail(d->error, TN_LIMIT, E_PLACE_LIMIT, "the derivation passes the limit of %llu %s", (unsigned long long)limit,
             what);
-    tn_error_help(d->error, "raise the limit with --%s, or see that the grammar comes to an end", option);
+    tn_error_help(d->error, "raise the limit with --%s, or change the grammar so that it comes to an end", option);
     return TN_LIMIT;
 }
 
@@ -119,7 +119,7 @@ tn_status tn_no_end(derivation *d, uint32_t alternative, bool lookahead)
     tn_error_help(d->error, lookahead
                                 ? "a lookahead puts the last alternative for each symbol: give one of these a last "
                                   "alternative that is empty; or raise the limit with --lookahead-limit"
-                                : "see that the grammar comes to an end; or raise the limit with --lookahead-limit");
+                                : "change the grammar so that it comes to an end, or raise the limit with --lookahead-limit");
     return TN_LIMIT;
 }
 
@@ -139,7 +139,7 @@ tn_status tn_frame_push(derivation *d, frame_stack *stack, const tn_frame *frame
 tn_status tn_no_frame(derivation *d, uint32_t step, uint32_t alternative)
 {
     *d->fault = (tn_place_fault){.has_step = true, .step = step, .alternative = alternative};
-    return tn_fail(d->error, TN_INVALID, E_PLACE_FRAME, "there is no frame left: a `)` dropped the last one");
+    return tn_fail(d->error, TN_INVALID, E_PLACE_FRAME, "there is no frame left: a `)` has removed the last one");
 }
 
 tn_status tn_too_far(derivation *d, uint32_t step, uint32_t alternative)
@@ -154,7 +154,7 @@ tn_status tn_too_far(derivation *d, uint32_t step, uint32_t alternative)
 /* After every step a world without a filled cell gets a shell, as in the published program. */
 tn_status tn_bound_empty_world(derivation *d)
 {
-    return tn_cells_count(d->cells) > 0 ? TN_OK : tn_bound_ball(d->cells, DEFAULT_RADIUS, d->error);
+    return !tn_world_is_empty(d) ? TN_OK : tn_bound_ball(d->cells, DEFAULT_RADIUS, d->error);
 }
 
 tn_status tn_set_bound(derivation *d, const tn_frame *frame, const tn_step *step)

@@ -66,6 +66,12 @@ tn_status tn_past_limit(derivation *d, const char *what, uint64_t limit, const c
  * another. */
 tn_status tn_no_end(derivation *d, uint32_t alternative, bool lookahead);
 
+/* Is nothing filled yet, so that a bound comes of itself? Not with a kit, which has its space. */
+static inline bool tn_world_is_empty(const derivation *d)
+{
+    return !d->rules->space && tn_cells_count(d->cells) == 0;
+}
+
 tn_status tn_no_frame(derivation *d, uint32_t step, uint32_t alternative);
 tn_status tn_too_far(derivation *d, uint32_t step, uint32_t alternative);
 tn_status tn_bound_empty_world(derivation *d);
@@ -76,6 +82,9 @@ tn_place_obstacle tn_obstacle_find(derivation *d, const tn_cell_box *box);
 
 /* Does an alternative fit? Where it does not, and was looked at step by step, d->refused says why. */
 tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits);
+
+/* Is it sure that only the symbol's last alternative fits, which always does? */
+bool tn_nothing_fits(derivation *d, const tn_place_symbol *symbol);
 tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits);
 
 #endif

@@ -4,9 +4,11 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/random.h"
 #include "runtime/place/derivation.h"
+#include "runtime/place/space.h"
 
-enum { ASK_EVERY = 4096 };
+enum { ASK_EVERY = 4096, DRAWN_MAX = 64 }; /* DRAWN_MAX: members of a draw that are looked at */
 
 /* ---- expanding */
 
@@ -38,7 +40,7 @@ static void report(derivation *d, tn_place_outcome outcome, uint32_t alternative
 /* One alternative alone is taken in any case: its lookahead is run only for what it does on the way. */
 static tn_status take_only(derivation *d, uint32_t alternative)
 {
-    bool fits, acts = d->traces.traces[alternative].bounds || tn_cells_count(d->cells) == 0;
+    bool fits, acts = d->traces.traces[alternative].bounds || tn_world_is_empty(d);
     d->model->counts.tries++;
     tn_status status = acts ? tn_look_ahead(d, alternative, &fits) : TN_OK;
     if (status == TN_OK)
@@ -46,20 +48,80 @@ static tn_status take_only(derivation *d, uint32_t alternative)
     return status;
 }
 
+/* The members of a draw that fit, each by its first alternative that does. */
+typedef struct drawing {
+    uint32_t fits[DRAWN_MAX], count;
+    double share[DRAWN_MAX]; /* running sum of the weights */
+} drawing;
+
+/* One of those that fit, by weight; keyed by the seed and by how many were drawn before. */
+static uint32_t draw_fitting(derivation *d, const drawing *drawn)
+{
+    double u = (double)(tn_random64(d->options.seed, 0, d->model->counts.draws++) >> 11) * 0x1p-53;
+    uint32_t chosen = 0;
+    while (chosen + 1 < drawn->count && !(drawn->share[chosen] > u * drawn->share[drawn->count - 1]))
+        chosen++;
+    return drawn->fits[chosen];
+}
+
+/* Tries the draw that begins at alternative *next, and goes past it; *fits: some member did. */
+static tn_status choose_drawn(derivation *d, uint32_t end, uint32_t *next, bool *fits, uint32_t *chosen)
+{
+    const tn_place_alternative *alternatives = d->rules->alternatives;
+    drawing drawn = {.count = 0};
+    uint32_t taken = 0, before = 0; /* members */
+    for (; *next < end && alternatives[*next].member > 0 && alternatives[*next].member >= before; (*next)++) {
+        before = alternatives[*next].member;
+        if (before == taken || drawn.count == DRAWN_MAX)
+            continue;
+        d->model->counts.tries++;
+        tn_status status = tn_fits_here(d, *next, fits);
+        if (status != TN_OK)
+            return status;
+        if (!*fits) {
+            report(d, TN_PLACE_REFUSED, *next);
+            continue;
+        }
+        taken = before;
+        drawn.fits[drawn.count] = *next;
+        drawn.share[drawn.count] = alternatives[*next].weight + (drawn.count ? drawn.share[drawn.count - 1] : 0);
+        drawn.count++;
+    }
+    *fits = drawn.count > 0;
+    if (*fits) {
+        *chosen = draw_fitting(d, &drawn);
+        report(d, TN_PLACE_DRAWN, *chosen);
+    }
+    return TN_OK;
+}
+
+static tn_status try_one(derivation *d, uint32_t *next, bool *fits, uint32_t *chosen)
+{
+    d->model->counts.tries++;
+    *chosen = (*next)++;
+    tn_status status = tn_fits_here(d, *chosen, fits);
+    if (status == TN_OK)
+        report(d, *fits ? TN_PLACE_TAKEN : TN_PLACE_REFUSED, *chosen);
+    return status;
+}
+
 /* The first alternative that fits, else the last. */
 static tn_status choose(derivation *d, const tn_place_symbol *symbol, uint32_t *chosen)
 {
     bool fits = false;
-    for (uint32_t i = 0; i < symbol->count; i++) {
-        d->model->counts.tries++;
-        *chosen = symbol->first + i;
-        tn_status status = tn_fits_here(d, *chosen, &fits);
-        if (status != TN_OK)
-            return status;
-        report(d, fits ? TN_PLACE_TAKEN : TN_PLACE_REFUSED, *chosen);
-        if (fits)
-            return TN_OK;
+    uint32_t end = symbol->first + symbol->count;
+    if (tn_nothing_fits(d, symbol)) { /* they were all tried at once */
+        d->model->counts.tries += symbol->count;
+        *chosen = end - 1;
+        return TN_OK;
     }
+    for (uint32_t next = symbol->first; next < end;) {
+        tn_status status = d->rules->alternatives[next].member ? choose_drawn(d, end, &next, &fits, chosen)
+                                                               : try_one(d, &next, &fits, chosen);
+        if (status != TN_OK || fits)
+            return status;
+    }
+    *chosen = end - 1;
     d->model->counts.fallbacks++;
     report(d, TN_PLACE_FORCED, *chosen);
     return TN_OK;
@@ -110,7 +172,7 @@ static tn_status keep_box(derivation *d, const tn_cell_box *box, uint32_t step)
 static tn_status fill(derivation *d, const tn_frame *frame, const tn_step *step, uint32_t index, uint32_t alternative)
 {
     tn_cell_box box = tn_frame_box(frame, step);
-    if (step->kind == TN_STEP_FILL && tn_cells_any(d->cells, &box)) {
+    if (tn_step_may_fail(step->kind) && tn_cells_any(d->cells, &box)) {
         *d->fault = (tn_place_fault){true, index, alternative, tn_obstacle_find(d, &box)};
         return tn_fail(d->error, TN_INVALID, E_PLACE_BLOCKED, "the place of this box is not free");
     }
@@ -158,6 +220,7 @@ static tn_status take_step(derivation *d, uint32_t index, uint32_t alternative)
         return add_part(d, frame, step);
     case TN_STEP_FILL:
     case TN_STEP_FILL_OVER:
+    case TN_STEP_BLOCK:
         return fill(d, frame, step, index, alternative);
     case TN_STEP_TOUCH:
         return touch(d, frame, step, index, alternative);
@@ -196,7 +259,7 @@ static tn_status derive(derivation *d)
     const tn_frame origin = {.colour = 1};
     tn_status status = tn_frame_push(d, &d->frames, &origin);
     if (status == TN_OK)
-        status = expand(d, 0, 0);
+        status = expand(d, d->rules->start, 0);
     while (status == TN_OK && (step = tn_pending_next(d, &d->pending, &index, &alternative)) != NULL) {
         if (++done % ASK_EVERY == 0 && (status = look_up(d)) != TN_OK)
             return status;
@@ -214,7 +277,7 @@ static tn_status derive(derivation *d)
         d->model->counts.steps += status == TN_OK;
         d->idle = 0;
     }
-    return status;
+    return status == TN_OK ? tn_cells_status(d->cells, d->error) : status;
 }
 
 static uint64_t or_default(uint64_t value, uint64_t usual)
@@ -236,17 +299,23 @@ tn_status tn_place_derive(const tn_place_rules *rules, const tn_place_options *o
                           tn_place_fault *fault, tn_error *error)
 {
     derivation d = {.rules = rules, .options = filled(options), .model = model, .fault = fault, .error = error};
+    tn_space *space = NULL;
     *model = (tn_placed_model){0};
     *fault = (tn_place_fault){0};
     d.cells = tn_cells_new(d.options.watch);
     tn_status status = d.cells ? tn_traces_make(rules, &d.traces, error) : tn_fail_memory(error);
+    if (status == TN_OK && rules->space)
+        status = tn_space_new(rules, &space, error);
     if (status == TN_OK) {
+        if (space)
+            tn_cells_bound(d.cells, tn_space_cells(space));
         tn_mersenne_seed(&d.random, d.options.seed);
         status = derive(&d);
         model->counts.parts = model->count;
         model->counts.cells = tn_cells_count(d.cells);
     }
     tn_cells_free(d.cells);
+    tn_space_free(space);
     tn_traces_clear(&d.traces);
     free(d.frames.items);
     free(d.trial.items);

@@ -25,6 +25,7 @@ static tn_status try_step(derivation *d, uint32_t index, uint32_t alternative, s
         *(d->trial.count > 0 ? &d->trial.count : kept) -= 1;
         return TN_OK;
     case TN_STEP_FILL:
+    case TN_STEP_BLOCK:
     case TN_STEP_TOUCH: {
         tn_cell_box box = tn_frame_box(frame, step);
         *fits = tn_cells_any(d->cells, &box) == (step->kind == TN_STEP_TOUCH);
@@ -75,28 +76,45 @@ tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits)
     return status;
 }
 
+/* A box at the frame, as a trace has it. */
+static tn_cell_box box_at(const tn_cell_box *box, const tn_frame *frame)
+{
+    tn_cell_box moved = *box;
+    for (int k = 0; k < 3; k++) {
+        moved.low[k] += frame->at[k];
+        moved.high[k] += frame->at[k];
+    }
+    return moved;
+}
+
 /* Does a trace that is known fit at a frame? */
 static bool trace_fits(derivation *d, const tn_trace *trace, const tn_frame *frame)
 {
     for (uint32_t i = 0; i < trace->count; i++) {
         const tn_trace_test *test = &d->traces.tests[trace->first + i];
-        tn_cell_box box = test->box[frame->heading];
-        for (int k = 0; k < 3; k++) {
-            box.low[k] += frame->at[k];
-            box.high[k] += frame->at[k];
-        }
+        tn_cell_box box = box_at(&test->box[frame->heading], frame);
         if (tn_cells_any(d->cells, &box) != test->filled)
             return false;
     }
     return true;
 }
 
+/* Whoever looks on is told of every alternative. */
+bool tn_nothing_fits(derivation *d, const tn_place_symbol *symbol)
+{
+    const tn_common *common = &d->traces.common[symbol - d->rules->symbols];
+    if (!common->known || d->options.interpret || d->options.report || tn_world_is_empty(d) || d->frames.count == 0)
+        return false;
+    const tn_frame *frame = &d->frames.items[d->frames.count - 1];
+    tn_cell_box box = box_at(&common->box[frame->heading], frame);
+    return tn_cells_any(d->cells, &box);
+}
+
 /* Does an alternative fit? Where no cell is filled yet, steps have the effect of bound_empty_world. */
 tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits)
 {
     const tn_trace *trace = &d->traces.traces[alternative];
-    if (d->options.interpret || d->options.report || !trace->known || tn_cells_count(d->cells) == 0 ||
-        d->frames.count == 0)
+    if (d->options.interpret || d->options.report || !trace->known || tn_world_is_empty(d) || d->frames.count == 0)
         return tn_look_ahead(d, alternative, fits);
     *fits = trace_fits(d, trace, &d->frames.items[d->frames.count - 1]);
     return TN_OK;

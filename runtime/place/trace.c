@@ -20,6 +20,7 @@ void tn_traces_clear(tn_traces *traces)
 {
     free(traces->traces);
     free(traces->tests);
+    free(traces->common);
     *traces = (tn_traces){0};
 }
 
@@ -55,6 +56,7 @@ static void take_step(tracer *t, const tn_step *step)
         t->known = false;
         break;
     case TN_STEP_FILL:
+    case TN_STEP_BLOCK:
     case TN_STEP_TOUCH:
         add_test(t, step);
         break;
@@ -105,12 +107,51 @@ static void find_bounds(const tn_place_rules *rules, tn_traces *traces)
     }
 }
 
+/* Cuts the common box down to what the alternative's first test needs. False where that is nothing in common. */
+static bool cut_common(const tn_traces *traces, uint32_t alternative, tn_common *common)
+{
+    const tn_trace *trace = &traces->traces[alternative];
+    if (!trace->known || trace->count == 0 || traces->tests[trace->first].filled)
+        return false;
+    for (int h = 0; h < 4; h++) {
+        const tn_cell_box *box = &traces->tests[trace->first].box[h];
+        for (int k = 0; k < 3; k++) {
+            if (box->low[k] > common->box[h].low[k])
+                common->box[h].low[k] = box->low[k];
+            if (box->high[k] < common->box[h].high[k])
+                common->box[h].high[k] = box->high[k];
+            if (common->box[h].low[k] >= common->box[h].high[k])
+                return false;
+        }
+    }
+    return true;
+}
+
+/* The published programs' grammars and kits have such a box nearly everywhere: the cells in front of a connector. */
+static void find_common(const tn_place_rules *rules, tn_traces *traces)
+{
+    for (uint32_t s = 0; s < rules->symbol_count; s++) {
+        const tn_place_symbol *symbol = &rules->symbols[s];
+        tn_common *common = &traces->common[s];
+        const tn_trace *last = &traces->traces[symbol->first + symbol->count - 1];
+        common->known = symbol->count > 1 && !symbol->drawn && last->known && last->count == 0;
+        for (int h = 0; h < 4; h++)
+            for (int k = 0; k < 3; k++)
+                common->box[h].low[k] = -INT32_MAX, common->box[h].high[k] = INT32_MAX;
+        for (uint32_t i = 0; i + 1 < symbol->count && common->known; i++)
+            common->known = cut_common(traces, symbol->first + i, common);
+    }
+}
+
 tn_status tn_traces_make(const tn_place_rules *rules, tn_traces *traces, tn_error *error)
 {
     *traces = (tn_traces){0};
     traces->traces = calloc((size_t)rules->alternative_count + 1, sizeof *traces->traces);
-    if (!traces->traces)
+    traces->common = calloc((size_t)rules->symbol_count + 1, sizeof *traces->common);
+    if (!traces->traces || !traces->common) {
+        tn_traces_clear(traces);
         return tn_fail_memory(error);
+    }
     find_bounds(rules, traces);
     for (uint32_t a = 0; a < rules->alternative_count; a++) {
         tracer t = {.rules = rules, .traces = traces, .known = true};
@@ -128,5 +169,6 @@ tn_status tn_traces_make(const tn_place_rules *rules, tn_traces *traces, tn_erro
         traces->traces[a].first = (uint32_t)first;
         traces->traces[a].count = (uint32_t)(traces->test_count - first);
     }
+    find_common(rules, traces);
     return TN_OK;
 }

@@ -19,8 +19,15 @@ typedef struct tn_trace {
     uint32_t first, count; /* tests */
 } tn_trace;
 
+/* A box that must be free for any alternative of a symbol but the last, which always fits. */
+typedef struct tn_common {
+    bool known;
+    tn_cell_box box[4]; /* relative to the head, by its heading */
+} tn_common;
+
 typedef struct tn_traces {
-    tn_trace *traces; /* [alternative] */
+    tn_trace *traces;  /* [alternative] */
+    tn_common *common; /* [symbol] */
     tn_trace_test *tests;
     size_t test_count, test_capacity;
 } tn_traces;

@@ -7,20 +7,54 @@
 
 #include "runtime/base/random.h"
 
-enum { UNIT = 10, PLATE = 8 }; /* LDU of a cell, across and down */
-
 static const char *const rotations[] = {"1 0 0 0 1 0 0 0 1", "0 0 -1 0 1 0 1 0 0", "-1 0 0 0 1 0 0 0 -1",
                                         "0 0 1 0 1 0 -1 0 0"};
 
-void tn_place_write_ldraw(const tn_placed_model *model, FILE *out)
+/* A cell's sides in millionths of an LDU. */
+static void unit_of(const tn_module *module, int64_t unit[3])
 {
+    static const int64_t program[3] = {10000000, 8000000, 10000000};
+    const tn_kit_record *kit = module && module->KIT_count ? &module->KIT_records[0] : NULL;
+    unit[0] = kit ? kit->unit_x : program[0];
+    unit[1] = kit ? kit->unit_y : program[1];
+    unit[2] = kit ? kit->unit_z : program[2];
+}
+
+/* Cells times a cell's side, as a decimal number without needless digits. */
+static void write_ldu(int64_t cells, int64_t unit, FILE *out)
+{
+    enum { MILLION = 1000000 };
+    __extension__ typedef __int128 wide;
+    wide length = (wide)cells * unit;
+    bool negative = length < 0;
+    uint64_t whole = (uint64_t)((negative ? -length : length) / MILLION);
+    uint32_t rest = (uint32_t)((negative ? -length : length) % MILLION);
+    fprintf(out, "%s%" PRIu64, negative ? "-" : "", whole);
+    if (rest == 0)
+        return;
+    char digits[8];
+    snprintf(digits, sizeof digits, "%06" PRIu32, rest);
+    for (size_t last = strlen(digits); last > 0 && digits[last - 1] == '0'; last--)
+        digits[last - 1] = '\0';
+    fprintf(out, ".%s", digits);
+}
+
+void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out)
+{
+    int64_t unit[3];
+    bool kit = module && module->KIT_count;
+    unit_of(module, unit);
     for (size_t i = 0; i < model->count && !ferror(out); i++) {
         const tn_placed_part *part = &model->parts[i];
         const tn_frame *f = &part->frame;
-        fprintf(out, "1 %d %" PRId64 " %" PRId64 " %" PRId64 " %s ", f->colour, (int64_t)f->at[0] * UNIT,
-                (int64_t)f->at[1] * PLATE, (int64_t)f->at[2] * UNIT, rotations[f->heading]);
+        fprintf(out, "1 %d ", f->colour);
+        for (int k = 0; k < 3; k++) {
+            write_ldu(f->at[k], unit[k], out);
+            putc(' ', out);
+        }
+        fprintf(out, "%s ", rotations[f->heading]);
         for (const char *c = part->name; *c; c++)
-            if (*c != 'r')
+            if (kit || *c != 'r')
                 putc(*c, out);
         fputs(".dat\n0 STEP\n", out);
     }
@@ -90,18 +124,35 @@ static void write_field(const char *text, FILE *out)
     putc('"', out);
 }
 
-tn_status tn_place_write_list(const tn_placed_model *model, FILE *out, tn_error *error)
+/* Of a kit a list has more columns. */
+static void write_row(const tn_module *module, const tn_part_count *count, FILE *out)
+{
+    const tn_kit_part_record *part = NULL;
+    for (uint32_t i = 0; module && i < module->KIT_PART_count && !part; i++)
+        if (strcmp(tn_text(module, module->KIT_PART_records[i].name), count->name) == 0)
+            part = &module->KIT_PART_records[i];
+    write_field(count->name, out);
+    if (module && module->KIT_count) {
+        putc(',', out);
+        write_field(part ? tn_text(module, part->title) : "", out);
+    }
+    fprintf(out, ",%d,%" PRIu64, count->colour, count->count);
+    if (module && module->KIT_count)
+        fprintf(out, ",%.10g,%.10g", part ? part->mass * (double)count->count : 0,
+                part ? part->price * (double)count->count : 0);
+    putc('\n', out);
+}
+
+tn_status tn_place_write_list(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error)
 {
     tn_part_count *counts;
     size_t kinds;
     tn_status status = tn_place_count_parts(model, &counts, &kinds, error);
     if (status != TN_OK)
         return status;
-    fputs("part,colour,number\n", out);
-    for (size_t i = 0; i < kinds && !ferror(out); i++) {
-        write_field(counts[i].name, out);
-        fprintf(out, ",%d,%" PRIu64 "\n", counts[i].colour, counts[i].count);
-    }
+    fputs(module && module->KIT_count ? "part,name,colour,number,mass,price\n" : "part,colour,number\n", out);
+    for (size_t i = 0; i < kinds && !ferror(out); i++)
+        write_row(module, &counts[i], out);
     free(counts);
     return TN_OK;
 }
@@ -112,19 +163,62 @@ const char *tn_step_text(const tn_place_rules *rules, const tn_step *step, size_
 {
     const tn_source_map_record *place = tn_module_place(rules->module, step->offset);
     *length = 0;
-    if (!place || place->end - place->begin < 2)
+    uint32_t quotes = !rules->module->KIT_count; /* about a terminal of a connection grammar */
+    if (!place || place->end - place->begin < 2 * quotes)
         return "";
-    *length = place->end - place->begin - 2; /* without its quotes */
-    return tn_text(rules->module, rules->module->SOURCE_records[place->file].text) + place->begin + 1;
+    *length = place->end - place->begin - 2 * quotes;
+    return tn_text(rules->module, rules->module->SOURCE_records[place->file].text) + place->begin + quotes;
+}
+
+/* A box that connection grammars can fill hangs from its middle and is an even number of cells wide and deep. */
+static void write_block(const tn_step *step, FILE *out)
+{
+    const int32_t *a = step->a, *b = step->b;
+    int32_t x = (a[0] + b[0]) / 2, z = (a[2] + b[2]) / 2;
+    fprintf(out, "( Move(%d,%d,%d) FillRect(%d,%d,%d) )", x, a[1], z, b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+void tn_step_write(const tn_step *step, FILE *out)
+{
+    switch (step->kind) {
+    case TN_STEP_PUSH:
+        putc('(', out);
+        break;
+    case TN_STEP_POP:
+        putc(')', out);
+        break;
+    case TN_STEP_MOVE:
+        fprintf(out, "Move(%d,%d,%d)", step->a[0], step->a[1], step->a[2]);
+        break;
+    case TN_STEP_TURN:
+        fprintf(out, "Rotate(%d)", 90 * step->a[0]);
+        break;
+    case TN_STEP_COLOUR:
+        fprintf(out, "SetColor(%d)", step->a[0]);
+        break;
+    case TN_STEP_PART:
+        fprintf(out, "Place(%s)", step->text);
+        break;
+    case TN_STEP_BLOCK:
+        write_block(step, out);
+        break;
+    default:
+        break;
+    }
 }
 
 void tn_place_write_program(const tn_placed_model *model, const tn_place_rules *rules, FILE *out)
 {
     for (uint64_t i = 0; i < model->counts.steps && !ferror(out); i++) {
+        const tn_step *step = &rules->steps[model->steps[i]];
         size_t length;
-        const char *text = tn_step_text(rules, &rules->steps[model->steps[i]], &length);
         if (i > 0)
             putc(' ', out);
+        if (rules->space) {
+            tn_step_write(step, out);
+            continue;
+        }
+        const char *text = tn_step_text(rules, step, &length);
         fwrite(text, 1, length, out);
     }
     putc('\n', out);

@@ -7,15 +7,19 @@
 
 #include "runtime/place/grow.h"
 
-/* One line a part and a step behind it, as the published program writes them: every r is left out of parts' names, and
- * there is no header. */
-void tn_place_write_ldraw(const tn_placed_model *model, FILE *out);
+/* One line a part and a step behind it, without a header. For a connection grammar as the published program writes
+ * them: every r is left out of parts' names. For a kit in its own cells. */
+void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out);
 
-/* Parts by name and colour, in the order of their first: part,colour,number. */
-tn_status tn_place_write_list(const tn_placed_model *model, FILE *out, tn_error *error);
+/* Parts by name and colour, in the order of their first: part,colour,number; of a kit also title, mass and price. */
+tn_status tn_place_write_list(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error);
 
-/* The steps that were taken (kept), as the grammar's author wrote them, parted by blanks. */
+/* The steps that were taken (kept), as the grammar's author wrote them, separated by blanks; of a kit,
+ * as connection grammars write them. */
 void tn_place_write_program(const tn_placed_model *model, const tn_place_rules *rules, FILE *out);
+
+/* A step of a kit as the terminals of a connection grammar; boxes have even sides. */
+void tn_step_write(const tn_step *step, FILE *out);
 
 /* A step as its author wrote it: `length` bytes of a source of the module; empty where the module does not say. */
 const char *tn_step_text(const tn_place_rules *rules, const tn_step *step, size_t *length);

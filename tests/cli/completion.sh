@@ -8,7 +8,7 @@ fail() {
     exit 1
 }
 export LC_ALL=C
-commands=$("$TARTAN" help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+commands=$("$TARTAN" help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 [ "$(wc -w <<<"$commands")" -ge 12 ] || fail 'help lists too few commands'
 options_of() { # COMMAND: what its help shows, long and short
     "$TARTAN" help "$1" | grep -oE '^ +(-[a-zA-Z], )?--[a-z-]+' | grep -oE -- '-[a-zA-Z],|--[a-z-]+' | tr -d , | sort

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the front ends say about wrong rule files: tests/diagnostics/NAME.plan (.hemls, .study, .field, .solid) is checked, and what is then
+# What the front ends say about wrong rule files: tests/diagnostics/NAME.plan (.hemls, .study, .field, .pcfg, .kit, .solid) is checked, and what is then
 # on stderr is NAME.expect. `--update` writes the expectations anew: read the difference before you keep it.
 set -euo pipefail
 : "${TARTAN:?the binary to test}"
@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../diagnostics"
 failed=0
 seen=$(mktemp)
 trap 'rm -f "$seen"' EXIT
-for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg *.solid; do
+for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg *.kit *.solid; do
     name=${plan%.*}
     status=0
     said=$("$TARTAN" check "$plan" 2>&1 >/dev/null) || status=$?
@@ -29,7 +29,7 @@ for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg *.solid; do
 done
 [ "${1-}" != --update ] || exit 0
 # Every code that the front ends report is among them; solid.sh makes a design of too many boxes.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,solid}/*.c \
+names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,kit,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,kit,solid}/*.c \
     ../../compiler/plan/{syntax,check}/*.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c ../../driver/solid/report.c |
     grep -v E_SOLID_TOO_MANY | sort -u)
 codes=$(while read -r name; do

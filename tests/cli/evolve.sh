@@ -101,7 +101,7 @@ tail -n 1 replay.txt | cmp -s - one/best/1.txt || fail "the replayed individual 
 sed 's/population 60/population 12/' hello.study > hand.study
 printf '1 2*3 5\nx\n13\n4 4 6\n\n' | "$TARTAN" breed hand.study -o hand > hand.txt || fail "cannot breed"
 [ -f hand/sheet-0002.svg ] || fail "no sheet of the third generation"
-grep -q 'is no choice' hand.txt || fail "does not refuse a wrong choice"
+grep -q 'is not a choice' hand.txt || fail "does not refuse a wrong choice"
 printf '1 2*3 5\n' | "$TARTAN" breed hand.study -o hand2 > /dev/null
 printf '4 4 6\n\n' | "$TARTAN" breed hand.study -o hand2 --resume > /dev/null || fail "cannot go on breeding"
 cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"

@@ -82,7 +82,7 @@ for library in libtartan-runtime libtartan-growth; do
 done
 
 # Manual pages and completion stand where man and the shells look.
-for command in $("$prefix/bin/tartan" help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+for command in $("$prefix/bin/tartan" help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'); do
     [ -s "$prefix/share/man/man1/tartan-$command.1" ] || fail "no manual page of $command"
 done
 for notation in plans $(sed -nE 's/^[A-Z_]+\(.*, "([^"]+)", "[^"]*"\)$/\1/p' compiler/notations.def); do

@@ -6,7 +6,7 @@ fail() {
     exit 1
 }
 
-commands=$("$TARTAN" help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+commands=$("$TARTAN" help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 [ "$(wc -w <<<"$commands")" -ge 12 ] || fail 'help lists too few commands'
 overview=$("$TARTAN" help --man)
 for command in $commands; do

@@ -48,10 +48,26 @@ counted = [("keeps out", c["keeps_out"], c["only"]) for c in counts["requirement
 counted += [("prunes", c["prunes"], c["only"]) for c in counts["rules"]]
 for (name, card), (what, out, only) in zip(cards, counted, strict=True):
     words = re.sub(r"</?b>", "", card)
-    assert f"{what} {int(out):,} (" in words and f"only it {int(only):,}<" in words, (name, out, only)
+    assert f"{what} {int(out):,} (" in words and f"kept out by this alone {int(only):,}<" in words, (name, out, only)
 for name, card in cards:
     assert "<svg" in card and "<pre>" in card and "coverage: tests notice" in card, name
 assert len(page) < 40000 * len(pictures)
+PYTHON
+
+# Measures: a histogram and the plans with the least and the most of each; no backticks in what is read; long text is not cut off.
+"$TARTAN" report "$files/measures.plan" --library strips -o "$scratch/measures" --sample 2
+python3 - "$scratch/measures/index.html" "$("$TARTAN" best "$files/measures.plan" 5 -l strips --most cost -f lines | grep -v '^#')" <<'PYTHON' || fail 'the measures of the page are not as they should be'
+import re, sys
+
+page = open(sys.argv[1], encoding="utf-8").read()
+cards = re.findall(r'<section class="card measure" id="measure-([^"]*)">(.*?)</section>', page, re.S)
+assert [name for name, card in cards] == ["area", "cost", "all-beds", "served"], [name for name, card in cards]
+for name, card in cards:
+    assert card.count("<svg") == 11 and ">mean</text>" in card, name
+cost = dict(cards)["cost"]
+assert re.findall(r'class="line">([^<]*)<', cost)[5:] == sys.argv[2].splitlines()
+assert "`" not in re.sub(r"<(script|pre|style)>.*?</\1>", "", page, flags=re.S), "backticks"
+assert "overlaps with" not in page and "pre-wrap" in page
 PYTHON
 
 # Rules that are no clauses: how many of the plans generated and kept they match.
@@ -67,7 +83,7 @@ is 'what other rules match' "$(sed -n 's|.*"counts">matches \(.*\)</p>|\1|p' "$s
     echo 'library short { trays 1..2 total <= 12m } library shorter from short { total <= 9m }'
 } >"$scratch/short.plan"
 "$TARTAN" report "$scratch/short.plan" --library shorter -o "$scratch/short" 2>/dev/null
-grep -q '<p>short.plan:[0-9]*: W004: `pairs` matches the same plans as `twins`</p>' "$scratch/short/index.html" ||
+grep -q '<p>short.plan:[0-9]*: W004: <code>pairs</code> matches the same plans as <code>twins</code></p>' "$scratch/short/index.html" ||
     fail 'a finding has no place'
 is 'cards' "$(grep -o 'id="rule-[^"]*"' "$scratch/short/index.html" | tr '\n' ' ')" 'id="rule-total" id="rule-total.2" id="rule-twins" id="rule-pairs" '
 finish

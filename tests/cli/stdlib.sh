@@ -7,6 +7,6 @@ for file in stdlib/*.plan examples/*/*.plan; do
         "$TARTAN" test "$file" >/dev/null
     fi
 done
-for file in stdlib/*.bnf; do
+for file in stdlib/*.bnf stdlib/*.kit; do
     "$TARTAN" check --werror "$file"
 done

@@ -8,7 +8,7 @@
 #include "runtime/house/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
-#include "runtime/place/grow.h"
+#include "runtime/place/measure.h"
 #include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
@@ -78,10 +78,34 @@ void fuzz_growth(const tn_module *module)
 }
 
 /* Small limits, and both ways of looking ahead come to the same. */
+/* What was placed of a kit is measured, and its conditions are asked. */
+static void fuzz_measures(const tn_module *module, const tn_place_rules *rules, const tn_placed_model *model)
+{
+    tn_watch watch;
+    tn_placed_measures measured;
+    tn_watch_begin(&watch, NULL, NULL);
+    watch.memory_limit = tn_memory_used() + (64 << 20);
+    const tn_kit_model_record *space = rules->space;
+    if (space && (double)(space->high_x - space->low_x) * (double)(space->high_y - space->low_y) *
+                         (double)(space->high_z - space->low_z) >
+                     1e6)
+        space = NULL; /* its cells take long to count */
+    if (tn_placed_measure(module, space, model, &watch, &measured, NULL) == TN_OK)
+        for (uint32_t i = 0; i < module->KIT_CONDITION_count; i++)
+            tn_kit_condition_holds(module, module->KIT_CONDITION_records[i].holds, &measured);
+    tn_placed_measures_clear(&measured);
+}
+
+static tn_status make_rules(const tn_module *module, tn_place_rules *rules)
+{
+    return module->KIT_MODEL_count ? tn_place_rules_of_model(module, 0, rules, NULL)
+                                   : tn_place_rules_make(module, rules, NULL);
+}
+
 void fuzz_place(const tn_module *module)
 {
     tn_place_rules rules;
-    if (tn_place_rules_make(module, &rules, NULL) != TN_OK)
+    if (make_rules(module, &rules) != TN_OK)
         return;
     tn_placed_model models[2];
     tn_status found[2];
@@ -100,6 +124,8 @@ void fuzz_place(const tn_module *module)
     }
     if (found[0] == TN_OK && found[1] == TN_OK && models[0].count != models[1].count)
         fuzz_broken("both ways of looking ahead place as many parts");
+    if (found[0] == TN_OK)
+        fuzz_measures(module, &rules, &models[0]);
     for (int way = 0; way < 2; way++)
         tn_placed_model_clear(&models[way]);
     tn_place_rules_clear(&rules);

@@ -63,7 +63,7 @@ static void test_it_is_verified(void **state)
     (void)state;
     refuse(10, 7, TN_OP_STOP, "counter 0: start is 10; 0 to 9 are possible");
     refuse(3, 0, TN_OP_STOP, "counter 0, code offset 0: a step of nothing");
-    refuse(3, 7, TN_OP_DONE, "counter 0, code offset 5: DONE does not belong into this kind of code");
+    refuse(3, 7, TN_OP_DONE, "counter 0, code offset 5: DONE does not belong in this kind of code");
     refuse(3, 7, TN_OP_COUNT_UP, "counter 0, code offset 5: ");
 }
 

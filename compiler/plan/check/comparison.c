@@ -91,7 +91,7 @@ static tn_ast_expr *of_compare(tn_check *check, const tn_ast_cond *cond, const t
     if (number->kind != TN_WORD_NAME)
         return compared(check, cond->node.span, sum, cond->op, number, turned);
     tn_diagnostic *d = tn_report(check->diagnostics, E_TWO_VARIABLES, number->node.span,
-                                 "a number has to stand here, and `%s` is none", number->text);
+                                 "a number must stand here, and `%s` is not one", number->text);
     tn_help(check->diagnostics, d, "a condition compares its one variable with numbers");
     return broken(check, cond->node.span);
 }

@@ -65,7 +65,7 @@ static void report_constant(tn_check *check, const tn_ast_word *word, bool lengt
         return;
     }
     tn_diagnostic *d =
-        tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is none",
+        tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is not one",
                   lengths ? "a sum of one field is a length" : "trays are counted in whole numbers", word->text);
     tn_help(check->diagnostics, d, "compare sums with sums: `sum(width * body) > 90m2`, `quantity(a) >= 25%% * trays`");
 }
@@ -103,7 +103,7 @@ static bool check_area(tn_check *check, const tn_ast_word *word)
     if (word->kind == TN_WORD_AREA || (word->kind != TN_WORD_DECIMAL && word->value == 0))
         return true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span,
-                                 "areas are added here, and `%s` is none", word->text);
+                                 "areas are added here, and `%s` is not one", word->text);
     tn_help(check->diagnostics, d, "write an area, such as `90sf` or `8.5m2`");
     return false;
 }
@@ -128,7 +128,7 @@ static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
                fail(b);
     if (!word->broken) {
         tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
-                                     "a number has to stand here, and `%s` is none", word->text);
+                                     "a number must stand here, and `%s` is not one", word->text);
         tn_help(b->check->diagnostics, d, "a condition compares its one variable with numbers");
     }
     return fail(b);

@@ -223,7 +223,7 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
     uint32_t field = schema ? tn_field_find(schema, expr->name->text) : TN_NONE;
     if (schema && field == TN_NONE && !schema->broken) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span,
-                                     "`%s` is no field of schema `%s`", expr->name->text, schema->name);
+                                     "`%s` is not a field of schema `%s`", expr->name->text, schema->name);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
         tn_help(check->diagnostics, d, "a quantifier goes through the values of a field: `some v in %s (...)`",
                 schema->field_count ? schema->fields[0].name : "width");
@@ -247,7 +247,7 @@ static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr
     if (!lengths && expr->op != TN_EQUAL && expr->op != TN_UNEQUAL) {
         tn_check *check = expansion->check;
         tn_diagnostic *d =
-            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values have no size to compare");
+            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values cannot be compared by size");
         tn_help(check->diagnostics, d, "lengths are compared by order; names and zones by `=` and `!=`");
         return broken(expansion, expr);
     }

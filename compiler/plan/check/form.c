@@ -130,7 +130,7 @@ static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_f
         return;
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
-                  length == 0 ? "a %s cannot be 0 thick" : "half of this %s is no whole number of nanometres",
+                  length == 0 ? "a %s cannot be 0 thick" : "half of this %s is not a whole number of nanometres",
                   part_words[ast->part]);
     tn_help(check->diagnostics, d, "%s", helps[length == 0]);
 }
@@ -218,7 +218,7 @@ static void check_heights(tn_check *check, const tn_checked_form *form)
         if (storey->height < 0 || storey->height > form->thickness[2])
             continue;
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, storey->ast->length->node.span,
-                                     "storey `%s` is no higher than the deck above it", storey->ast->name->text);
+                                     "storey `%s` is not higher than the deck above it", storey->ast->name->text);
         tn_help(check->diagnostics, d, "a storey is measured from floor to floor, the `deck` included");
     }
 }

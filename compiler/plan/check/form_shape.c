@@ -93,7 +93,7 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
 {
     int64_t count = shape->word->value;
     if (shape->word->kind != TN_WORD_NUMBER || shape->arguments.count > 0)
-        return bad_shape(check, shape->node.span, "this is no number of storeys",
+        return bad_shape(check, shape->node.span, "this is not a number of storeys",
                          "write `section ZONE storeys = 1 | 2`");
     if (count < 1 || count > form->storey_count) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span, "the form has no %lld storeys",
@@ -253,7 +253,7 @@ static bool read_alternative(tn_check *check, const tn_checked_form *form, const
         if (word->kind == TN_WORD_NOT && count == 0)
             negated = !negated;
         else if (word->kind != TN_WORD_NAME || count == 2)
-            return bad_shape(check, word->node.span, "this is no choice of a section",
+            return bad_shape(check, word->node.span, "a section has no such choice",
                              "write `section(body roof gable)`, `section(cladding board)`");
         else
             words[count++] = word;

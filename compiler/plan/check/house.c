@@ -47,7 +47,7 @@ static tn_checked_form *only_form(tn_check *check, tn_span place)
     if (!other)
         return found;
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
-                                 "several forms are in scope here, and it is not said whose houses are meant");
+                                 "several forms are in scope here, and it is not clear which one the houses have");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "form `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "form `%s`", found->name);
     tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the rule's name", other->name, found->name);

@@ -280,7 +280,7 @@ tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_as
     if (!other)
         return found;
     tn_diagnostic *d = tn_report(check->diagnostics, E_SEVERAL_SCHEMAS, place,
-                                 "several schemas are in scope here, and it is not said which counts");
+                                 "several schemas are in scope here, and it is not clear which one is meant");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "schema `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "schema `%s`", found->name);
     tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name", other->name, found->name);
@@ -383,7 +383,7 @@ static bool report_misspelled(tn_check *check, const tn_ast_word *word)
     if (!meant)
         return false;
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_RULE, word->node.span,
-                                 "`%s` is no word of the language that `(` follows, and there is no rule `%s`",
+                                 "the language has no `%s(...)`, and there is no rule `%s`",
                                  word->text, word->text);
     tn_suggest(check->diagnostics, d, "%s", meant);
     return true;

@@ -291,7 +291,7 @@ static void check_symmetric(tn_check *check, const tn_ast_expr *symmetric)
     if (!meant || meant->kind == TN_EXPR_NEIGHBOUR || meant->kind == TN_EXPR_OCCURRENCES)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_SYMMETRIC_OF, part->node.span,
-                                 "`symmetric` is for a neighbour, and this is none");
+                                 "`symmetric` is for a neighbour, and this is not one");
     note_name(check, d, part);
     tn_help(check->diagnostics, d,
             "write `symmetric neighbour(...)`, or leave `symmetric` out: only an order can be mirrored");

@@ -121,16 +121,16 @@ static void warn_not_tray(tn_check *check, const tn_ast_expr *part)
     if (!tn_check_wanted(check, W_NOT_TRAY_PART))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span,
-                                 "this part fits any number of trays, of which none is so");
+                                 "this part fits any number of trays, none of which is like that");
     const tn_ast_expr *tray = (const tn_ast_expr *)part->parts.first;
     words inside = inside_tray(check, tray);
     words before = words_between(check, part->node.span.file, part->node.span.begin, tray->node.span.begin);
     bool one = inside.size && !memchr(inside.text, ' ', inside.size) && !memchr(inside.text, ',', inside.size);
     if (!one || !is_word(before, "not") || part->node.span.end != tray->node.span.end) {
-        tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not 8')`");
+        tn_help(check->diagnostics, d, "for one tray that is not like that, put the `not` inside: `tray(not 8')`");
         return;
     }
-    tn_help(check->diagnostics, d, "for one tray that is not so put the `not` inside: `tray(not %.*s)`",
+    tn_help(check->diagnostics, d, "for one tray that is not like that, put the `not` inside: `tray(not %.*s)`",
             (int)inside.size, inside.text);
     tn_replace_with(check->diagnostics, d, "tray(not %.*s)", (int)inside.size, inside.text);
 }

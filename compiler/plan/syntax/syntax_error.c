@@ -406,8 +406,8 @@ static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, con
     int size = (int)(found->after.end - found->after.begin);
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, found->after,
                                  slip   ? "`%.*s` cannot stand here"
-                                 : call ? "`%.*s` is no word of the language that `(` follows"
-                                        : "`%.*s` is no word of the language",
+                                 : call ? "the language has no `%.*s(...)`"
+                                        : "`%.*s` is not a word of the language",
                                  size, parse->text + found->after.begin);
     if (slip)
         advise_slip(parse, d, slip);

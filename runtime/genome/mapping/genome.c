@@ -45,7 +45,7 @@ static tn_status bad_codon(const char *line, size_t length, size_t begin, bool t
         tn_fail(error, TN_INVALID, E_GENOME_CODON, "the codon %.*s does not fit 64 bits", shown, line + begin);
     else
         tn_fail(error, TN_INVALID, E_GENOME_SYNTAX, "`%.*s` is not a codon", shown, line + begin);
-    tn_error_help(error, "codons are whole numbers from 0 to 18446744073709551615, parted by blanks");
+    tn_error_help(error, "codons are whole numbers from 0 to 18446744073709551615, separated by blanks");
     tn_error_place(error, 0, begin + 1, end + 1);
     return TN_INVALID;
 }

@@ -1,4 +1,4 @@
-/* Genomes as text: codons are unsigned 64-bit numbers in decimal, parted by blanks, a genome a line. */
+/* Genomes as text: codons are unsigned 64-bit numbers in decimal, separated by blanks, a genome a line. */
 #ifndef TARTAN_GENOME_MAPPING_GENOME_H
 #define TARTAN_GENOME_MAPPING_GENOME_H
 

@@ -136,7 +136,7 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
     if (same)
         return TN_OK;
     tn_fail(error, TN_INVALID, E_RUN_DIFFERS,
-            "generation %u does not come out as it is stored: the run was made with another grammar, study or "
+            "generation %u does not give the results that are stored: the run was made with another grammar, study or "
             "version",
             generation);
     tn_error_help(error, "resume it with the files and the version of tartan that it was started with");

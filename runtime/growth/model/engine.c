@@ -25,7 +25,7 @@ static tn_status check_successor(const tn_checker *checker, const tn_instruction
 {
     uint32_t successor = (uint32_t)instruction->first;
     if (successor >= checker->record || checker->module->FUNCTION_records[successor].kind != TN_FUNCTION_SUCCESSOR)
-        return tn_refuse(checker, "function %u is no successor below this function", successor);
+        return tn_refuse(checker, "function %u is not a successor below this function", successor);
     return TN_OK;
 }
 

@@ -63,11 +63,11 @@ static tn_status check_goals(const tn_checker *checker)
         const tn_goal_record *goal = &module->GOAL_records[i];
         if (goal->term == TN_FITNESS_TERM_COUNT) {
             if (!is_expression(module, goal) || ++expressions > TN_EXPRESSIONS_MAX)
-                return tn_refuse(checker, "fitness goal %zu is no expression, or one too many", i);
+                return tn_refuse(checker, "fitness goal %zu is not an expression, or one too many", i);
             continue;
         }
         if (seen >> goal->term & 1)
-            return tn_refuse(checker, "fitness goal %zu is there twice", i);
+            return tn_refuse(checker, "fitness goal %zu is given twice", i);
         seen |= 1u << goal->term;
     }
     return TN_OK;

@@ -54,7 +54,7 @@ static const char *fault_text(unsigned fault)
            : fault & TN_TURTLE_NO_PATH   ? "there is no edge outside the branches"
            : fault & TN_TURTLE_ASTRAY    ? "the turtle does not end in the direction in which it started"
            : fault & TN_TURTLE_CROWDED   ? "a successor has more edges or branches than the limit"
-                                         : "this is no move of the turtle";
+                                         : "this is not a move of the turtle";
 }
 
 static tn_status check_successor(const tn_module *module, uint32_t function, tn_turtle_level *levels, tn_error *error)

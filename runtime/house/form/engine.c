@@ -137,12 +137,12 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
     const tn_form_record *form = &module->FORM_records[index];
     tn_status status = TN_OK;
     if (!is_zone(checker, form->spine, form->schema) || !has_length(checker, form->schema))
-        return tn_refuse(checker, "form %u has a spine that is no zone, or trays without a length", index);
+        return tn_refuse(checker, "form %u has a spine that is not a zone, or trays without a length", index);
     if (form->wall % 2 || form->partition % 2)
         return tn_refuse(checker, "form %u has walls whose halves are not whole", index);
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (module->STOREY_records[form->storey_first + i].height <= form->deck)
-            return tn_refuse(checker, "storey %u is no higher than its deck", form->storey_first + i);
+            return tn_refuse(checker, "storey %u is not higher than its deck", form->storey_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->choice_count; i++)
         status = check_choice(checker, form, form->choice_first + i);
     if (status == TN_OK)

@@ -3,14 +3,28 @@
 #include <stdlib.h>
 
 #include "runtime/module/engine.h"
+#include "runtime/place/model/terms.h"
+
+static bool is_small(const tn_checker *checker, int64_t index)
+{
+    const tn_vector_record *vector = &checker->module->VECTOR_records[index];
+    return llabs(vector->x) <= TN_PLACE_SIZE_MAX && llabs(vector->y) <= TN_PLACE_SIZE_MAX &&
+           llabs(vector->z) <= TN_PLACE_SIZE_MAX;
+}
 
 /* Sizes keep within their limit, where a move may go farther. */
 static tn_status check_vector(const tn_checker *checker, const tn_instruction *instruction)
 {
-    const tn_vector_record *vector = &checker->module->VECTOR_records[instruction->first];
-    bool small = llabs(vector->x) <= TN_PLACE_SIZE_MAX && llabs(vector->y) <= TN_PLACE_SIZE_MAX &&
-                 llabs(vector->z) <= TN_PLACE_SIZE_MAX;
-    return instruction->opcode == TN_OP_MOVE || small ? TN_OK : tn_refuse(checker, "a box that is too large");
+    return instruction->opcode == TN_OP_MOVE || is_small(checker, instruction->first)
+               ? TN_OK
+               : tn_refuse(checker, "a box that is too large");
+}
+
+static tn_status check_corners(const tn_checker *checker, const tn_instruction *instruction)
+{
+    return is_small(checker, instruction->first) && is_small(checker, instruction->second)
+               ? TN_OK
+               : tn_refuse(checker, "a box that is too large");
 }
 
 static tn_status check_amount(const tn_checker *checker, const tn_instruction *instruction)
@@ -45,22 +59,102 @@ static tn_status check_part(const tn_checker *checker, const tn_instruction *ins
                                                                      : TN_OK;
 }
 
-static void list_vector(tn_lister *lister, const tn_instruction *instruction)
+static void list_one(tn_lister *lister, int64_t index)
 {
-    const tn_vector_record *vector = &lister->module->VECTOR_records[instruction->first];
+    const tn_vector_record *vector = &lister->module->VECTOR_records[index];
     fprintf(lister->out, "%lld, %lld, %lld", (long long)vector->x, (long long)vector->y, (long long)vector->z);
 }
+
+static void list_vector(tn_lister *lister, const tn_instruction *instruction)
+{
+    list_one(lister, instruction->first);
+}
+
+static void list_corners(tn_lister *lister, const tn_instruction *instruction)
+{
+    list_one(lister, instruction->first);
+    fputs(" to ", lister->out);
+    list_one(lister, instruction->second);
+}
+
+/* ---- kits */
+
+const char *const tn_placed_terms[TN_PLACED_TERM_COUNT] = {
+#define X(NAME, WORD) WORD,
+    TN_PLACED_TERMS(X)
+#undef X
+        [TN_PLACED_X] = "x",
+    [TN_PLACED_Y] = "y",
+    [TN_PLACED_Z] = "z",
+#define COUNTED(N) [TN_PLACED_COUNTED + (N)] = "count " #N
+#define FOUR(N) COUNTED(N), COUNTED(N + 1), COUNTED(N + 2), COUNTED(N + 3)
+    FOUR(0),
+    FOUR(4),
+    FOUR(8),
+    FOUR(12),
+    FOUR(16),
+    FOUR(20),
+    FOUR(24),
+    FOUR(28),
+#undef FOUR
+#undef COUNTED
+};
+
+static tn_status check_function(const tn_checker *checker, const char *what, uint32_t function)
+{
+    return checker->module->FUNCTION_records[function].kind == TN_FUNCTION_KIT
+               ? TN_OK
+               : tn_refuse(checker, "the %s of a model is a function of another kind", what);
+}
+
+static tn_status check_model(const tn_checker *checker, const tn_kit_model_record *model)
+{
+    const tn_module *module = checker->module;
+    const tn_grammar_record *grammar = module->GRAMMAR_count ? &module->GRAMMAR_records[0] : NULL;
+    if (!grammar || grammar->dialect != TN_DIALECT_PLACE || model->start < grammar->rule_first ||
+        model->start - grammar->rule_first >= grammar->rule_count)
+        return tn_refuse(checker, "a model starts with what is no symbol of a connection grammar");
+    return check_function(checker, "space", model->space);
+}
+
+static tn_status verify(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    if (module->KIT_count > 1)
+        return tn_refuse(checker, "there are %zu kits", (size_t)module->KIT_count);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < module->KIT_MODEL_count && status == TN_OK; i++)
+        status = check_model(checker, &module->KIT_MODEL_records[i]);
+    for (uint32_t i = 0; i < module->KIT_CONDITION_count && status == TN_OK; i++)
+        status = check_function(checker, "condition", module->KIT_CONDITION_records[i].holds);
+    return status;
+}
+
+static const tn_section sections[] = {TN_SECTION_VECTOR,    TN_SECTION_KIT,           TN_SECTION_CONNECTOR_TYPE,
+                                      TN_SECTION_KIT_PART,  TN_SECTION_PART_BOX,      TN_SECTION_PART_CONNECTOR,
+                                      TN_SECTION_KIT_MODEL, TN_SECTION_KIT_CONDITION, TN_SECTION_COUNTED,
+                                      TN_SECTION_STRINGS};
 
 /* The vectors are shown where they are used. */
 static void list(tn_lister *lister)
 {
-    (void)lister;
+#define LIST(NAME)                                                                                                     \
+    for (uint32_t i = 0; i < lister->module->NAME##_count && !ferror(lister->out); i++)                                \
+    tn_list_record(lister, TN_SECTION_##NAME, i)
+    LIST(KIT);
+    LIST(CONNECTOR_TYPE);
+    LIST(KIT_PART);
+    LIST(PART_BOX);
+    LIST(PART_CONNECTOR);
+    LIST(KIT_MODEL);
+    LIST(KIT_CONDITION);
+    LIST(COUNTED);
+#undef LIST
 }
-
-static const tn_section sections[] = {TN_SECTION_VECTOR, TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_VECTOR, check_vector, list_vector},
+    {TN_OPERANDS_CORNERS, check_corners, list_corners},
     {TN_OPERANDS_AMOUNT, check_amount, NULL},
     {TN_OPERANDS_PART, check_part, NULL},
 };
@@ -71,4 +165,8 @@ const tn_engine tn_engine_place = {.name = "place",
                                    .codes = 1u << TN_CODE_PLACE,
                                    .operands = operands,
                                    .operand_count = sizeof operands / sizeof *operands,
+                                   .terms = tn_placed_terms,
+                                   .term_count = TN_PLACED_TERM_COUNT,
+                                   .term_kind = TN_FUNCTION_KIT,
+                                   .verify = verify,
                                    .list = list};

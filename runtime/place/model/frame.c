@@ -36,8 +36,22 @@ static tn_cell_box box_about(const tn_frame *frame, int32_t width, int32_t heigh
     return (tn_cell_box){{at[0] - x, at[1], at[2] - z}, {at[0] + x, at[1] + height, at[2] + z}};
 }
 
+/* Corners are turned with the heading; cells have their corner as their place, so the box is turned as it lies. */
+static tn_cell_box box_between(const tn_frame *frame, const int32_t a[3], const int32_t b[3])
+{
+    int32_t x[2], z[2];
+    const int32_t *at = frame->at;
+    tn_heading_turn(frame->heading, a[0], a[2], &x[0], &z[0]);
+    tn_heading_turn(frame->heading, b[0], b[2], &x[1], &z[1]);
+    int lower_x = x[1] < x[0], lower_z = z[1] < z[0];
+    return (tn_cell_box){{at[0] + x[lower_x], at[1] + a[1], at[2] + z[lower_z]},
+                         {at[0] + x[!lower_x], at[1] + b[1], at[2] + z[!lower_z]}};
+}
+
 tn_cell_box tn_frame_box(const tn_frame *frame, const tn_step *step)
 {
+    if (step->kind == TN_STEP_BLOCK)
+        return box_between(frame, step->a, step->b);
     return step->kind == TN_STEP_TOUCH ? box_about(frame, 2, 1, 2)
                                        : box_about(frame, step->a[0], step->a[1], step->a[2]);
 }

@@ -33,7 +33,7 @@ static inline void tn_heading_turn(uint32_t heading, int32_t x, int32_t z, int32
 /* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
 bool tn_frame_step(tn_frame *frame, const tn_step *step);
 
-/* The cells of FILL, FILL_OVER and TOUCH at a frame. */
+/* The cells of FILL, FILL_OVER, BLOCK and TOUCH at a frame. */
 tn_cell_box tn_frame_box(const tn_frame *frame, const tn_step *step);
 
 #endif

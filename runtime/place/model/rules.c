@@ -21,31 +21,34 @@ static uint32_t count_steps(const tn_module *module, const tn_production_record 
     return count;
 }
 
+static void read_vector(const tn_module *module, int64_t index, int32_t to[3])
+{
+    const tn_vector_record *v = &module->VECTOR_records[index];
+    to[0] = (int32_t)v->x;
+    to[1] = (int32_t)v->y;
+    to[2] = (int32_t)v->z;
+}
+
 static tn_step read_step(const tn_module *module, const tn_grammar_record *grammar, const tn_instruction *from,
                          uint32_t offset)
 {
     static const uint8_t kinds[TN_OPCODE_COUNT] = {
-        [TN_OP_PUSH] = TN_STEP_PUSH,
-        [TN_OP_POP] = TN_STEP_POP,
-        [TN_OP_MOVE] = TN_STEP_MOVE,
-        [TN_OP_HEADING] = TN_STEP_TURN,
-        [TN_OP_COLOUR] = TN_STEP_COLOUR,
-        [TN_OP_PART] = TN_STEP_PART,
-        [TN_OP_FILL] = TN_STEP_FILL,
-        [TN_OP_FILL_OVER] = TN_STEP_FILL_OVER,
-        [TN_OP_TOUCH] = TN_STEP_TOUCH,
-        [TN_OP_BOUND_BOX] = TN_STEP_BOUND_BOX,
-        [TN_OP_BOUND_BALL] = TN_STEP_BOUND_BALL,
+        [TN_OP_PUSH] = TN_STEP_PUSH,           [TN_OP_POP] = TN_STEP_POP,
+        [TN_OP_MOVE] = TN_STEP_MOVE,           [TN_OP_HEADING] = TN_STEP_TURN,
+        [TN_OP_COLOUR] = TN_STEP_COLOUR,       [TN_OP_PART] = TN_STEP_PART,
+        [TN_OP_FILL] = TN_STEP_FILL,           [TN_OP_FILL_OVER] = TN_STEP_FILL_OVER,
+        [TN_OP_BLOCK] = TN_STEP_BLOCK,         [TN_OP_TOUCH] = TN_STEP_TOUCH,
+        [TN_OP_BOUND_BOX] = TN_STEP_BOUND_BOX, [TN_OP_BOUND_BALL] = TN_STEP_BOUND_BALL,
         [TN_OP_DERIVE] = TN_STEP_EXPAND,
     };
     tn_step step = {.kind = (tn_step_kind)kinds[from->opcode], .offset = offset};
-    const tn_vector_record *v;
     switch (tn_opcode_describe((uint8_t)from->opcode)->operands) {
     case TN_OPERANDS_VECTOR:
-        v = &module->VECTOR_records[from->first];
-        step.a[0] = (int32_t)v->x;
-        step.a[1] = (int32_t)v->y;
-        step.a[2] = (int32_t)v->z;
+        read_vector(module, from->first, step.a);
+        break;
+    case TN_OPERANDS_CORNERS:
+        read_vector(module, from->first, step.a);
+        read_vector(module, from->second, step.b);
         break;
     case TN_OPERANDS_AMOUNT:
         step.a[0] = (int32_t)from->first;
@@ -68,7 +71,8 @@ static void read_alternative(tn_place_rules *rules, const tn_grammar_record *gra
     const tn_module *module = rules->module;
     tn_place_alternative *alternative = &rules->alternatives[rules->alternative_count++];
     uint32_t offset = production->code_begin;
-    *alternative = (tn_place_alternative){.first = rules->step_count, .offset = offset};
+    *alternative = (tn_place_alternative){
+        .first = rules->step_count, .offset = offset, .member = production->member, .weight = production->weight};
     while (module->code[offset] != TN_OP_PLACED) {
         tn_instruction instruction = tn_code_read(module->code, offset);
         rules->steps[rules->step_count++] = read_step(module, grammar, &instruction, offset);
@@ -83,14 +87,16 @@ static void read_symbol(tn_place_rules *rules, const tn_grammar_record *grammar,
     const tn_production_record *productions = &module->PRODUCTION_records[record->production_first];
     tn_place_symbol *symbol = &rules->symbols[rules->symbol_count++];
     double sum = 0;
+    bool member = false;
     *symbol = (tn_place_symbol){
         .name = tn_text(module, record->name), .first = rules->alternative_count, .count = record->production_count};
     for (uint32_t i = 0; i < symbol->count; i++) {
         read_alternative(rules, grammar, &productions[i]);
         sum += productions[i].weight;
+        member |= productions[i].member > 0;
         rules->alternatives[symbol->first + i].share = sum;
     }
-    symbol->drawn = tn_place_draws(sum);
+    symbol->drawn = !member && tn_place_draws(sum);
     for (uint32_t i = 0; symbol->drawn && i < symbol->count; i++)
         rules->alternatives[symbol->first + i].share /= sum;
 }
@@ -127,4 +133,23 @@ uint32_t tn_place_symbol_of(const tn_place_rules *rules, uint32_t alternative)
             high = middle;
     }
     return low;
+}
+
+tn_status tn_place_rules_of_model(const tn_module *module, uint32_t index, tn_place_rules *rules, tn_error *error)
+{
+    tn_status status = tn_place_rules_make(module, rules, error);
+    if (status != TN_OK)
+        return status;
+    rules->space = &module->KIT_MODEL_records[index];
+    rules->start = rules->space->start - module->GRAMMAR_records[0].rule_first;
+    return TN_OK;
+}
+
+void tn_place_unit(const tn_module *module, double unit[3])
+{
+    static const double million = 1e6;
+    const tn_kit_record *kit = module->KIT_count ? &module->KIT_records[0] : NULL;
+    unit[0] = kit ? (double)kit->unit_x / million : 10;
+    unit[1] = kit ? (double)kit->unit_y / million : 8;
+    unit[2] = kit ? (double)kit->unit_z / million : 10;
 }

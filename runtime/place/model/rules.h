@@ -17,6 +17,7 @@ typedef enum tn_step_kind {
     TN_STEP_PART,       /* records the part `text`; fills nothing */
     TN_STEP_FILL,       /* a box of a[0] x a[1] x a[2], which must be free */
     TN_STEP_FILL_OVER,  /* the same, free or not */
+    TN_STEP_BLOCK,      /* the box from corner a to corner b, which must be free and inside of the space */
     TN_STEP_TOUCH,      /* some cell of 2 x 1 x 2 must be filled */
     TN_STEP_BOUND_BOX,  /* the shell of a box */
     TN_STEP_BOUND_BALL, /* the shell of a ball about the origin, radius a[0] */
@@ -25,7 +26,7 @@ typedef enum tn_step_kind {
 
 typedef struct tn_step {
     tn_step_kind kind;
-    int32_t a[3];
+    int32_t a[3], b[3];
     uint32_t index;
     uint32_t offset; /* of its instruction: tn_module_place says where it was written */
     const char *text;
@@ -35,6 +36,8 @@ typedef struct tn_place_alternative {
     uint32_t first, count; /* steps */
     uint32_t offset;       /* of its code */
     double share;          /* where its symbol is drawn: running sum of the probabilities, divided by the last */
+    uint32_t member;       /* of a draw among those that fit (records.def), or 0 */
+    double weight;         /* in that draw */
 } tn_place_alternative;
 
 typedef struct tn_place_symbol {
@@ -43,9 +46,11 @@ typedef struct tn_place_symbol {
     bool drawn;            /* by probability; otherwise the first that fits */
 } tn_place_symbol;
 
-/* The first symbol is the start symbol. */
+/* start: what is expanded first. Where `space` is not NULL, the rules are a kit's: nothing bounds but the space. */
 typedef struct tn_place_rules {
     const tn_module *module; /* borrowed */
+    const tn_kit_model_record *space;
+    uint32_t start;
     tn_place_symbol *symbols;
     tn_place_alternative *alternatives;
     tn_step *steps;
@@ -55,6 +60,12 @@ typedef struct tn_place_rules {
 /* Decodes the connection grammar of a verified module, which has to outlive the rules. TN_INVALID where it has none. */
 tn_status tn_place_rules_make(const tn_module *module, tn_place_rules *rules, tn_error *error);
 void tn_place_rules_clear(tn_place_rules *rules);
+
+/* The same, to place model `index` of a kit. */
+tn_status tn_place_rules_of_model(const tn_module *module, uint32_t index, tn_place_rules *rules, tn_error *error);
+
+/* A cell's sides in LDU. */
+void tn_place_unit(const tn_module *module, double unit[3]);
 
 /* Does a module hold a connection grammar? */
 static inline bool tn_module_has_places(const tn_module *module)
@@ -72,7 +83,7 @@ static inline bool tn_place_draws(double sum)
 /* Does the step need a free place, or something to touch? */
 static inline bool tn_step_may_fail(tn_step_kind kind)
 {
-    return kind == TN_STEP_FILL || kind == TN_STEP_TOUCH;
+    return kind == TN_STEP_FILL || kind == TN_STEP_BLOCK || kind == TN_STEP_TOUCH;
 }
 
 static inline bool tn_step_is_bound(tn_step_kind kind)

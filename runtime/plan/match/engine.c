@@ -76,7 +76,7 @@ static tn_status check_call(const tn_checker *checker, const tn_instruction *ins
         return tn_refuse(checker, "calls function %u, which is not a lower one", callee);
     const tn_function_record *function = &checker->module->FUNCTION_records[callee];
     if (tn_function_kinds[function->kind].code != TN_CODE_RULE)
-        return tn_refuse(checker, "calls function %u, which is no part of a rule", callee);
+        return tn_refuse(checker, "calls function %u, which is not part of a rule", callee);
     if (function->schema != function_of(checker)->schema)
         return tn_refuse(checker, "calls function %u, which is of another schema", callee);
     return TN_OK;

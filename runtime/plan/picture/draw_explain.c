@@ -9,6 +9,7 @@
 #include "runtime/plan/picture/draw_parts.h"
 
 #define MARGIN 24.0
+#define ALONE_MARGIN 6.0 /* of a plan without reasons, which stands in a text */
 #define TITLE_SIZE 11.0
 #define TITLE_ROOM 20.0
 #define TEXT_SIZE 7.0
@@ -22,19 +23,30 @@
 #define TRAY_MIN 14.0    /* the narrowest tray, in points: marks stay visible */
 #define PLAN_WIDTH 420.0 /* about how wide the plan is */
 #define BAR_INSET 1.6
+#define CAPTION_ROOM 12.0 /* above a plan to compare with */
 
-static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17};
+static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17},
+                    rose[3] = {0.96, 0.80, 0.78}, grey[3] = {0.62, 0.62, 0.62};
+
+/* What a rule that is to be met says yes to is green, and what it lacks red. What a rule says yes to that prunes the
+ * plan for it is red, and what it does not find there is no fault. */
+static const double *colour_of(const tn_drawn_reason *reason, bool matched)
+{
+    return matched ? (reason->drops ? red : green) : (reason->drops ? grey : red);
+}
 
 typedef struct picture {
     cairo_t *context;
     const tn_schema *schema;
+    const tn_drawn_reasons *drawn;
     const tn_drawn_plan *plan;
     const char *title;
     tn_draw_roles roles;
     tn_draw_extent extent;
     tn_draw_table table;
     double scale; /* points a nanometre */
-    double left;  /* of the plan */
+    double margin;
+    double left; /* of the plan */
     double plan_width, plan_height;
     double width, height;
 } picture;
@@ -58,6 +70,8 @@ static void measure_to_scale(picture *p)
         narrowest = length > 0 && length < narrowest ? length : narrowest;
     }
     tn_draw_measure(&p->roles, p->plan, &p->extent);
+    for (size_t i = 0; i < p->drawn->near_count; i++)
+        tn_draw_measure(&p->roles, &p->drawn->near[i], &p->extent);
     p->scale = p->extent.width > 0 ? PLAN_WIDTH / p->extent.width : 1e-9;
     p->scale = fmin(p->scale, 72.0 / 3657600000.0 * 1.2); /* a 12' tray is at most 1.2 inches */
     if (narrowest != INT64_MAX)
@@ -67,35 +81,47 @@ static void measure_to_scale(picture *p)
         (p->extent.above + p->extent.below) * p->scale + tn_draw_dimension_room(&p->extent) + 2 * TN_MARK_ROOM;
 }
 
+/* The most trays of any plan of the picture. */
+static size_t longest(const picture *p)
+{
+    size_t most = p->plan->length;
+    for (size_t i = 0; i < p->drawn->near_count; i++)
+        most = p->drawn->near[i].length > most ? p->drawn->near[i].length : most;
+    return most;
+}
+
 static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
 {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     cairo_t *context = cairo_create(surface);
-    p->left = MARGIN + LABEL_WIDTH + GAP + TN_MARK_ROOM;
     if (p->roles.to_scale) {
         measure_to_scale(p);
     } else {
         tn_draw_table_measure(context, &p->roles, &p->table);
-        p->plan_width = fmax(p->table.box_width * (double)p->plan->length, 40);
+        p->plan_width = fmax(p->table.box_width * (double)longest(p), 40);
         p->plan_height = tn_draw_table_height(&p->table, &p->roles) + GAP;
     }
     cairo_destroy(context);
     cairo_surface_destroy(surface);
-    p->width = p->left + p->plan_width + TN_MARK_ROOM + GAP + EVIDENCE_WIDTH + MARGIN;
-    p->height = 2 * MARGIN + (p->title ? TITLE_ROOM : 0) + p->plan_height;
+    /* beside a plan alone there is nothing to say */
+    p->margin = count > 0 || p->title ? MARGIN : ALONE_MARGIN;
+    p->left = p->margin + (count > 0 ? LABEL_WIDTH + GAP + TN_MARK_ROOM : fmax(TN_MARK_ROOM, p->table.name_width));
+    p->width = p->left + p->plan_width + TN_MARK_ROOM + p->margin + (count > 0 ? GAP + EVIDENCE_WIDTH : 0);
+    p->height = 2 * p->margin + (p->title ? TITLE_ROOM : 0) + p->plan_height;
     for (size_t i = 0; i < count; i++)
         p->height += ROW_HEIGHT + (reasons[i].depth == 0 ? RULE_ROOM : 0);
+    if (p->drawn->near_count > 0)
+        p->height += TITLE_ROOM + 2 * RULE_ROOM + (CAPTION_ROOM + p->plan_height) * (double)p->drawn->near_count;
 }
 
-static void draw_plan(const picture *p, double y)
+static void draw_plan(const picture *p, const tn_drawn_plan *plan, double y)
 {
     if (!p->roles.to_scale) {
-        tn_draw_table_plan(p->context, &p->roles, &p->table, p->plan, p->left - p->table.name_width, y);
+        tn_draw_table_plan(p->context, &p->roles, &p->table, plan, p->left - p->table.name_width, y);
         return;
     }
     double spine = y + TN_MARK_ROOM + p->extent.above * p->scale;
-    tn_draw_plan(p->context, &p->roles, p->plan, p->scale, p->left, spine, spine + p->extent.below * p->scale,
-                 &p->extent);
+    tn_draw_plan(p->context, &p->roles, plan, p->scale, p->left, spine, spine + p->extent.below * p->scale, &p->extent);
 }
 
 static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
@@ -117,12 +143,14 @@ static void bars(const picture *p, const tn_stretch *stretches, size_t count, do
 }
 
 /* Where the part was looked for in vain. */
-static void line_of_absence(const picture *p, tn_stretch region, double y)
+static void line_of_absence(const picture *p, const tn_drawn_reason *reason, double y)
 {
+    tn_stretch region = reason->region;
+    const double *colour = colour_of(reason, false);
     double middle = y + ROW_HEIGHT / 2;
     cairo_move_to(p->context, p->left + tray_at(p, region.begin) + 1, middle);
     cairo_line_to(p->context, p->left + tray_at(p, region.end) - 1, middle);
-    cairo_set_source_rgb(p->context, red[0], red[1], red[2]);
+    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
     cairo_set_line_width(p->context, 0.7);
     cairo_stroke(p->context);
     cairo_set_source_rgb(p->context, 0, 0, 0);
@@ -130,19 +158,19 @@ static void line_of_absence(const picture *p, tn_stretch region, double y)
 
 static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y)
 {
-    bars(p, reason->marks, reason->mark_count, y, green, true);
+    bars(p, reason->marks, reason->mark_count, y, colour_of(reason, true), true);
     if (reason->matched)
         return;
     if (reason->region.begin < reason->region.end && reason->mark_count == 0)
-        line_of_absence(p, reason->region, y);
-    bars(p, &reason->partly, 1, y, pale, true);
-    bars(p, &reason->lacking, 1, y, red, false);
+        line_of_absence(p, reason, y);
+    bars(p, &reason->partly, 1, y, reason->drops ? rose : pale, true);
+    bars(p, &reason->lacking, 1, y, colour_of(reason, false), false);
 }
 
 /* A sign before the text: a filled square where the part matches, an open one where it does not. */
 static void draw_sign(const picture *p, const tn_drawn_reason *reason, double x, double y)
 {
-    const double *colour = reason->matched ? green : red;
+    const double *colour = colour_of(reason, reason->matched);
     cairo_rectangle(p->context, x, y + 4.2, 4.6, 4.6);
     cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
     cairo_set_line_width(p->context, 1);
@@ -200,15 +228,34 @@ static void draw_grid(const picture *p, double from, double to)
     cairo_set_source_rgb(p->context, 0, 0, 0);
 }
 
+static void draw_near(const picture *p, double y)
+{
+    if (p->drawn->near_count == 0)
+        return;
+    y += 2 * RULE_ROOM;
+    tn_type_face(p->context, TITLE_SIZE, true);
+    tn_type_fit(p->context, p->margin, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * p->margin, p->drawn->near_title);
+    y += TITLE_ROOM;
+    for (size_t i = 0; i < p->drawn->near_count; i++) {
+        const tn_drawn_plan *plan = &p->drawn->near[i];
+        tn_type_face(p->context, RULE_SIZE, false);
+        if (plan->caption)
+            tn_type_fit(p->context, p->left, y + RULE_SIZE, TN_ALIGN_LEFT, p->width - p->margin - p->left,
+                        plan->caption);
+        draw_plan(p, plan, y + CAPTION_ROOM);
+        y += CAPTION_ROOM + p->plan_height;
+    }
+}
+
 static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t count)
 {
-    double y = MARGIN;
+    double y = p->margin;
     if (p->title) {
         tn_type_face(p->context, TITLE_SIZE, true);
         tn_type_fit(p->context, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
         y += TITLE_ROOM;
     }
-    draw_plan(p, y);
+    draw_plan(p, p->plan, y);
     y += p->plan_height;
     for (size_t i = 0; i < count; i++) {
         if (reasons[i].depth == 0) {
@@ -220,22 +267,22 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
         }
         y += ROW_HEIGHT;
     }
+    draw_near(p, y);
 }
 
-tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, tn_picture *to, tn_error *error)
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_reasons *drawn, tn_picture *to, tn_error *error)
 {
-    picture p = {.schema = schema, .plan = plan, .title = title};
+    picture p = {.schema = schema, .drawn = drawn, .plan = &drawn->plan, .title = drawn->title};
     tn_canvas *canvas = NULL;
-    if (count > TN_DRAW_REASONS_MAX)
-        return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u", count,
-                       TN_DRAW_REASONS_MAX);
+    if (drawn->count > TN_DRAW_REASONS_MAX)
+        return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u",
+                       drawn->count, TN_DRAW_REASONS_MAX);
     tn_draw_roles_find(schema, &p.roles);
-    measure(&p, reasons, count);
-    tn_status status = tn_canvas_begin(to, p.width, p.height, title, &canvas, error);
+    measure(&p, drawn->reasons, drawn->count);
+    tn_status status = tn_canvas_begin(to, p.width, p.height, drawn->title, &canvas, error);
     if (status == TN_OK) {
         p.context = tn_canvas_context(canvas);
-        draw_all(&p, reasons, count);
+        draw_all(&p, drawn->reasons, drawn->count);
         status = tn_canvas_commit(canvas, error);
     }
     tn_canvas_free(canvas);

@@ -106,7 +106,7 @@ static tn_status read_unicode(tn_json *json, tn_buffer *out)
         json->at += 6;
     }
     if (code <= 0 || (code >= 0xd800 && code < 0xe000))
-        return refuse_at(json, begin, begin + 6, "this is no character: \\u needs four hexadecimal digits");
+        return refuse_at(json, begin, begin + 6, "this is not a character: \\u needs four hexadecimal digits");
     return append_utf8(out, code) ? TN_OK : tn_fail_memory(json->error);
 }
 
@@ -127,7 +127,7 @@ static tn_status read_escape(tn_json *json, tn_buffer *out)
 static tn_status read_string(tn_json *json, int slot, tn_word *word)
 {
     if (peek(json) != '"')
-        return refuse(json, "a text in double quotes belongs here");
+        return refuse(json, "expected a text in double quotes here");
     size_t begin = json->at++;
     size_t start = json->at;
     tn_buffer *out = NULL;
@@ -189,7 +189,7 @@ static tn_status skip_token(tn_json *json, size_t *depth)
     size_t begin = json->at;
     while (json->at < json->size && json->text[json->at] && !strchr("{}[],:\" \t\r\n", json->text[json->at]))
         json->at++;
-    return json->at > begin ? TN_OK : refuse(json, "a value belongs here");
+    return json->at > begin ? TN_OK : refuse(json, "expected a value here");
 }
 
 static tn_status skip_value(tn_json *json)
@@ -211,14 +211,14 @@ typedef tn_status tn_json_member(tn_json *json, const tn_word *key, void *contex
 static tn_status read_object(tn_json *json, tn_json_member *member, void *context)
 {
     if (!accept(json, '{'))
-        return refuse(json, "an object in braces belongs here");
+        return refuse(json, "expected an object in braces here");
     for (bool first = true; !accept(json, '}'); first = false) {
         tn_word key;
         if (!first && !accept(json, ','))
-            return refuse(json, "a comma or } belongs here");
+            return refuse(json, "expected a comma or } here");
         tn_status status = read_string(json, 0, &key);
         if (status == TN_OK && !accept(json, ':'))
-            status = refuse(json, "a colon belongs here");
+            status = refuse(json, "expected a colon here");
         if (status == TN_OK)
             status = member(json, &key, context);
         if (status != TN_OK)
@@ -291,12 +291,12 @@ static tn_status read_value(tn_json *json, uint32_t field, uint32_t *value)
         return read_zone(json, field, value);
     if (kind == TN_FIELD_FLAG && (c == 't' || c == 'f')) {
         *value = c == 't';
-        return accept_word(json, c == 't' ? "true" : "false") ? TN_OK : refuse(json, "true or false belongs here");
+        return accept_word(json, c == 't' ? "true" : "false") ? TN_OK : refuse(json, "expected true or false here");
     }
     if (c != '"')
-        return refuse(json, kind == TN_FIELD_FLAG   ? "true or false belongs here"
-                            : kind == TN_FIELD_ZONE ? "a fill, or an object with \"fill\" and \"depth\", belongs here"
-                                                    : "a value in double quotes belongs here");
+        return refuse(json, kind == TN_FIELD_FLAG   ? "expected true or false here"
+                            : kind == TN_FIELD_ZONE ? "expected a fill, or an object with \"fill\" and \"depth\", here"
+                                                    : "expected a value in double quotes here");
     tn_word word;
     tn_status status = read_string(json, 1, &word);
     if (status != TN_OK)
@@ -393,7 +393,7 @@ static tn_status read_trays(tn_json *json)
         return refuse(json, "the trays are a list in [ ]");
     for (bool first = true; !accept(json, ']'); first = false) {
         if (!first && !accept(json, ','))
-            return refuse(json, "a comma or ] belongs here");
+            return refuse(json, "expected a comma or ] here");
         tn_status status = read_tray(json);
         if (status != TN_OK)
             return status;

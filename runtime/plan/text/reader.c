@@ -187,8 +187,10 @@ static tn_status open_text(tn_plan_reader *reader, tn_error *error)
         if (is_csv)
             reader->format = TN_FORMAT_CSV;
         else if (reader->format == TN_FORMAT_CSV)
-            return refuse_text(reader, "has no CSV header with a column named plan",
-                               "the first line names the columns: rank,length,plan", error);
+            return refuse_text(reader, "has no CSV header with a column named plan, or tray",
+                               "the first line names the columns: rank,length,plan for a row a plan, or tray and the "
+                               "schema's fields for a row a tray",
+                               error);
     }
     if (reader->format == TN_FORMAT_AUTO)
         reader->format = find_text_format(reader);
@@ -215,7 +217,7 @@ static tn_status open_format(tn_plan_reader *reader, tn_error *error)
     if (reader->format == TN_FORMAT_SQLITE && !sqlite)
         return refuse_text(reader, "is no SQLite library", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_BIN && !bin)
-        return refuse_text(reader, "is no file of packed plans", "leave the format out, and it is found", error);
+        return refuse_text(reader, "is not a file of packed plans", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_SQLITE)
         return open_sqlite(reader, error);
     return reader->format == TN_FORMAT_BIN ? tn_reader_bin_open(reader, error) : open_text(reader, error);
@@ -271,6 +273,7 @@ void tn_plan_reader_free(tn_plan_reader *reader)
     free(reader->plan.trays);
     free(reader->rank.data);
     free(reader->quoted.data);
+    free(reader->column_fields);
     free(reader->data);
     free(reader->path);
     free(reader);

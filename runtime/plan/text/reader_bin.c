@@ -16,7 +16,7 @@ static tn_status damaged(const tn_plan_reader *reader, const char *what, tn_erro
     bool opening = reader->line == 0;
     tn_fail(error, TN_INVALID, E_PLAN_FILE, "%s%sthe packed plans are damaged: %s", opening ? reader->path : "",
             opening ? ": " : "", what);
-    tn_error_help(error, "make the file anew from its library, or get another copy of it");
+    tn_error_help(error, "make the file again from its library, or get another copy of it");
     return TN_INVALID;
 }
 

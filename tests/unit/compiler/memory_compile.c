@@ -89,6 +89,15 @@ static void test_other_notations(void **state)
     compile_with_failures("b.hemls", "A + A + A\nA = A\nAgnle 60\n", false);
     compile_with_failures("a.study", "rules \"square\"\nsteps 3\nattractor at 1 2 3\nfitness size target 3\n", true);
     compile_with_failures("b.study", "rules \"square\"\nstpes 3\n", false);
+    compile_with_failures(
+        "a.kit",
+        "unit 10 x 8 x 10;\nconnector a joins a every 20;\npart p { fill 40 x 8 x 20; a up 2 x 1; a down; }\n"
+        "rule r at a = p | {p, p at (0, 8, 0)} | (p [1]);\n"
+        "model m { inside box(80, 80, 80); start a at (0, 0, 0) by r; require count(p) > 1; }\n",
+        true);
+    compile_with_failures(
+        "b.kit", "unit 10 x 8 x 10;\nconnector a joins b;\npart p { fill 4 x 8 x 9; c up; }\nrule r at a = q;\n",
+        false);
     compile_with_failures("a.bnf", "<e> ::= <e> + <v> | <v>\n<v> ::= x | y\n", true);
     compile_with_failures("b.bnf", "%dialct ge\n<e> ::= <f>\n", false);
     compile_with_failures("c.study", "evolution { grammar \"words\"; match \"hello\"; population 20 }\n", true);

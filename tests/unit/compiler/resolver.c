@@ -151,9 +151,9 @@ static void test_missing(void **state)
     expect_error(&t, E_IMPORT_NOT_FOUND, "the shelf has no `b`", "did you mean `shelf/base`?", "\"shelf/base\"");
     t.meant = NULL;
     tn_fail(&t.error, TN_IO, E_CANNOT_READ, "the shelf is locked");
-    expect_error(&t, E_CANNOT_READ, "the shelf is locked", "see that it is a file that may be read", NULL);
+    expect_error(&t, E_CANNOT_READ, "the shelf is locked", "check that it is a file that you may read", NULL);
     tn_fail(&t.error, TN_LIMIT, TN_CODE_NONE, "the shelf is full");
-    expect_error(&t, E_IMPORT_NOT_FOUND, "the shelf is full", "see that it is a file that may be read", NULL);
+    expect_error(&t, E_IMPORT_NOT_FOUND, "the shelf is full", "check that it is a file that you may read", NULL);
     expect_error(NULL, E_IMPORT_NOT_FOUND, "there is no file `b`", "this text is compiled alone, and can use no other",
                  NULL);
 }

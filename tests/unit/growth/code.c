@@ -125,7 +125,7 @@ static void test_operands(void **state)
     expect(with_guard(CODE(TAKES(LABEL, 7), TAKES(REPLACE, 1), MOVE(PASS))), "there is no edge label 7");
     expect(with_guard(CODE(TAKES(LABEL, 0), TAKES(BEHIND, 2), TAKES(REPLACE, 1), MOVE(PASS))),
            "there is no edge label 2");
-    expect(with_guard(CODE(TAKES(LABEL, 0), TAKES(REPLACE, 0), MOVE(PASS))), "function 0 is no successor");
+    expect(with_guard(CODE(TAKES(LABEL, 0), TAKES(REPLACE, 0), MOVE(PASS))), "function 0 is not a successor");
     expect(with_guard(CODE(TAKES(LABEL, 0), TAKES(REPLACE, 3), MOVE(PASS))), "there is no function 3");
     expect(with_guard(CODE(TAKES(LABEL, 0), BY(YOUNGER, (double)INFINITY), TAKES(REPLACE, 1), MOVE(PASS))),
            "a number that is not finite");
@@ -152,8 +152,8 @@ static void test_turtle(void **state)
     expect(with_successor(CODE(BY(TURN, 30.0), EDGE_OF(0, 0), BY(TURN, -31.0), MOVE(LAND))),
            "the turtle does not end in the direction in which it started");
     expect(with_successor(CODE(BY(TURN, 30.0), EDGE_OF(0, 0), BY(TURN, -30.0), MOVE(LAND))), NULL);
-    expect(with_successor(CODE(EDGE_OF(0, 0), TAKES(LABEL, 0), MOVE(LAND))), "does not belong into this kind of code");
-    expect(with_successor(CODE(EDGE_OF(0, 0), MOVE(PASS))), "does not belong into this kind of code");
+    expect(with_successor(CODE(EDGE_OF(0, 0), TAKES(LABEL, 0), MOVE(LAND))), "does not belong in this kind of code");
+    expect(with_successor(CODE(EDGE_OF(0, 0), MOVE(PASS))), "does not belong in this kind of code");
 }
 
 static void test_seed(void **state)

@@ -123,7 +123,7 @@ static void test_schemas(void **state)
     REFUSED(SCHEMA, tn_schema_record, 0, forbid_count = UINT32_MAX,
             "schema 0: forbid_first and forbid_count name records that are not there");
     REFUSED(FIELD, tn_field_record, 0, kind = TN_FIELD_KIND_COUNT, "field 0: kind is 4; 0 to 3 are possible");
-    REFUSED(FIELD, tn_field_record, 0, role = TN_FIELD_ROLE_COUNT, "field 0: role is 6; 0 to 5 are possible");
+    REFUSED(FIELD, tn_field_record, 0, role = TN_FIELD_ROLE_COUNT, "field 0: role is 9; 0 to 8 are possible");
     REFUSED(FIELD, tn_field_record, 0, value_count = 0, "field 0: value_count is 0; 1 to 255 are possible");
     REFUSED(FIELD, tn_field_record, 0, value_count = 256, "field 0: value_count is 256; 1 to 255 are possible");
     REFUSED(FIELD, tn_field_record, 0, value_count = 9, "field 0: its run of value records does not follow");
@@ -284,7 +284,7 @@ static void test_functions(void **state)
     REFUSED(FUNCTION, tn_function_record, 1, code_end = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 0, "function 0, code offset 0: its code is not the stretch");
     REFUSED(FUNCTION, tn_function_record, 0, code_end = 5, "LESS runs past its end");
-    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong into this kind of code");
+    REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_WHOLE, "LESS does not belong in this kind of code");
     tn_builder *builder = sample_builder();
     tn_builder_emit(builder, TN_OP_NOT, 0, 0);
     expect(builder, TN_INVALID, "code that belongs to no function or production");
@@ -316,7 +316,7 @@ static void test_operands(void **state)
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no spec 2");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "there is no function 5");
-    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is no part of a rule");
+    expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is not part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_OCCURRENCES, 9, 0, RETURN)), TN_INVALID,

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/random.h"
 #include "runtime/base/memory.h"
+#include "runtime/base/random.h"
 #include "runtime/place/bounds.h"
 #include "runtime/place/mersenne.h"
 

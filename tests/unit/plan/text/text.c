@@ -197,7 +197,7 @@ static void test_errors(void **state)
         {"{\"trays\":[{},{},{},{}]}", 805, 20, 22, "limit of 3", ""},
         {"{\"trays\":[{\"width\":\"8", 601, 20, 22, "closing quote", ""},
         {"{\"trays\":[{\"width\":\"\\u12\"}]}", 601, 21, 27, "four hexadecimal digits", ""},
-        {"{\"trays\":[{\"width\":\"\\ud800\"}]}", 601, 21, 27, "no character", ""},
+        {"{\"trays\":[{\"width\":\"\\ud800\"}]}", 601, 21, 27, "not a character", ""},
         {"{\"trays\":[{\"width\":\"\\x\"}]}", 601, 21, 23, "backslash", ""},
         {"{\"x\":[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[1", 601, 71, 72, "too deep",
          ""},

@@ -1,0 +1,77 @@
+/* Compiles .kit files and what they use; and the front end that the table of notations names. */
+#include "compiler/common/emit_sources.h"
+#include "compiler/common/notation.h"
+#include "compiler/kit/kit.h"
+
+static const char kit_files[] = ".kit";
+
+/* What importing needs to know of a file. */
+static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
+{
+    tn_kit_file *file = tn_parse_kit(arena, diagnostics, unit->file, NULL);
+    size_t count = 0;
+    *use_count = 0;
+    if (!file)
+        return false;
+    unit->tree = file;
+    for (const tn_kit_use *use = file->uses.first; use; use = use->next)
+        count++;
+    *uses = TN_NEW_ARRAY(arena, tn_use, count + 1);
+    if (!*uses)
+        return false;
+    for (tn_kit_use *use = file->uses.first; use; use = use->next) {
+        if (!use->path.text || use->path.text[0] == '\0') {
+            tn_diagnostic *d = tn_report(diagnostics, E_IMPORT_NOT_FOUND, use->path.span, "the file has no name");
+            tn_help(diagnostics, d, "write its path, or the name of one of the standard library's");
+            continue;
+        }
+        (*uses)[(*use_count)++] = (tn_use){use->path.text, use->path.span, NULL, NULL};
+    }
+    return true;
+}
+
+static tn_status emit(tn_compilation *c, const tn_imports *imports, tn_kit *kit, tn_error *error)
+{
+    size_t length;
+    const char *name = tn_path_stem(c->sources.files[0].path, &length);
+    const tn_kit_file *file = imports->units[imports->count - 1]->tree;
+    tn_builder *builder = tn_compilation_begin(c, imports, error);
+    return builder ? tn_compilation_finish(c, builder, tn_emit_kit(builder, kit, file, name, length, error), error)
+                   : TN_MEMORY;
+}
+
+static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
+{
+    tn_imports imports;
+    tn_diagnostics *diagnostics = &c->diagnostics;
+    tn_kit kit = {.arena = c->arena, .diagnostics = diagnostics};
+    tn_status status = tn_import_all(c, options, kit_files, parse_unit, &imports);
+    bool right = status == TN_OK && tn_check_kit(&kit, &imports);
+    if (status != TN_OK || tn_arena_failed(c->arena) || diagnostics->failed)
+        return tn_fail_memory(error);
+    if (!right || diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
+        return TN_INVALID;
+    return emit(c, &imports, &kit, error);
+}
+
+static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)
+{
+    reading->tree = tn_parse_kit(arena, diagnostics, reading->file, &reading->tokens);
+    return reading->tree != NULL;
+}
+
+static bool made(const tn_module *module)
+{
+    return module->KIT_count > 0;
+}
+
+extern const tn_front tn_front_kit;
+const tn_front tn_front_kit = {
+    .read = read,
+    .compile = compile,
+    .made = made,
+    .list = tn_kit_list,
+    .lay_out = tn_format_kit,
+    .spell = tn_format_small_letters,
+    .nests = true,
+};

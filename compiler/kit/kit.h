@@ -1,0 +1,153 @@
+/* What .kit files mean: connectors, parts as boxes of cells, spaces as conditions on a place, rules as placements.
+ *
+ * Checking fills a tn_kit, emitting writes it. Both live in the compilation's arena. Lengths are millionths of an LDU,
+ * heights upwards; boxes and places are cells, y downwards, as the head has them. */
+#ifndef TARTAN_COMPILER_KIT_KIT_H
+#define TARTAN_COMPILER_KIT_KIT_H
+
+#include "compiler/common/listing.h"
+#include "compiler/common/names.h"
+#include "compiler/kit/ast.h"
+#include "runtime/place/model/terms.h"
+
+enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000 };
+
+/* A connector of a part: 'up', 'down' or aside. */
+typedef enum tn_kit_side { TN_KIT_UPWARD, TN_KIT_DOWNWARD, TN_KIT_ASIDE, TN_KIT_SIDE_COUNT } tn_kit_side;
+
+typedef struct tn_kit_type {
+    const tn_kit_node *node;
+    struct tn_kit_type *joins;
+    uint32_t turns, index;
+    int64_t every; /* 0: not given */
+    struct tn_kit_type *next;
+} tn_kit_type;
+
+typedef struct tn_kit_box {
+    int32_t low[3], high[3];
+} tn_kit_box;
+
+typedef struct tn_kit_joint {
+    tn_kit_type *type;
+    tn_axis axis;
+    int32_t at[3];
+} tn_kit_joint;
+
+typedef struct tn_kit_part {
+    const tn_kit_node *node;
+    double mass, price;
+    tn_kit_box *boxes;
+    tn_kit_joint *joints;
+    uint32_t box_count, joint_count;
+    struct tn_kit_part *next;
+} tn_kit_part;
+
+typedef struct tn_kit_space {
+    const tn_kit_node *node;
+    bool open; /* its meaning is being worked out */
+    struct tn_kit_space *next;
+} tn_kit_space;
+
+typedef struct tn_kit_rule {
+    const tn_kit_node *node;
+    struct tn_kit_rule *next;
+} tn_kit_rule;
+
+/* A space at hand: a condition on x, y and z, and a box that holds it. */
+typedef struct tn_kit_region {
+    tn_expression *inside; /* NULL: it was complained of */
+    bool endless;
+    double low[3], high[3]; /* LDU, y upwards; not of endless ones */
+} tn_kit_region;
+
+typedef struct tn_kit_model {
+    const tn_kit_node *node, *inside;
+    tn_kit_region region;
+    int64_t colour;
+    struct tn_kit_model *next;
+} tn_kit_model;
+
+typedef struct tn_kit {
+    tn_arena *arena;
+    tn_diagnostics *diagnostics;
+    tn_names lengths, types, parts, spaces, rules, models; /* by name */
+    struct {
+        tn_kit_type *first, *last;
+    } type_list;
+    struct {
+        tn_kit_part *first, *last;
+    } part_list;
+    struct {
+        tn_kit_rule *first, *last;
+    } rule_list;
+    struct {
+        tn_kit_model *first, *last;
+    } model_list;
+    const tn_kit_node *unit_node;
+    int64_t unit[3];
+    uint32_t part_count;
+    const char *counted[TN_KIT_COUNTED_MAX];
+    uint32_t counted_count, shapes; /* shapes: of the space at hand, each as often as it is named */
+    bool damaged;
+} tn_kit;
+
+/* Checks the files of all units. False where there were errors. */
+bool tn_check_kit(tn_kit *kit, const tn_imports *imports);
+
+/* ---- lengths (length.c). Each reports what is wrong, and is 0 then. */
+
+/* A length, in millionths of an LDU. */
+bool tn_kit_measure(tn_kit *kit, const tn_kit_length *length, int64_t *value);
+
+/* A length along an axis in cells; `halves` of it (1 or 2): `what` is told where it is no whole number. */
+bool tn_kit_cells(tn_kit *kit, tn_span span, int64_t length, int axis, int halves, const char *what, int32_t *cells);
+
+/* A plain number; a whole one from low to high. */
+double tn_kit_number(const tn_kit *kit, const tn_kit_length *number);
+bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t high, const char *what,
+                  int64_t *value);
+
+/* "did you mean" among the names of a table, or `otherwise`. */
+void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
+
+/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c) */
+void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
+bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
+tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
+void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule);
+void tn_kit_check_model(tn_kit *kit, tn_kit_model *model);
+void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test);
+extern const tn_expression_scope tn_kit_scope;
+
+/* ---- placements */
+
+static inline tn_kit_side tn_kit_side_of(tn_axis axis)
+{
+    return axis == TN_AXIS_UP ? TN_KIT_UPWARD : axis == TN_AXIS_DOWN ? TN_KIT_DOWNWARD : TN_KIT_ASIDE;
+}
+
+/* How an alternative's first part is put at a connector: from the head's place and heading there. */
+typedef struct tn_kit_placement {
+    int32_t move[3];
+    uint32_t turns;
+} tn_kit_placement;
+
+/* All different placements of an alternative at a connector of this type and side, in their order; *count of them.
+ * NULL where out of memory. The alternative was checked. */
+tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, const tn_kit_type *type, tn_kit_side side,
+                                    uint32_t *count);
+
+/* Where a part of an alternative stands from the first: place and heading. */
+bool tn_kit_offset(tn_kit *kit, const tn_kit_node *placed, int32_t at[3], uint32_t *turns);
+
+/* Has the rule this connector after `at`? */
+bool tn_kit_rule_takes(const tn_kit_rule *rule, const tn_kit_type *type);
+
+/* TN_OK or TN_MEMORY. */
+tn_status tn_emit_kit(tn_builder *builder, tn_kit *kit, const tn_kit_file *file, const char *name, size_t length,
+                      tn_error *error);
+
+void tn_format_kit(tn_format *format);
+void tn_kit_list(tn_listing *listing);
+
+#endif

@@ -1,0 +1,180 @@
+/* What models and tests of kits ask for: a space that has an end, where to start, and conditions. */
+#include <string.h>
+
+#include "compiler/common/limits.h"
+#include "compiler/kit/kit.h"
+
+const tn_expression_scope tn_kit_scope = {
+    .names = tn_placed_terms,
+    .count = TN_PLACED_X,
+    .words = TN_WORDS_PLAIN,
+    .what = "term",
+    .examples = {"fill", "width, height", "width, height, depth"},
+    .split = "write several: they are joined by a comma",
+    .unknown = E_KIT_TERM,
+    .wrong = E_KIT_EXPRESSION,
+};
+
+/* ---- conditions */
+
+static uint32_t slot_of(tn_kit *kit, const tn_expression *e)
+{
+    uint32_t slot = 0;
+    if (!tn_names_get(&kit->parts, e->name)) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, e->name_span, "there is no part `%.100s`", e->name);
+        tn_kit_suggest(kit, d, &kit->parts, e->name,
+                       "parts are told by `part 3005 { ... }`, or in a file that is used");
+        return 0;
+    }
+    while (slot < kit->counted_count && strcmp(kit->counted[slot], e->name) != 0)
+        slot++;
+    if (slot == TN_KIT_COUNTED_MAX) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_TOO_MANY, e->span, "more than %u parts are counted", TN_KIT_COUNTED_MAX);
+        tn_help(kit->diagnostics, d, "count fewer of them in this kit");
+        return 0;
+    }
+    if (slot == kit->counted_count)
+        kit->counted[kit->counted_count++] = e->name;
+    return slot;
+}
+
+/* Counts of parts are terms that the scope does not name: they are numbers while the rest is checked. */
+static void take_counts(tn_kit *kit, tn_expression *e)
+{
+    for (tn_expression *operand = e->first; operand; operand = operand->next)
+        take_counts(kit, operand);
+    if (e->op != TN_OP_PART)
+        return;
+    e->term = TN_PLACED_COUNTED + slot_of(kit, e);
+    e->op = TN_OP_NUMBER;
+}
+
+static void give_counts(tn_expression *e)
+{
+    for (tn_expression *operand = e->first; operand; operand = operand->next)
+        give_counts(operand);
+    if (e->op == TN_OP_NUMBER && e->name)
+        e->op = TN_OP_TERM;
+}
+
+static void check_conditions(tn_kit *kit, const tn_kit_node *node)
+{
+    for (const tn_kit_node *condition = node->inner.first; condition; condition = condition->next) {
+        tn_expression *e = condition->expression;
+        if (!e)
+            continue;
+        if (e->depth <= TN_NESTING_MAX)
+            take_counts(kit, e);
+        tn_expression_check(kit->diagnostics, &tn_kit_scope, e);
+        if (e->depth <= TN_NESTING_MAX)
+            give_counts(e);
+    }
+}
+
+/* ---- models */
+
+static void lacks(tn_kit *kit, const tn_kit_model *model, const char *what, const char *help)
+{
+    if (kit->damaged)
+        return;
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_MODEL, model->node->name.span, "model %.100s %s",
+                                 model->node->name.text, what);
+    tn_help(kit->diagnostics, d, "%s", help);
+}
+
+static void check_inside(tn_kit *kit, tn_kit_model *model)
+{
+    const tn_kit_node *space = model->inside->inner.first;
+    if (!space)
+        return;
+    model->region = tn_kit_check_space(kit, space);
+    if (!model->region.inside)
+        return;
+    if (model->region.endless) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, space->span, "this space has no end");
+        tn_help(kit->diagnostics, d, "what is `not` inside goes on for ever: write `box(...) and not ...`");
+        model->region.inside = NULL;
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        double unit = (double)kit->unit[k] / 1e6;
+        if (model->region.low[k] / unit > -TN_PLACE_FAR && model->region.high[k] / unit < TN_PLACE_FAR)
+            continue;
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, space->span, "this space reaches too far");
+        tn_help(kit->diagnostics, d, "it goes at most %d cells from the origin", TN_PLACE_FAR);
+        model->region.inside = NULL;
+        return;
+    }
+}
+
+static void check_start(tn_kit *kit, const tn_kit_node *node)
+{
+    tn_kit_type *type = tn_names_get(&kit->types, node->name.text);
+    tn_kit_rule *rule = tn_names_get(&kit->rules, node->other.text);
+    tn_axis axis;
+    int64_t at;
+    int32_t cells;
+    if (!type) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no connector `%.100s`",
+                                     node->name.text);
+        tn_kit_suggest(kit, d, &kit->types, node->name.text,
+                       "a model starts at a connector that is thought to be there: `start stud at (0, 0, 0) by wall;`");
+    }
+    if (node->doc.text)
+        tn_kit_axis(kit, &node->doc, &axis);
+    for (int k = 0; k < 3; k++)
+        if (tn_kit_measure(kit, &node->at.at[k], &at))
+            tn_kit_cells(kit, node->at.at[k].span, at, k, 1, "the model starts at", &cells);
+    if (!rule) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->other.span, "there is no rule `%.100s`", node->other.text);
+        tn_kit_suggest(kit, d, &kit->rules, node->other.text, "write `rule wall at stud, tube = 3001 | 3003;`");
+    } else if (type && !tn_kit_rule_takes(rule, type)) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_MODEL, node->other.span, "rule %.100s is not at %.100s",
+                                     node->other.text, node->name.text);
+        tn_note(kit->diagnostics, d, &rule->node->name.span, "it says here where it is");
+        tn_help(kit->diagnostics, d, "add the connector to the rule, or start at another");
+    }
+}
+
+void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
+{
+    bool starts = false;
+    for (const tn_kit_node *node = model->node->inner.first; node; node = node->next) {
+        if (node->kind == TN_KIT_INSIDE && model->inside) {
+            tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_TWICE, node->span, "`inside` is there twice");
+            tn_note(kit->diagnostics, d, &model->inside->span, "the first is here");
+            tn_help(kit->diagnostics, d, "join the two by `and` or `or`");
+        } else if (node->kind == TN_KIT_INSIDE) {
+            model->inside = node;
+        } else if (node->kind == TN_KIT_START) {
+            starts = true;
+            check_start(kit, node);
+        } else if (node->kind == TN_KIT_COLOUR) {
+            tn_kit_whole(kit, &node->count[0], 0, TN_PLACE_COLOUR_MAX, "a colour", &model->colour);
+        } else {
+            check_conditions(kit, node);
+        }
+    }
+    if (model->inside)
+        check_inside(kit, model);
+    else
+        lacks(kit, model, "does not say what it is inside of",
+              "write a space that has an end: `inside box(8 studs, 4 bricks, 8 studs);`");
+    if (!starts)
+        lacks(kit, model, "starts nowhere",
+              "write a connector, where it is, and a rule: `start stud at (0, 0, 0) by wall;`");
+}
+
+void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test)
+{
+    if (!tn_names_get(&kit->models, test->name.text)) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, test->name.span, "there is no model `%.100s`", test->name.text);
+        tn_kit_suggest(kit, d, &kit->models, test->name.text,
+                       "a test is called by the model that it is about, in the same file");
+    }
+    check_conditions(kit, test);
+}

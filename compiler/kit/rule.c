@@ -1,0 +1,338 @@
+/* What rules of kits place: an alternative stands for all placements of its first part whose connectors join. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/kit/kit.h"
+#include "runtime/place/model/frame.h"
+
+static void turn(uint32_t turns, const int32_t at[3], int32_t to[3])
+{
+    tn_heading_turn(turns % 4, at[0], at[2], &to[0], &to[2]);
+    to[1] = at[1];
+}
+
+/* Quarter turns from right (+x) to an axis that lies aside. */
+static uint32_t bearing(tn_axis axis)
+{
+    static const uint32_t bearings[TN_AXIS_COUNT] = {
+        [TN_AXIS_RIGHT] = 0, [TN_AXIS_BACK] = 1, [TN_AXIS_LEFT] = 2, [TN_AXIS_FRONT] = 3};
+    return bearings[axis];
+}
+
+/* ---- what is alike when it is turned */
+
+/* A box, or a connector, of an alternative that was turned. */
+typedef struct feature {
+    int32_t v[7];
+} feature;
+
+static int compare(const void *a, const void *b)
+{
+    const feature *one = a, *other = b;
+    for (int i = 0; i < 7; i++)
+        if (one->v[i] != other->v[i])
+            return one->v[i] < other->v[i] ? -1 : 1;
+    return 0;
+}
+
+static const tn_kit_part *part_of(tn_kit *kit, const tn_kit_node *placed)
+{
+    return tn_names_get(&kit->parts, placed->name.text);
+}
+
+bool tn_kit_offset(tn_kit *kit, const tn_kit_node *placed, int32_t at[3], uint32_t *turns)
+{
+    int64_t value, count = 0;
+    bool right = true;
+    for (int k = 0; k < 3; k++) {
+        at[k] = 0;
+        if (!placed->at.given)
+            continue;
+        right &= tn_kit_measure(kit, &placed->at.at[k], &value) &&
+                 tn_kit_cells(kit, placed->at.at[k].span, k == 1 ? -value : value, k, 1, "the part lies at", &at[k]);
+    }
+    if (tn_kit_given(&placed->count[1]))
+        right &= tn_kit_whole(kit, &placed->count[1], 0, 3, "a turn", &count);
+    *turns = (uint32_t)count;
+    return right;
+}
+
+static size_t count_features(tn_kit *kit, const tn_kit_node *places)
+{
+    size_t count = 0;
+    for (const tn_kit_node *placed = places->inner.first; placed; placed = placed->next)
+        count += part_of(kit, placed)->box_count + part_of(kit, placed)->joint_count;
+    return count;
+}
+
+static void add_feature(feature *to, const tn_kit_box *box, const tn_kit_joint *joint, uint32_t turns,
+                        const int32_t by[3])
+{
+    int32_t a[3], b[3];
+    turn(turns, box ? box->low : joint->at, a);
+    turn(turns, box ? box->high : joint->at, b);
+    for (int k = 0; k < 3; k++) {
+        to->v[1 + k] = by[k] + (a[k] < b[k] ? a[k] : b[k]);
+        to->v[4 + k] = by[k] + (a[k] < b[k] ? b[k] : a[k]);
+    }
+    to->v[0] = -1;
+    if (joint) {
+        uint32_t axis = tn_kit_side_of(joint->axis) == TN_KIT_ASIDE ? 2 + (bearing(joint->axis) + turns) % 4
+                                                                    : (uint32_t)joint->axis;
+        to->v[0] = (int32_t)(joint->type->index * TN_AXIS_COUNT + axis);
+    }
+}
+
+/* All features of the alternative, turned, moved so that the lowest coordinates are 0 (which were `low`), and sorted.
+ */
+static void list_features(tn_kit *kit, const tn_kit_node *places, uint32_t turns, feature *features, size_t count,
+                          int32_t low[3])
+{
+    feature *next = features;
+    for (const tn_kit_node *placed = places->inner.first; placed; placed = placed->next) {
+        const tn_kit_part *part = part_of(kit, placed);
+        int32_t at[3], by[3];
+        uint32_t own;
+        tn_kit_offset(kit, placed, at, &own);
+        turn(turns, at, by);
+        for (uint32_t i = 0; i < part->box_count; i++)
+            add_feature(next++, &part->boxes[i], NULL, turns + own, by);
+        for (uint32_t i = 0; i < part->joint_count; i++)
+            add_feature(next++, NULL, &part->joints[i], turns + own, by);
+    }
+    for (int k = 0; k < 3; k++) {
+        low[k] = INT32_MAX;
+        for (size_t i = 0; i < count; i++)
+            low[k] = features[i].v[1 + k] < low[k] ? features[i].v[1 + k] : low[k];
+        for (size_t i = 0; i < count; i++) {
+            features[i].v[1 + k] -= low[k];
+            features[i].v[4 + k] -= low[k];
+        }
+    }
+    qsort(features, count, sizeof *features, compare);
+}
+
+/* Turned so often, the alternative is what it was, moved by this. */
+typedef struct symmetry {
+    bool alike[4];
+    int32_t by[4][3];
+} symmetry;
+
+static symmetry find_symmetry(tn_kit *kit, const tn_kit_node *places)
+{
+    symmetry found = {{true}, {{0}}};
+    size_t count = count_features(kit, places);
+    feature *plain = TN_NEW_ARRAY(kit->arena, feature, count + 1),
+            *turned = TN_NEW_ARRAY(kit->arena, feature, count + 1);
+    int32_t low[3], lows[3];
+    if (!plain || !turned)
+        return found;
+    list_features(kit, places, 0, plain, count, low);
+    for (uint32_t t = 1; t < 4; t++) {
+        list_features(kit, places, t, turned, count, lows);
+        found.alike[t] = memcmp(plain, turned, count * sizeof *plain) == 0;
+        for (int k = 0; k < 3; k++)
+            found.by[t][k] = lows[k] - low[k];
+    }
+    return found;
+}
+
+/* The same placement with the fewest turns. */
+static tn_kit_placement simplest(const symmetry *like, tn_kit_placement p)
+{
+    for (uint32_t t = p.turns; t > 0; t--) {
+        if (!like->alike[t])
+            continue;
+        int32_t by[3];
+        turn(p.turns - t, like->by[t], by);
+        for (int k = 0; k < 3; k++)
+            p.move[k] += by[k];
+        p.turns -= t;
+        return p;
+    }
+    return p;
+}
+
+/* ---- placements */
+
+static bool joins(const tn_kit_type *a, const tn_kit_type *b)
+{
+    return a->joins == b || b->joins == a;
+}
+
+/* Does a connector of a part, turned so often, face a connector of this side? (Of one aside the head has turned so that
+ * it points along x.) */
+static bool faces(const tn_kit_joint *joint, const tn_kit_type *type, tn_kit_side side, uint32_t turns)
+{
+    tn_kit_side own = tn_kit_side_of(joint->axis);
+    if (side == TN_KIT_ASIDE)
+        return own == TN_KIT_ASIDE && (bearing(joint->axis) + turns) % 4 == 2;
+    uint32_t alike = joint->type->turns < type->turns ? joint->type->turns : type->turns;
+    return own != TN_KIT_ASIDE && own != side && turns % (4 / alike) == 0;
+}
+
+static bool is_new(const tn_kit_placement *seen, uint32_t count, const tn_kit_placement *one)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (seen[i].turns == one->turns && memcmp(seen[i].move, one->move, sizeof one->move) == 0)
+            return false;
+    return true;
+}
+
+tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, const tn_kit_type *type, tn_kit_side side,
+                                    uint32_t *count)
+{
+    const tn_kit_part *part = part_of(kit, places->inner.first);
+    symmetry like = find_symmetry(kit, places);
+    size_t most = 4 * (size_t)part->joint_count + 1;
+    tn_kit_placement *all = TN_NEW_ARRAY(kit->arena, tn_kit_placement, most);
+    tn_kit_placement *seen = TN_NEW_ARRAY(kit->arena, tn_kit_placement, most);
+    *count = 0;
+    if (!all || !seen)
+        return NULL;
+    for (uint32_t j = 0; j < part->joint_count; j++) {
+        const tn_kit_joint *joint = &part->joints[j];
+        for (uint32_t t = 0; t < 4; t++) {
+            if (!joins(joint->type, type) || !faces(joint, type, side, t))
+                continue;
+            tn_kit_placement p = {.turns = t};
+            turn(t, joint->at, p.move);
+            for (int k = 0; k < 3; k++)
+                p.move[k] = -p.move[k];
+            tn_kit_placement simple = simplest(&like, p);
+            if (!is_new(seen, *count, &simple))
+                continue;
+            seen[*count] = simple;
+            all[(*count)++] = p;
+        }
+    }
+    return all;
+}
+
+/* ---- checking */
+
+bool tn_kit_rule_takes(const tn_kit_rule *rule, const tn_kit_type *type)
+{
+    for (const tn_kit_node *at = rule->node->outer.first; at; at = at->next)
+        if (strcmp(at->name.text, type->node->name.text) == 0)
+            return true;
+    return false;
+}
+
+static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
+{
+    size_t errors = kit->diagnostics->error_count;
+    int64_t colour;
+    int32_t at[3];
+    uint32_t turns;
+    if (!part_of(kit, placed)) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, placed->name.span, "there is no part `%.100s`",
+                                     placed->name.text);
+        tn_kit_suggest(kit, d, &kit->parts, placed->name.text,
+                       "parts are told by `part 3005 { ... }`, or in a file that is used: `use \"bricks\";`");
+    }
+    if (placed->other.text && !tn_names_get(&kit->rules, placed->other.text)) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, placed->other.span, "there is no rule `%.100s`",
+                                     placed->other.text);
+        tn_kit_suggest(kit, d, &kit->rules, placed->other.text,
+                       "`with` names the rule that goes on at the part's connectors");
+    }
+    if (placed->other.text && placed->stops) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_RULE, placed->span, "this stops, and goes on with a rule");
+        tn_help(kit->diagnostics, d, "leave out `stop`, or `with %.60s`", placed->other.text);
+    }
+    if (tn_kit_given(&placed->count[0]))
+        tn_kit_whole(kit, &placed->count[0], 0, TN_PLACE_COLOUR_MAX, "a colour", &colour);
+    if (first && (placed->at.given || tn_kit_given(&placed->count[1]))) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_RULE, placed->span, "where this part goes is found by its connectors");
+        tn_help(kit->diagnostics, d, "leave out `at` and `turn`; only parts that follow it in braces have them");
+    }
+    tn_kit_offset(kit, placed, at, &turns);
+    return kit->diagnostics->error_count == errors;
+}
+
+/* Parts of one alternative may not be in each other's way. */
+static void check_overlap(tn_kit *kit, const tn_kit_node *places)
+{
+    size_t count = count_features(kit, places), boxes = 0;
+    feature *all = TN_NEW_ARRAY(kit->arena, feature, count + 1);
+    int32_t low[3];
+    if (!all)
+        return;
+    list_features(kit, places, 0, all, count, low);
+    while (boxes < count && all[boxes].v[0] < 0)
+        boxes++; /* boxes come first */
+    for (size_t i = 0; i < boxes; i++) {
+        for (size_t j = 0; j < i; j++) {
+            bool over = true;
+            for (int k = 0; k < 3; k++)
+                over &= all[i].v[1 + k] < all[j].v[4 + k] && all[j].v[1 + k] < all[i].v[4 + k];
+            if (!over)
+                continue;
+            tn_diagnostic *d =
+                tn_report(kit->diagnostics, E_KIT_RULE, places->span, "parts of this alternative overlap");
+            tn_help(kit->diagnostics, d, "give all but the first a place that is free: `at (0, 1 brick, 0)`");
+            return;
+        }
+    }
+}
+
+static bool joins_here(tn_kit *kit, const tn_kit_rule *rule, const tn_kit_node *placed)
+{
+    const tn_kit_part *part = part_of(kit, placed);
+    for (uint32_t j = 0; j < part->joint_count; j++) {
+        for (const tn_kit_node *at = rule->node->outer.first; at; at = at->next) {
+            const tn_kit_type *type = tn_names_get(&kit->types, at->name.text);
+            if (type && joins(part->joints[j].type, type))
+                return true;
+        }
+    }
+    return false;
+}
+
+static void check_places(tn_kit *kit, const tn_kit_rule *rule, const tn_kit_node *places)
+{
+    bool right = true;
+    for (const tn_kit_node *placed = places->inner.first; placed; placed = placed->next)
+        right &= check_placed(kit, placed, placed == places->inner.first);
+    if (!right || !places->inner.first || tn_arena_failed(kit->arena))
+        return;
+    check_overlap(kit, places);
+    if (kit->damaged || joins_here(kit, rule, places->inner.first))
+        return;
+    tn_diagnostic *d = tn_report(kit->diagnostics, W_KIT_JOINS_NOTHING, places->inner.first->name.span,
+                                 "part %.100s joins none of the connectors of rule %.100s",
+                                 places->inner.first->name.text, rule->node->name.text);
+    tn_help(kit->diagnostics, d, "it is never placed here: leave it out, or add a connector that it joins after `at`");
+}
+
+void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule)
+{
+    for (const tn_kit_node *at = rule->node->outer.first; at; at = at->next) {
+        if (tn_names_get(&kit->types, at->name.text))
+            continue;
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, at->name.span, "there is no connector `%.100s`", at->name.text);
+        tn_kit_suggest(kit, d, &kit->types, at->name.text, "a connector is told by `connector stud joins tube;`");
+    }
+    for (const tn_kit_node *one = rule->node->inner.first; one; one = one->next) {
+        if (one->kind == TN_KIT_PLACES)
+            check_places(kit, rule, one);
+        double sum = 0;
+        for (const tn_kit_node *drawn = one->inner.first; one->kind == TN_KIT_DRAWN && drawn; drawn = drawn->next) {
+            check_places(kit, rule, drawn);
+            double weight = tn_kit_number(kit, &drawn->count[0]);
+            sum += weight;
+            if (weight <= 1)
+                continue;
+            tn_diagnostic *d =
+                tn_report(kit->diagnostics, E_KIT_NUMBER, drawn->count[0].span, "a weight is from 0 to 1");
+            tn_help(kit->diagnostics, d, "weights count against each other: 3 to 1 is [0.75] and [0.25]");
+        }
+        if (one->kind == TN_KIT_DRAWN && !(sum > 0)) {
+            tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_NUMBER, one->span, "all of these have the weight 0");
+            tn_help(kit->diagnostics, d, "give one of them a weight above 0");
+        }
+    }
+}

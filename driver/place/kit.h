@@ -1,0 +1,26 @@
+/* Models of kits: choosing one, and holding what was placed to its conditions. Diagnostics are added to those of
+ * `opened`. */
+#ifndef TARTAN_DRIVER_PLACE_KIT_H
+#define TARTAN_DRIVER_PLACE_KIT_H
+
+#include <stdio.h>
+
+#include "driver/place/place.h"
+#include "runtime/place/measure.h"
+
+/* The model of this name, or the kit's only one where that is NULL; what is wrong is reported (E1317). */
+tn_status tn_kit_choose(tn_opened *opened, const char *name, uint32_t *model);
+
+typedef struct tn_kit_tally {
+    size_t passed, failed;
+} tn_kit_tally;
+
+/* Reports the conditions of a model that do not hold (E1316), with what was found: its requirements, and where `tests`
+ * the expectations of its tests too. TN_INVALID where one does not hold. */
+tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
+                            tn_kit_tally *tally);
+
+/* Places every model of a kit, seed 0, and holds each to its requirements and tests. */
+tn_status tn_kit_tests_run(tn_opened *opened, tn_watch *watch, tn_kit_tally *tally);
+
+#endif

@@ -1,0 +1,24 @@
+/* What is measured of a placed model: the terms of a kit's conditions (runtime/place/model/terms.h), and which parts
+ * they are about. docs/kit-language.md defines them. */
+#ifndef TARTAN_PLACE_MEASURE_H
+#define TARTAN_PLACE_MEASURE_H
+
+#include "runtime/place/joints.h"
+#include "runtime/place/model/terms.h"
+
+typedef struct tn_placed_measures {
+    double terms[TN_PLACED_TERM_COUNT];
+    tn_placed_joints joints;
+    bool *floating, *overlaps; /* [part], owned */
+} tn_placed_measures;
+
+/* space: of the kit's model that was placed; NULL where nothing is known of one, and `fill` is 0 then. Clear it in any
+ * case. */
+tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *space, const tn_placed_model *model,
+                            tn_watch *watch, tn_placed_measures *measured, tn_error *error);
+void tn_placed_measures_clear(tn_placed_measures *measured);
+
+/* Does a condition (a function of kind KIT) hold? */
+bool tn_kit_condition_holds(const tn_module *module, uint32_t function, const tn_placed_measures *measured);
+
+#endif

@@ -1,0 +1,137 @@
+/* Finds which cells of a chunk are inside of a model's space: the space's function is run at the middle of each. */
+#include "runtime/place/space.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/number/run.h"
+#include "runtime/place/model/terms.h"
+
+enum { POINTS = 2 * TN_CHUNK_WIDTH }; /* of one run: two rows of a chunk */
+
+struct tn_space {
+    tn_cell_space cells;
+    const uint8_t *code;
+    const tn_function_record *function;
+    double unit[3];
+    tn_number_rows rows;
+    double x[POINTS], y[POINTS], z[POINTS], none[POINTS], values[POINTS];
+    const double *columns[TN_PLACED_TERM_COUNT];
+};
+
+/* Which cells of rows z and z + 1 are outside. */
+static tn_status look_at_rows(tn_space *space, int32_t z, uint64_t outside[2], tn_error *error)
+{
+    for (int i = 0; i < POINTS; i++)
+        space->z[i] = (z + i / TN_CHUNK_WIDTH + 0.5) * space->unit[2];
+    tn_status status = tn_number_run_rows(&space->rows, space->code, space->function->code_begin,
+                                          space->function->stack_max, space->columns, POINTS, space->values, error);
+    if (status != TN_OK)
+        return status;
+    outside[0] = outside[1] = 0;
+    for (int i = 0; i < POINTS; i++)
+        if (!(space->values[i] > 0))
+            outside[i / TN_CHUNK_WIDTH] |= UINT64_C(1) << i % TN_CHUNK_WIDTH;
+    return TN_OK;
+}
+
+static tn_status find_outside(void *context, const int32_t at[3], uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS],
+                              tn_error *error)
+{
+    tn_space *space = context;
+    tn_status status = TN_OK;
+    for (int i = 0; i < POINTS; i++)
+        space->x[i] = ((double)at[0] * TN_CHUNK_WIDTH + i % TN_CHUNK_WIDTH + 0.5) * space->unit[0];
+    for (int y = 0; y < TN_CHUNK_ROWS && status == TN_OK; y++) {
+        for (int i = 0; i < POINTS; i++) /* heights are upwards, cells downwards */
+            space->y[i] = -((double)at[1] * TN_CHUNK_ROWS + y + 0.5) * space->unit[1];
+        for (int z = 0; z < TN_CHUNK_ROWS && status == TN_OK; z += 2)
+            status = look_at_rows(space, at[2] * TN_CHUNK_ROWS + z, &row[y][z], error);
+    }
+    return status;
+}
+
+tn_status tn_space_new(const tn_place_rules *rules, tn_space **space, tn_error *error)
+{
+    const tn_kit_model_record *model = rules->space;
+    tn_space *made = calloc(1, sizeof *made);
+    *space = made;
+    if (!made)
+        return tn_fail_memory(error);
+    made->cells = (tn_cell_space){
+        .box = {{(int32_t)model->low_x, (int32_t)model->low_y, (int32_t)model->low_z},
+                {(int32_t)model->high_x, (int32_t)model->high_y, (int32_t)model->high_z}},
+        .outside = find_outside,
+        .context = made,
+    };
+    made->code = rules->module->code;
+    made->function = &rules->module->FUNCTION_records[model->space];
+    tn_place_unit(rules->module, made->unit);
+    for (size_t i = 0; i < TN_PLACED_TERM_COUNT; i++)
+        made->columns[i] = made->none;
+    made->columns[TN_PLACED_X] = made->x;
+    made->columns[TN_PLACED_Y] = made->y;
+    made->columns[TN_PLACED_Z] = made->z;
+    return TN_OK;
+}
+
+void tn_space_free(tn_space *space)
+{
+    if (!space)
+        return;
+    tn_number_rows_clear(&space->rows);
+    free(space);
+}
+
+const tn_cell_space *tn_space_cells(const tn_space *space)
+{
+    return &space->cells;
+}
+
+/* The cells of a chunk that are inside of the space and of its box. */
+static uint64_t count_chunk(const tn_space *space, const int32_t at[3], uint64_t outside[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
+{
+    const tn_cell_box *box = &space->cells.box;
+    uint64_t count = 0;
+    for (int32_t y = 0; y < TN_CHUNK_ROWS; y++) {
+        for (int32_t z = 0; z < TN_CHUNK_ROWS; z++) {
+            for (int32_t x = 0; x < TN_CHUNK_WIDTH; x++) {
+                int32_t cell[3] = {at[0] * TN_CHUNK_WIDTH + x, at[1] * TN_CHUNK_ROWS + y, at[2] * TN_CHUNK_ROWS + z};
+                count += tn_cell_box_holds(box, cell) && !(outside[y][z] >> x & 1);
+            }
+        }
+    }
+    return count;
+}
+
+static int32_t chunk_of(int32_t cell, int size)
+{
+    return cell >= 0 ? cell / size : -((size - 1 - cell) / size);
+}
+
+tn_status tn_space_count(tn_space *space, tn_watch *watch, uint64_t *count, tn_error *error)
+{
+    static const int sizes[3] = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS};
+    uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS];
+    int32_t low[3], high[3], at[3];
+    tn_status status = TN_OK;
+    *count = 0;
+    for (int k = 0; k < 3; k++) {
+        low[k] = chunk_of(space->cells.box.low[k], sizes[k]);
+        high[k] = chunk_of(space->cells.box.high[k] - 1, sizes[k]);
+    }
+    for (at[0] = low[0]; at[0] <= high[0]; at[0]++) {
+        for (at[1] = low[1]; at[1] <= high[1]; at[1]++) {
+            for (at[2] = low[2]; at[2] <= high[2] && status == TN_OK; at[2]++) {
+                status = tn_watch_check(watch, error);
+                if (status == TN_OK)
+                    status = find_outside(space, at, row, error);
+                if (status == TN_OK)
+                    *count += count_chunk(space, at, row);
+            }
+            if (status != TN_OK)
+                return status;
+        }
+    }
+    return status;
+}

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# check --sarif: a SARIF 2.1.0 log with the properties that the standard requires, for every wrong file of tests/diagnostics.
+name=sarif
+. "$(dirname "$0")/golden.bash"
+
+cat >"$scratch/validate.py" <<'PY'
+"""What SARIF 2.1.0 (OASIS, sections 3.13 to 3.58) requires of the objects that are written here."""
+import json, sys
+
+log = json.load(open(sys.argv[1], encoding="utf-8"))
+assert set(log) == {"$schema", "version", "runs"} and log["version"] == "2.1.0"
+assert log["$schema"].endswith("sarif-2.1.0.json")
+[run] = log["runs"]
+driver = run["tool"]["driver"]
+assert driver["name"] == "tartan" and driver["version"]
+assert run["columnKind"] in ("utf16CodeUnits", "unicodeCodePoints")
+ids = [rule["id"] for rule in driver["rules"]]
+assert len(set(ids)) == len(ids)
+for rule in driver["rules"]:
+    assert rule["shortDescription"]["text"] and rule["defaultConfiguration"]["level"] in ("error", "warning")
+
+
+def region(r):
+    assert all(isinstance(r[k], int) and r[k] >= 1 for k in ("startLine", "startColumn", "endLine", "endColumn")), r
+    assert (r["startLine"], r["startColumn"]) <= (r["endLine"], r["endColumn"]), r
+
+
+def location(place):
+    physical = place["physicalLocation"]
+    uri = physical["artifactLocation"]["uri"]
+    assert uri and all(33 <= ord(c) < 127 and c not in '<>"{}|\\^`' for c in uri), uri
+    region(physical["region"])
+
+
+for result in run["results"]:
+    assert result["message"]["text"]
+    assert result["level"] in ("none", "note", "warning", "error")
+    assert ids[result["ruleIndex"]] == result["ruleId"]
+    assert len(result.get("locations", [])) <= 1
+    for place in result.get("locations", []):
+        location(place)
+    for place in result.get("relatedLocations", []):
+        location(place)
+        assert place["message"]["text"]
+    for fix in result.get("fixes", []):
+        assert fix["description"]["text"] and len(fix["artifactChanges"]) >= 1
+        for change in fix["artifactChanges"]:
+            assert change["artifactLocation"]["uri"] and len(change["replacements"]) >= 1
+            for replacement in change["replacements"]:
+                region(replacement["deletedRegion"])
+                assert isinstance(replacement["insertedContent"]["text"], str)
+print(len(run["results"]), len(ids))
+PY
+valid() { python3 "$scratch/validate.py" "$1" || fail "$1 is not valid"; }
+
+cp tests/diagnostics/* "$scratch" 2>/dev/null || true
+(cd "$scratch" && "$TARTAN" check ./*.plan --sarif all.sarif >/dev/null 2>&1) || true
+counted=$(valid "$scratch/all.sarif")
+[ "${counted% *}" -gt 300 ] || fail "only $counted findings and codes"
+for file in "$scratch"/*.hemls "$scratch"/*.bnf "$scratch"/*.field "$scratch"/*.solid; do
+    "$TARTAN" check "$file" --sarif "$scratch/one.sarif" >/dev/null 2>&1 || true
+    valid "$scratch/one.sarif" >/dev/null
+done
+
+printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/a b\303\251.plan"
+printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/accents.plan"
+golden accents "cd $scratch && tartan check accents.plan --sarif - 2>/dev/null | sed 's/\"version\": \"[0-9.]*\"/\"version\": ...\"/'"
+golden good 'tartan check sheds.plan --no-analysis --sarif - | tail -n 4'
+golden nowhere "tartan check sheds.plan --no-analysis --sarif $scratch/none/log"
+finish

@@ -1,0 +1,71 @@
+/* Compiling a kit, placing it and measuring what was placed, with each allocation failing once: an error every time,
+ * and nothing left behind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "driver/open/open.h"
+#include "runtime/place/measure.h"
+#include "tests/support/failing_memory.h"
+
+static const char kit[] =
+    "unit 10 x 8 x 10;\nconnector stud joins tube every 20;\nconnector tube joins stud every 20;\n"
+    "part two \"two\" { fill 40 x 24 x 20; studs up 2 x 1; tubes down 2 x 1 at (0, -24, 0); mass 2; }\n"
+    "space room = box(100, 72, 60) and not sphere(20);\n"
+    "rule wall at stud, tube = (two in 4 [0.5] | two [0.5]);\n"
+    "model hut { inside room; start stud at (30, 0, 10) by wall; require count(two) > 0; }\n";
+
+/* TN_OK where all was done. */
+static tn_status run(void)
+{
+    tn_opened opened;
+    tn_place_rules rules = {0};
+    tn_placed_model model = {0};
+    tn_placed_measures measured = {0};
+    tn_place_fault fault;
+    tn_error error;
+    tn_status status = tn_open_bytes("own.kit", (const uint8_t *)kit, sizeof kit - 1, false, &opened);
+    if (status == TN_OK)
+        status = tn_place_rules_of_model(opened.module, 0, &rules, &error);
+    if (status == TN_OK)
+        status = tn_place_derive(&rules, NULL, &model, &fault, &error);
+    if (status == TN_OK)
+        status = tn_placed_measure(opened.module, rules.space, &model, NULL, &measured, &error);
+    if (status == TN_OK)
+        assert_true(model.count > 2 &&
+                    tn_kit_condition_holds(opened.module, opened.module->KIT_CONDITION_records[0].holds, &measured));
+    tn_placed_measures_clear(&measured);
+    tn_placed_model_clear(&model);
+    tn_place_rules_clear(&rules);
+    tn_close(&opened);
+    return status;
+}
+
+static void every_allocation(void **state)
+{
+    (void)state;
+    assert_int_equal(run(), TN_OK);
+    for (int all_after = 0; all_after < 2; all_after++) {
+        for (size_t number = 0;; number++) {
+            fail_allocation(number, all_after);
+            tn_status status = run();
+            bool reached = stop_failing() > number;
+            if (!reached) {
+                assert_int_equal(status, TN_OK);
+                break;
+            }
+            assert_true(status == TN_MEMORY || (!all_after && status == TN_OK));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation)};
+    return cmocka_run_group_tests_name("memory_kit", tests, NULL, NULL);
+}
