@@ -19,6 +19,7 @@ tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
 file(STRINGS cli/common/commands.def rows REGEX "^COMMAND")
 foreach(row ${rows})
   string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
+  string(REPLACE "_" "-" command ${command})
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
 endforeach()
 

@@ -247,8 +247,8 @@ static void complete_library(cursor *c)
 static void complete_schema(cursor *c)
 {
     static const char *const words[] = {"zone", "forbid", "flag", "role", NULL};
-    static const char *const roles[] = {"length", "level", "public-end", "great-hall", "band",
-                                        "solid",  "void",  "absent",     NULL};
+    static const char *const roles[] = {"length", "level", "public-end", "great-hall", "band",   "text",
+                                        "tone",   "hatch", "solid",      "void",       "absent", NULL};
     offer_words(c, c->count > 0 && is(c, c->count - 1, "role") ? roles : words);
 }
 

@@ -94,12 +94,13 @@ static const tn_option options[] = {
 
 const tn_command tn_command_breed = {
     .name = "breed",
-    .summary = "breed sentences, choosing the parents yourself",
+    .summary = "breed sentences or fields, choosing the parents yourself",
     .usage = "STUDY.study [-o DIR] [--resume]",
     .description =
         "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
         "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3, and #41 "
-        "is the individual with the id 41, of any generation. Your "
+        "is the individual with the id 41, of any generation. Fields can be weighed: 3@0.4 gives the children less "
+        "of 3. Your "
         "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "
         "sheet.",
     .example = "$ tartan breed garden.study -o garden.run",

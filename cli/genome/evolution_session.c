@@ -21,7 +21,10 @@ static char *default_dir(const char *study)
 static void report(tn_evolution_session *e, const tn_evolution_study *study, const tn_error *error)
 {
     const tn_evolution_job *job = &e->job;
-    const tn_setting_value *value = job->blamed < TN_SETTING_COUNT ? &study->of[job->blamed] : NULL;
+    bool repeats = job->blamed < TN_SETTING_COUNT && tn_setting_rows[job->blamed].kind == TN_SETTING_EACH;
+    const tn_setting_value *value = job->blamed == TN_SETTING_COUNT ? NULL
+                                    : repeats                       ? &study->each[job->blamed_each].value
+                                                                    : &study->of[job->blamed];
     tn_diagnostics *list = tn_job_diagnostics(e->command);
     if (!value || !value->written || error->status == TN_MEMORY) {
         tn_job_fail(e->command, error);
@@ -47,14 +50,22 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
                                         .remembers = e->remembers};
     tn_run_options run_options = {
         .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
-    const tn_source_record *grammar = &module->SOURCE_records[module->GRAMMAR_records[0].file],
-                           *text = &module->SOURCE_records[study->of[TN_SET_GRAMMAR].file];
-    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text), tn_text(module, grammar->path),
-                          tn_text(module, grammar->text)};
+    bool codons = tn_evolution_study_use(study) == TN_USE_CODONS; /* forms have no grammar */
+    const tn_source_record *grammar = codons ? &module->SOURCE_records[module->GRAMMAR_records[0].file] : NULL,
+                           *text = &module->SOURCE_records[codons ? study->of[TN_SET_GRAMMAR].file : 0];
+    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text),
+                          grammar ? tn_text(module, grammar->path) : "", grammar ? tn_text(module, grammar->text) : ""};
     e->generations =
         (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
     if (tn_evolution_job_make(study, path, module, &options, &e->job, error) != TN_OK) {
         report(e, study, error);
+        return false;
+    }
+    if (!e->remembers && e->job.settings.kind && !e->job.scored) { /* a person chooses with `breed` */
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what to evolve towards");
+        tn_error_help(error, "add a goal, as `fitness volume target 200`; or choose parents yourself: tartan breed %s",
+                      path);
+        tn_job_fail(e->command, error);
         return false;
     }
     bool begun = tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;

@@ -237,6 +237,7 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
+    OPTION_COLUMNS,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),

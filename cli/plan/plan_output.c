@@ -15,7 +15,8 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_wri
         tn_job_usage(job, "--csv-safe is about --format csv");
         return false;
     }
-    char library_hash[33], rules_hash[20] = "";
+    char library_hash[33], rules_hash[20] = "", command[400];
+    snprintf(command, sizeof command, "%s%s", made, settings->columns ? " --columns" : "");
     tn_library_hash(ready->library, library_hash);
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     if (producer)
@@ -27,7 +28,8 @@ bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_wri
                      .rules_hash = rules_hash,
                      .rules_path = job->settings->operands.items[0],
                      .version = producer ? tn_text(module, producer->version) : NULL,
-                     .command = made},
+                     .command = settings->columns ? command : made},
+        .columns = settings->columns,
         .csv_safe = settings->csv_safe,
         .resume = settings->resume,
         .sqlite = tn_plan_sqlite(),

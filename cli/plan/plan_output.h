@@ -9,6 +9,7 @@
 typedef struct tn_written_settings {
     const char *output;
     int format; /* a tn_plan_format */
+    bool columns;
     bool csv_safe;
     bool resume;
 } tn_written_settings;
@@ -16,6 +17,9 @@ typedef struct tn_written_settings {
 #define OPTION_PLAN_FORMAT                                                                                             \
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",                                  \
            "what to write: lines, json, csv, bin or sqlite (default: sqlite for .sqlite and .db, otherwise lines)")
+#define OPTION_COLUMNS                                                                                                 \
+    FLAG("columns", 0, written.columns,                                                                                \
+         "in CSV a row for each tray, with a column for each field; in a database such rows in a second table")
 #define OPTION_CSV_SAFE                                                                                                \
     FLAG("csv-safe", 0, written.csv_safe,                                                                              \
          "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")

@@ -125,6 +125,7 @@ static const tn_option options[] = {
            "N plans of each number of trays, instead of N in all"),
     OPTION_DIVERSE,
     OPTION_PLAN_FORMAT,
+    OPTION_COLUMNS,
     OPTION_CSV_SAFE,
     OPTION_PLAN_OUTPUT,
     OPTIONS_LIBRARY_LIMITS,

@@ -38,7 +38,8 @@ typedef struct tn_compilation {
      * what became of them (check.h) */
     const struct tn_imports *imports;
     const struct tn_checked *checked;
-    uint8_t *module; /* bytes of the module, owned; NULL where there were errors */
+    const struct tn_checked_fields *fields; /* of a .field file without errors, for breeding (compiler/field/field.h) */
+    uint8_t *module;                        /* bytes of the module, owned; NULL where there were errors */
     size_t module_size;
 } tn_compilation;
 

@@ -58,6 +58,22 @@ static void help_choose(tn_diagnostics *list, tn_diagnostic *diagnostic, const t
         tn_help(list, diagnostic, "write %s", all);
 }
 
+static void help_each(tn_diagnostics *list, tn_diagnostic *diagnostic, tn_setting setting)
+{
+    const tn_setting_row *row = &tn_setting_rows[setting];
+    if (setting == TN_SET_FITNESS)
+        tn_help(list, diagnostic,
+                "write a measure, what it shall be and how much that counts: "
+                "`fitness volume target 200 weight 1`");
+    else if (setting == TN_SET_LIKENESS)
+        tn_help(list, diagnostic, "write the mesh that forms shall be like: `likeness \"target.obj\" weight 1`");
+    else
+        tn_help(list, diagnostic,
+                "write a name in quotes, and perhaps a weight from %.0f to %.0f: "
+                "`parent \"heart\" weight 0.4`",
+                row->low, row->high);
+}
+
 static void bad_value(check *c, tn_setting setting, const tn_evolution_value *value, tn_span span)
 {
     tn_diagnostics *list = c->reader->diagnostics;
@@ -74,6 +90,13 @@ static void bad_value(check *c, tn_setting setting, const tn_evolution_value *va
     case TN_SETTING_PAIR:
         tn_help(list, diagnostic, "write a whole number from %.0f to %.0f, or a range of them, as 2..8", row->low,
                 row->high);
+        break;
+    case TN_SETTING_SPAN:
+        tn_help(list, diagnostic, "write a number from %.7g to %.7g, or a range of them, as 0.5..4", row->low,
+                row->high);
+        break;
+    case TN_SETTING_EACH:
+        help_each(list, diagnostic, setting);
         break;
     case TN_SETTING_TEXT:
         tn_help(list, diagnostic,
@@ -154,8 +177,9 @@ static bool read_second(const tn_evolution_value *value, tn_setting_value *out)
     return true;
 }
 
-static bool read_first(const tn_setting_row *row, const tn_evolution_value *value, tn_setting_value *out)
+static bool read_first(tn_setting setting, const tn_evolution_value *value, tn_setting_value *out)
 {
+    const tn_setting_row *row = &tn_setting_rows[setting];
     switch (row->kind) {
     case TN_SETTING_WHOLE:
     case TN_SETTING_REAL:
@@ -165,6 +189,11 @@ static bool read_first(const tn_setting_row *row, const tn_evolution_value *valu
         return true;
     case TN_SETTING_PAIR:
         return read_pair(value, out);
+    case TN_SETTING_SPAN:
+        return read_pair(value, out);
+    case TN_SETTING_EACH:
+        out->text = value->text;
+        return value->kind == TN_EVOLUTION_STRING || (value->kind == TN_EVOLUTION_WORD && setting == TN_SET_FITNESS);
     case TN_SETTING_TEXT:
         out->text = value->text;
         return value->kind == TN_EVOLUTION_STRING;
@@ -173,6 +202,55 @@ static bool read_first(const tn_setting_row *row, const tn_evolution_value *valu
         return read_choice(row, value, out);
     }
     return false;
+}
+
+/* `target X` and `weight Y`, in any order, behind the text of a setting that may be there more than once. */
+static bool read_wish(tn_setting setting, const tn_evolution_value *word, tn_setting_value *out)
+{
+    const tn_evolution_value *number = word->next;
+    if (word->kind != TN_EVOLUTION_WORD || !number || number->kind != TN_EVOLUTION_NUMBER)
+        return false;
+    double value = tn_decimal_value(number->text, strlen(number->text));
+    if (strcasecmp(word->text, "weight") == 0)
+        out->second = value;
+    else if (strcasecmp(word->text, "target") == 0 && setting == TN_SET_FITNESS)
+        out->first = value;
+    else
+        return false;
+    return tn_setting_fits(setting, out);
+}
+
+/* One of those that may be there more than once. */
+static void take_each(check *c, tn_setting setting, const tn_evolution_setting *item)
+{
+    const tn_evolution_value *value = item->values;
+    tn_span span = value ? tn_span_join(item->span, value->last->span) : item->span;
+    const tn_setting_row *row = &tn_setting_rows[setting];
+    tn_setting_value read = {.written = 1,
+                             .first = row->first,
+                             .second = row->second,
+                             .file = span.file,
+                             .begin = span.begin,
+                             .end = span.end};
+    for (const tn_evolution_value *one = value; one; one = one->next)
+        if (one->kind == TN_EVOLUTION_UNCLOSED) {
+            count_as_written(c, setting, span);
+            return;
+        }
+    bool fits = value && read_first(setting, value, &read) && tn_setting_fits(setting, &read);
+    const tn_evolution_value *wrong = value;
+    for (const tn_evolution_value *word = fits ? value->next : NULL; word && fits; word = word->next->next) {
+        wrong = word;
+        fits = read_wish(setting, word, &read);
+    }
+    if (!fits) {
+        count_as_written(c, setting, span);
+        bad_value(c, setting, wrong, wrong ? wrong->span : item->span);
+    } else if (!tn_evolution_study_add(c->study, setting, &read)) {
+        tn_diagnostic *d = tn_report(c->reader->diagnostics, E_EVOLUTION_VALUE, span,
+                                     "a study has at most %u parents and goals", TN_EACH_MAX);
+        tn_help(c->reader->diagnostics, d, "leave some out");
+    }
 }
 
 /* A value that is wrong counts as written; its default stands. */
@@ -185,7 +263,7 @@ static void take(check *c, tn_setting setting, const tn_evolution_setting *item)
     for (const tn_evolution_value *one = value; one; one = one->next)
         if (one->kind == TN_EVOLUTION_UNCLOSED)
             return;
-    if (!value || !read_first(row, value, &read) || !tn_setting_fits(setting, &read)) {
+    if (!value || !read_first(setting, value, &read) || !tn_setting_fits(setting, &read)) {
         bad_value(c, setting, value, value ? value->span : item->span);
         return;
     }
@@ -219,6 +297,10 @@ static void check_setting(check *c, const tn_evolution_setting *item)
     tn_setting setting = tn_setting_named(item->name, strlen(item->name));
     if (setting == TN_SETTING_COUNT) {
         unknown(c, item);
+        return;
+    }
+    if (tn_setting_rows[setting].kind == TN_SETTING_EACH) {
+        take_each(c, setting, item);
         return;
     }
     if (!c->seen[setting]) {

@@ -43,15 +43,34 @@ static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *un
     return true;
 }
 
+static void emit_setting(tn_builder *builder, tn_setting setting, const tn_setting_value *v)
+{
+    if (v->written)
+        tn_builder_add_SETTING(builder,
+                               &(tn_setting_record){setting, v->written, v->choice, v->first, v->second,
+                                                    tn_builder_string(builder, v->text), v->file, v->begin, v->end});
+}
+
 static void emit_settings(tn_builder *builder, const tn_evolution_study *study)
 {
-    for (uint32_t i = 0; i < TN_SETTING_COUNT; i++) {
-        const tn_setting_value *v = &study->of[i];
-        if (v->written)
-            tn_builder_add_SETTING(builder, &(tn_setting_record){i, v->written, v->choice, v->first, v->second,
-                                                                 tn_builder_string(builder, v->text), v->file, v->begin,
-                                                                 v->end});
+    for (tn_setting i = 0; i < TN_SETTING_COUNT; i++) {
+        if (tn_setting_rows[i].kind != TN_SETTING_EACH)
+            emit_setting(builder, i, &study->of[i]);
+        for (uint32_t k = 0; k < study->each_count; k++)
+            if (study->each[k].setting == i)
+                emit_setting(builder, i, &study->each[k].value);
     }
+}
+
+/* A study of fields or of designs has no grammar: what it names is read when it is bred. */
+static tn_status emit_forms(tn_compilation *c, const tn_imports *imports, const tn_evolution_study *study,
+                            tn_error *error)
+{
+    tn_builder *builder = tn_compilation_begin(c, imports, error);
+    if (!builder)
+        return TN_MEMORY;
+    emit_settings(builder, study);
+    return tn_compilation_finish(c, builder, TN_OK, error);
 }
 
 static tn_status emit(tn_compilation *c, const tn_imports *imports, uint32_t grammar, const tn_evolution_study *study,
@@ -85,6 +104,8 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         tn_help(&c->diagnostics, d, "rule files such as .plan and .hemls are what a grammar's sentences become");
     } else if (grammar && !((const tn_evolution_reader *)grammar->tree)->failed) {
         status = emit(c, &imports, grammar->file, &study, error);
+    } else if (!grammar && c->diagnostics.error_count == 0) {
+        status = emit_forms(c, &imports, &study, error);
     }
     if (status == TN_MEMORY || status == TN_LIMIT)
         return status;

@@ -7,6 +7,8 @@
  *     selection tournament 3
  *   }
  *
+ * A study of fields or designs of boxes names what they are bred from instead of a grammar.
+ *
  * docs/evolution.md has all settings, runtime/genome/settings.def their kinds and ranges. The syntax tree lives in the
  * compilation's arena; the checked study becomes the SETTING records of a module, whose grammar is beside them.
  */

@@ -44,7 +44,7 @@ static tn_status emit(tn_compilation *c, const tn_compile_options *options, cons
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
 {
     tn_imports imports;
-    tn_checked_fields checked;
+    tn_checked_fields *checked = TN_NEW(c->arena, tn_checked_fields);
     tn_diagnostics *diagnostics = &c->diagnostics;
     tn_status status = tn_import_all(c, options, field_files, parse_unit, &imports);
     if (status != TN_OK)
@@ -54,13 +54,14 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         const tn_field_file *file = imports.units[u]->tree;
         damaged = damaged || !file || file->damaged;
     }
-    if (!damaged && !tn_check_field(c->arena, diagnostics, &imports, &checked))
+    if (!damaged && (!checked || !tn_check_field(c->arena, diagnostics, &imports, checked)))
         return tn_fail_memory(error);
     if (tn_arena_failed(c->arena) || diagnostics->failed)
         return tn_fail_memory(error);
     if (damaged || diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;
-    return emit(c, options, &imports, &checked, error);
+    c->fields = checked;
+    return emit(c, options, &imports, checked, error);
 }
 
 static bool read(tn_arena *arena, tn_diagnostics *diagnostics, tn_reading *reading)

@@ -10,6 +10,8 @@
 #define TARTAN_DRIVER_BREED_EVOLVE_H
 
 #include "driver/breed/builder.h"
+#include "driver/breed/field_parents.h"
+#include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
 #include "driver/open/open.h"
@@ -22,6 +24,7 @@
 typedef struct tn_bred_forms {
     const void *context; /* NULL: it has none */
     const char *what;    /* "surface" or "form" */
+    const char *picture; /* what files of pictures end in: ".svg" or ".png" */
     tn_status (*draw)(const void *context, const char *const *sentences, const char *const *labels, size_t count,
                       const char *title, const char *path, tn_error *error);
     const char *(*objective)(const void *context, size_t i);
@@ -32,8 +35,12 @@ typedef struct tn_evolution_job {
     tn_evolution_study study; /* texts borrowed from where it was read */
     tn_setting blamed;        /* where making the job failed: the setting that named what is wrong, or
                                  TN_SETTING_COUNT */
+    uint32_t blamed_each;     /* where that may be there more than once: its number among study.each */
     char *blamed_path;        /* and the file that it names, where an error has its place in that; or NULL */
-    tn_grammar *grammar;
+    tn_grammar *grammar;      /* of codons; NULL: of forms */
+    tn_genome_kind kind;      /* of forms */
+    tn_field_parents *parents;
+    tn_field_scorer *fields;
     tn_evolution_settings settings;
     tn_evaluator evaluator;
     tn_problem *problem;
@@ -41,6 +48,7 @@ typedef struct tn_evolution_job {
     tn_grower *grower;
     tn_design_scorer *designs;
     tn_bred_forms forms;
+    bool scored; /* there are goals; without them, forms with a surface score 0 */
     tn_genome *seeds;
     size_t seed_count;
     char *seeds_text;      /* the file that they are from, or NULL */
@@ -60,7 +68,8 @@ typedef struct tn_evolution_job_options {
     bool remembers;           /* whoever was born can be chosen as a parent later */
 } tn_evolution_job_options;
 
-/* Makes the job of a study at `path` (data files lie relative to it), with its grammar's module. */
+/* Makes the job of a study at `path` (data files lie relative to it), with the module of it and of its grammar, if it
+ * has one. */
 tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
                                 const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error);
 void tn_evolution_job_clear(tn_evolution_job *job);

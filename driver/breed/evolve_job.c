@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/breed/beside.h"
 #include "driver/breed/evolve.h"
+#include "driver/breed/evolve_forms.h"
 #include "driver/breed/inputs.h"
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
@@ -18,6 +20,8 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     tn_learner_free(job->learner);
     tn_grower_free(job->grower);
     tn_design_scorer_free(job->designs);
+    tn_field_scorer_free(job->fields);
+    tn_field_parents_free(job->parents);
     tn_grammar_free(job->grammar);
     for (size_t i = 0; i < job->seed_count; i++)
         tn_genome_clear(&job->seeds[i]);
@@ -27,17 +31,6 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     free(job->identity);
     free(job->inputs);
     *job = (tn_evolution_job){0};
-}
-
-/* A path that a study names lies relative to the study. */
-static char *beside(const char *study, const char *path)
-{
-    const char *slash = path[0] == '/' ? NULL : strrchr(study, '/');
-    size_t folder = slash ? (size_t)(slash - study) + 1 : 0, size = folder + strlen(path) + 1;
-    char *joined = malloc(size);
-    if (joined)
-        snprintf(joined, size, "%.*s%s", (int)folder, study, path);
-    return joined;
 }
 
 /* ---- settings */
@@ -81,7 +74,8 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
     out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
-    out->mapping = tn_mapping_options_of(grammar);
+    if (grammar)
+        out->mapping = tn_mapping_options_of(grammar);
     if (s->of[TN_SET_MAX_DEPTH].written)
         out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
     if (s->of[TN_SET_WRAPS].written)
@@ -103,6 +97,9 @@ static char *identity_of(const tn_evolution_job *job)
         return NULL;
     for (tn_setting i = 0; i < TN_SETTING_COUNT; i++) {
         tn_setting_value value = job->study.of[i];
+        if (!(tn_setting_rows[i].use & tn_evolution_study_use(&job->study)) ||
+            tn_setting_rows[i].kind == TN_SETTING_EACH)
+            continue;
         bool follows = i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
                        tn_setting_rows[i].kind == TN_SETTING_TEXT; /* from the grammar, or nothing, where not written */
         if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (follows && value.written == 0))
@@ -113,6 +110,10 @@ static char *identity_of(const tn_evolution_job *job)
             fprintf(out, "seed %" PRIu64, job->settings.seed);
         else
             tn_setting_write(out, i, &value);
+        fputc('\n', out);
+    }
+    for (uint32_t i = 0; i < job->study.each_count; i++) {
+        tn_setting_write(out, job->study.each[i].setting, &job->study.each[i].value);
         fputc('\n', out);
     }
     bool written = !ferror(out);
@@ -129,7 +130,7 @@ static tn_status find_data(tn_evolution_job *job, tn_setting setting, const char
 {
     free(job->blamed_path);
     job->blamed = setting;
-    job->blamed_path = beside(study, job->study.of[setting].text);
+    job->blamed_path = tn_study_beside(study, job->study.of[setting].text);
     return job->blamed_path ? TN_OK : tn_fail_memory(error);
 }
 
@@ -183,7 +184,7 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     tn_status status = find_data(job, TN_SET_GROW, path, error);
     if (status == TN_OK)
         status = tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error);
-    job->forms = (tn_bred_forms){job->grower, "surface", tn_grower_draw, tn_grower_objective};
+    job->forms = (tn_bred_forms){job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
 
@@ -192,12 +193,12 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
         status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), &job->designs, error);
-    job->forms = (tn_bred_forms){job->designs, "form", tn_design_scorer_draw, tn_design_scorer_objective};
+    job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 
-static tn_status never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
-                                char message[200], tn_error *error)
+tn_status tn_never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                            char message[200], tn_error *error)
 {
     (void)context, (void)thread, (void)sentence, (void)size, (void)score, (void)message;
     return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a score is missing in the run's database");
@@ -211,7 +212,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written, builds = s->of[TN_SET_BUILD].written;
     job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : "txt";
     if (options->only_replay) {
-        job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = never_evaluate};
+        job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = tn_never_evaluate};
         return TN_OK;
     }
     if (learns)
@@ -275,19 +276,27 @@ static tn_status take_seeds(tn_evolution_job *job, const char *path, const char 
     return job->seeds_text ? read_seeds(job, job->seeds_text, strlen(job->seeds_text), error) : tn_fail_memory(error);
 }
 
+static tn_status make_codons(tn_evolution_job *job, const char *path, const tn_module *module,
+                             const tn_evolution_job_options *options, tn_error *error)
+{
+    uint32_t own = job->study.of[TN_SET_GRAMMAR].file;
+    tn_status status = tn_inputs_add_sources(&job->inputs, "grammar", module, own, error);
+    if (status == TN_OK)
+        status = take_seeds(job, path, options->stored_seeds, error);
+    return status == TN_OK ? make_problem(job, path, options, error) : status;
+}
+
 tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *path, const tn_module *module,
                                 const tn_evolution_job_options *options, tn_evolution_job *job, tn_error *error)
 {
     *job = (tn_evolution_job){.study = *study, .blamed = TN_SETTING_COUNT};
-    tn_status status = tn_grammar_new(module, 0, &job->grammar, error);
+    bool codons = tn_evolution_study_use(study) == TN_USE_CODONS;
+    tn_status status = codons ? tn_grammar_new(module, 0, &job->grammar, error) : TN_OK;
     if (status == TN_OK)
         translate(study, job->grammar, options, &job->settings);
     if (status == TN_OK)
-        status = tn_inputs_add_sources(&job->inputs, "grammar", module, study->of[TN_SET_GRAMMAR].file, error);
-    if (status == TN_OK)
-        status = take_seeds(job, path, options->stored_seeds, error);
-    if (status == TN_OK)
-        status = make_problem(job, path, options, error);
+        status =
+            codons ? make_codons(job, path, module, options, error) : tn_evolution_forms(job, path, options, error);
     if (status != TN_OK)
         return status;
     job->blamed = TN_SETTING_COUNT;

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "compiler/format.h"
 #include "driver/breed/evolve.h"
 #include "runtime/base/file.h"
 #include "runtime/genome/picture/plot.h"
@@ -35,12 +36,68 @@ static void empty_best(const char *dir)
     closedir(folder);
 }
 
-static tn_status write_sentence(const char *path, const tn_individual *individual, tn_error *error)
+/* How a form came about, as comments: it can be bred again by that. */
+static void write_origin(const tn_run *run, const tn_individual *individual, FILE *out)
+{
+    fprintf(out, "# individual %" PRIu64 ", seed %" PRIu64, individual->id, run->job->settings.seed);
+    bool child = individual->parents[0] != TN_NO_PARENT;
+    uint8_t kind = individual->kind & (uint8_t)~TN_BIRTH_MUTATED;
+    if (kind == TN_BIRTH_SEED)
+        fputs("\n# as it was given", out);
+    else if (kind == TN_BIRTH_CROSSED)
+        fprintf(out, "\n# a child of %" PRIu64 " and %" PRIu64, individual->parents[0], individual->parents[1]);
+    else if (child)
+        fprintf(out, "\n# a copy of %" PRIu64, individual->parents[0]);
+    fprintf(out, "%s\n", individual->kind & TN_BIRTH_MUTATED ? ", mutated" : "");
+}
+
+/* Laid out as `tartan fmt` does; what cannot be laid out stays as it is. */
+static void write_laid_out(const char *path, const char *text, size_t size, FILE *out)
+{
+    tn_sources sources = {0};
+    tn_diagnostics diagnostics;
+    char *formatted = NULL;
+    size_t formatted_size = 0;
+    tn_diagnostics_init(&diagnostics, &sources);
+    bool well = tn_format_text(&diagnostics, tn_notation_or_first(path, text, size), path, text, size, &formatted,
+                               &formatted_size) == TN_OK;
+    fwrite(well ? formatted : text, 1, well ? formatted_size : size, out);
+    free(formatted);
+    tn_diagnostics_clear(&diagnostics);
+    tn_sources_clear(&sources);
+}
+
+static tn_status write_form(const tn_run *run, const char *path, const tn_individual *individual, FILE *out,
+                            tn_error *error)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *whole = open_memstream(&text, &size);
+    if (!whole)
+        return tn_fail_memory(error);
+    write_origin(run, individual, whole);
+    fwrite(individual->sentence, 1, individual->sentence_size, whole);
+    bool written = !ferror(whole);
+    tn_status status = fclose(whole) == 0 && written ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        write_laid_out(path, text, size, out);
+    free(text);
+    return status;
+}
+
+static tn_status write_sentence(const tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
 {
     tn_output output;
     tn_status status = tn_output_open(path, &output, error);
     if (status != TN_OK)
         return status;
+    if (run->job->settings.kind) {
+        status = write_form(run, path, individual, output.stream, error);
+        if (status == TN_OK)
+            return tn_output_commit(&output, error);
+        tn_output_discard(&output);
+        return status;
+    }
     fwrite(individual->sentence, 1, individual->sentence_size, output.stream);
     if (!individual->sentence_size || individual->sentence[individual->sentence_size - 1] != '\n')
         fputc('\n', output.stream);
@@ -73,10 +130,10 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
     char *sentence = NULL, *picture = NULL;
     tn_status status = TN_OK;
     if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 ||
-        asprintf(&picture, "%s/%zu.svg", dir, number) < 0)
+        asprintf(&picture, "%s/%zu%s", dir, number, run->job->forms.context ? run->job->forms.picture : ".svg") < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = write_sentence(sentence, individual, error);
+        status = write_sentence(run, sentence, individual, error);
     const char *const text[] = {individual->sentence};
     const tn_bred_forms *forms = &run->job->forms;
     if (status == TN_OK && forms->context)

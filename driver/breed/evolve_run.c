@@ -55,6 +55,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
                                   job->inputs ? job->inputs : "",
                                   job->seeds_text};
     size_t count = sizeof keys / sizeof *keys;
+    _Static_assert(sizeof keys == sizeof values, "a value for each key");
     return tn_run_store_put_meta(run->store, keys, values, job->seeds_text ? count : count - 1, error);
 }
 
@@ -401,6 +402,13 @@ static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
     tn_status status = tn_run_store_get_meta(run->store, "grammar_path", &path, error);
     if (status == TN_OK)
         status = tn_run_store_get_meta(run->store, "grammar", &text, error);
+    if (status == TN_OK && path && !path[0]) { /* of forms: the study stands alone */
+        free(path);
+        free(text);
+        path = strdup("run.study");
+        text = NULL;
+        status = path ? tn_run_store_get_meta(run->store, "study", &text, error) : tn_fail_memory(error);
+    }
     if (status == TN_OK && (!path || !text))
         status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no grammar");
     if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)

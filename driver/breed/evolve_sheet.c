@@ -1,6 +1,7 @@
 /* A generation on a sheet: of surfaces or designs where what is bred has a form, else of its sentences. */
 #include "driver/breed/evolve_sheet.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,20 @@
 #include "runtime/genome/picture/sheet.h"
 
 #define LABEL_BYTES 64u
+
+/* "3   #47 (score 1.5)": with its id where it can be named by that later on, and whether it is a parent. */
+static void write_label(const tn_run *run, size_t i, const tn_individual *member, char label[LABEL_BYTES])
+{
+    if (!run->job->settings.kind) {
+        snprintf(label, LABEL_BYTES, "%zu   (score %.5g)", i + 1, member->score.objectives[0]);
+        return;
+    }
+    int size = snprintf(label, LABEL_BYTES, "%zu   #%" PRIu64, i + 1, member->id);
+    if (run->job->scored)
+        size += snprintf(label + size, LABEL_BYTES - (size_t)size, " (score %.5g)", member->score.objectives[0]);
+    bool parent = member->stayed || member->kind == TN_BIRTH_SEED;
+    snprintf(label + size, LABEL_BYTES - (size_t)size, "%s", parent ? " parent" : "");
+}
 
 /* Forms are drawn as they are, in the members' order; those without a score come last and are not drawn. */
 static tn_status draw_forms(tn_run *run, size_t scored, const char *path, tn_error *error)
@@ -18,7 +33,7 @@ static tn_status draw_forms(tn_run *run, size_t scored, const char *path, tn_err
     char *text = malloc(scored * LABEL_BYTES), title[80];
     tn_status status = sentences && labels && text ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < scored; i++) {
-        snprintf(text + i * LABEL_BYTES, LABEL_BYTES, "%zu   (score %.5g)", i + 1, members[i]->score.objectives[0]);
+        write_label(run, i, members[i], text + i * LABEL_BYTES);
         sentences[i] = members[i]->sentence;
         labels[i] = text + i * LABEL_BYTES;
     }
@@ -44,8 +59,9 @@ static size_t count_scored(const tn_run *run)
 
 tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
 {
-    snprintf(path, size, "%s/sheet-%04u.svg", run->dir, run->generations ? run->generations - 1 : 0);
     size_t count, scored = run->job->forms.context ? count_scored(run) : 0;
+    snprintf(path, size, "%s/sheet-%04u%s", run->dir, run->generations ? run->generations - 1 : 0,
+             scored ? run->job->forms.picture : ".svg");
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
     return scored ? draw_forms(run, scored, path, error)
                   : tn_sentences_draw(members, count, run->job->grammar->name, path, error);

@@ -72,24 +72,63 @@ static void write_title(const tn_explained *explained, tn_buffer *title)
                          explained->library->trays_min, explained->library->trays_max);
 }
 
+/* "nearest plans that are kept (there are others as near)" */
+static void write_near_title(const tn_explained *explained, tn_buffer *title)
+{
+    tn_buffer_printf(title,
+                     explained->near.count == 1 ? "the nearest plan that is kept" : "nearest plans that are kept");
+    if (explained->near.more)
+        tn_buffer_printf(title, " (there are others as near)");
+}
+
+/* The plans that are kept, each with how it differs. */
+static bool add_near(const tn_explained *explained, tn_drawn_plan *near)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < explained->near.count; i++) {
+        const tn_near_plan *plan = &explained->near.plans[i];
+        tn_buffer changes = {0};
+        ok = tn_words_changes(explained, plan, &changes);
+        near[i] = (tn_drawn_plan){.trays = plan->trays, .length = plan->length, .caption = changes.data};
+    }
+    return ok;
+}
+
+static void gathering_clear(gathering *g)
+{
+    for (size_t i = 0; i < g->count; i++) {
+        free((char *)(uintptr_t)g->reasons[i].text);
+        free((char *)(uintptr_t)g->reasons[i].evidence);
+    }
+    free(g->reasons);
+}
+
 tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture *to, tn_error *error)
 {
     gathering g = {0};
-    tn_buffer title = {0};
-    bool ok = true;
+    tn_buffer title = {0}, near_title = {0};
+    size_t near_count = explained->near_known ? explained->near.count : 0;
+    tn_drawn_plan *near = calloc(near_count + 1, sizeof *near);
+    bool ok = near && (near_count == 0 || add_near(explained, near));
     write_title(explained, &title);
+    write_near_title(explained, &near_title);
     for (size_t i = 0; ok && i < explained->count; i++)
         if (!explained->library || full || explained->rules[i].drops)
             ok = add_rule(&g, &explained->rules[i], full);
-    const tn_drawn_plan plan = {.trays = explained->trays, .length = explained->length};
-    tn_status status = ok && !title.failed
-                           ? tn_reasons_draw(explained->schema, &plan, g.reasons, g.count, title.data, to, error)
-                           : tn_fail_memory(error);
-    for (size_t i = 0; i < g.count; i++) {
-        free((char *)(uintptr_t)g.reasons[i].text);
-        free((char *)(uintptr_t)g.reasons[i].evidence);
-    }
-    free(g.reasons);
+    const tn_drawn_reasons drawn = {.title = title.data,
+                                    .plan = {.trays = explained->trays, .length = explained->length},
+                                    .reasons = g.reasons,
+                                    .count = g.count,
+                                    .near_title = near_title.data,
+                                    .near = near,
+                                    .near_count = near_count};
+    tn_status status = ok && !title.failed && !near_title.failed ? tn_reasons_draw(explained->schema, &drawn, to, error)
+                                                                 : tn_fail_memory(error);
+    for (size_t i = 0; near && i < near_count; i++)
+        free((char *)(uintptr_t)near[i].caption);
+    free(near);
+    gathering_clear(&g);
+    free(near_title.data);
     free(title.data);
     return status;
 }

@@ -179,8 +179,8 @@ tn_status tn_report_put_explained(tn_reporting *r, const tn_explained *explained
 tn_status tn_report_put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description)
 {
     tn_picture picture = tn_report_next_picture(r);
-    const tn_drawn_plan plan = {.trays = trays, .length = length};
-    tn_status status = tn_reasons_draw(r->ready->schema, &plan, NULL, 0, NULL, &picture, r->error);
+    const tn_drawn_reasons drawn = {.plan = {.trays = trays, .length = length}};
+    tn_status status = tn_reasons_draw(r->ready->schema, &drawn, &picture, r->error);
     return tn_report_put_picture(r, &picture, description, status);
 }
 

@@ -10,8 +10,8 @@
 #include "runtime/base/utf8.h"
 
 const tn_setting_row tn_setting_rows[TN_SETTING_COUNT] = {
-#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES)                                                     \
-    [TN_SET_##ID] = {NAME, TN_SETTING_##KIND, FIRST, SECOND, LOW, HIGH, CHOICES},
+#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE)                                                \
+    [TN_SET_##ID] = {NAME, TN_SETTING_##KIND, FIRST, SECOND, LOW, HIGH, CHOICES, TN_USE_##USE},
 #include "runtime/genome/settings.def"
 #undef SETTING
 };
@@ -35,6 +35,23 @@ void tn_evolution_study_default(tn_evolution_study *study)
         study->of[i].first = chooses ? 0 : row->first;
         study->of[i].second = row->second;
     }
+}
+
+tn_setting_use tn_evolution_study_use(const tn_evolution_study *study)
+{
+    return study->of[TN_SET_DESIGN].written   ? TN_USE_BOXES
+           : study->of[TN_SET_PARENT].written ? TN_USE_TREES
+                                              : TN_USE_CODONS;
+}
+
+bool tn_evolution_study_add(tn_evolution_study *study, tn_setting setting, const tn_setting_value *value)
+{
+    if (study->each_count == TN_EACH_MAX)
+        return false;
+    if (study->of[setting].written == 0)
+        study->of[setting] = *value;
+    study->each[study->each_count++] = (tn_setting_each){setting, *value};
+    return true;
 }
 
 /* ---- choices */
@@ -109,8 +126,22 @@ void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *val
         fputs("..", out);
         write_number(out, value->second);
         return;
+    case TN_SETTING_SPAN:
+        write_number(out, value->first);
+        fputs("..", out);
+        write_number(out, value->second);
+        return;
     case TN_SETTING_TEXT:
         write_quoted(out, value->text ? value->text : "");
+        return;
+    case TN_SETTING_EACH:
+        write_quoted(out, value->text ? value->text : "");
+        if (setting == TN_SET_FITNESS) {
+            fputs(" target ", out);
+            write_number(out, value->first);
+        }
+        fputs(" weight ", out);
+        write_number(out, value->second);
         return;
     case TN_SETTING_CHOICE:
     case TN_SETTING_CHOICE_REAL:
@@ -148,8 +179,13 @@ bool tn_setting_fits(tn_setting setting, const tn_setting_value *value)
     case TN_SETTING_PAIR:
         return one && whole_within(row, value->first) && whole_within(row, value->second) &&
                value->first <= value->second;
+    case TN_SETTING_SPAN:
+        return one && within(row, value->first) && within(row, value->second) && value->first <= value->second;
     case TN_SETTING_TEXT:
         return one && value->text && value->text[0];
+    case TN_SETTING_EACH:
+        return one && value->text && value->text[0] && within(row, value->second) &&
+               fabs(value->first) <= TN_COORDINATE_MAX && (setting == TN_SET_FITNESS || value->first == 0);
     case TN_SETTING_CHOICE:
         return one && value->choice < tn_setting_choice_count(row);
     case TN_SETTING_CHOICE_REAL:
@@ -194,7 +230,7 @@ static void find_problem(findings *f)
             find(f, starts[i], first, "a study has one problem, and this is another", "leave one of them out");
         first = first == TN_SETTING_COUNT ? starts[i] : first;
     }
-    if (first == TN_SETTING_COUNT)
+    if (first == TN_SETTING_COUNT && tn_evolution_study_use(f->study) == TN_USE_CODONS)
         find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what to evolve towards",
              "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, or "
              "`keep \"PLANS\"` with "
@@ -202,6 +238,27 @@ static void find_problem(findings *f)
     if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
         find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,
              "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
+}
+
+/* What is about other genomes than those that the study breeds: codons are the case where nothing else is said. */
+static void find_strangers(findings *f)
+{
+    tn_setting_use use = tn_evolution_study_use(f->study);
+    tn_setting breeds = use == TN_USE_BOXES ? TN_SET_DESIGN : use == TN_USE_TREES ? TN_SET_PARENT : TN_SET_GRAMMAR;
+    bool named = is_written(f, breeds);
+    for (tn_setting i = 0; i < TN_SETTING_COUNT && f->count < TN_SETTING_FAULTS_MAX; i++) {
+        if (!is_written(f, i) || (tn_setting_rows[i].use & use))
+            continue;
+        bool codons = tn_setting_rows[i].use == TN_USE_CODONS;
+        find(f, i, named ? breeds : TN_SETTING_COUNT,
+             codons                                   ? "this is about genomes that a grammar maps"
+             : tn_setting_rows[i].use == TN_USE_TREES ? "this is about fields, which are bred from parents"
+             : tn_setting_rows[i].use == TN_USE_BOXES ? "this is about designs of boxes"
+                                                      : "this is about fields and designs of boxes",
+             codons ? "leave it out; docs/evolution.md says which settings fields and designs have"
+             : tn_setting_rows[i].use == TN_USE_BOXES ? "name the design that is bred, as `design \"table.solid\"`"
+                                                      : "name a parent, as `parent \"sphere\"`");
+    }
 }
 
 static void find_selection(findings *f)
@@ -232,7 +289,8 @@ size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fau
 {
     findings f = {study, faults, 0};
     const tn_setting_value *of = study->of;
-    if (!is_written(&f, TN_SET_GRAMMAR))
+    find_strangers(&f);
+    if (!is_written(&f, TN_SET_GRAMMAR) && tn_evolution_study_use(study) == TN_USE_CODONS)
         find(&f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say which grammar genomes are mapped through",
              "add a line such as `grammar \"words\"`");
     find_problem(&f);
@@ -253,9 +311,13 @@ bool tn_evolution_study_of(const tn_module *module, tn_evolution_study *study)
     tn_evolution_study_default(study);
     for (size_t i = 0; i < module->SETTING_count; i++) {
         const tn_setting_record *r = &module->SETTING_records[i];
-        study->of[r->setting] =
-            (tn_setting_value){r->written, r->choice, r->first, r->second, r->text ? tn_text(module, r->text) : NULL,
-                               r->file,    r->begin,  r->end};
+        const tn_setting_value value = {
+            r->written, r->choice, r->first, r->second, r->text ? tn_text(module, r->text) : NULL,
+            r->file,    r->begin,  r->end};
+        if (tn_setting_rows[r->setting].kind == TN_SETTING_EACH)
+            tn_evolution_study_add(study, (tn_setting)r->setting, &value);
+        else
+            study->of[r->setting] = value;
     }
     return module->SETTING_count > 0;
 }

@@ -9,7 +9,7 @@
 #include "runtime/module/module.h"
 
 typedef enum tn_setting {
-#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES) TN_SET_##ID,
+#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE) TN_SET_##ID,
 #include "runtime/genome/settings.def"
 #undef SETTING
     TN_SETTING_COUNT
@@ -21,8 +21,19 @@ typedef enum tn_setting_kind {
     TN_SETTING_PAIR,
     TN_SETTING_TEXT,
     TN_SETTING_CHOICE,
-    TN_SETTING_CHOICE_REAL
+    TN_SETTING_CHOICE_REAL,
+    TN_SETTING_SPAN,
+    TN_SETTING_EACH
 } tn_setting_kind;
+
+/* Which genomes a setting is about; and, of a study, which it breeds: one of the first three. */
+typedef enum tn_setting_use {
+    TN_USE_CODONS = 1,
+    TN_USE_TREES = 2,
+    TN_USE_BOXES = 4,
+    TN_USE_FORMS = TN_USE_TREES | TN_USE_BOXES,
+    TN_USE_ANY = TN_USE_CODONS | TN_USE_FORMS
+} tn_setting_use;
 
 typedef struct tn_setting_row {
     const char *name;
@@ -30,6 +41,7 @@ typedef struct tn_setting_row {
     double first, second; /* defaults */
     double low, high;
     const char *choices; /* "a|b|c" */
+    tn_setting_use use;
 } tn_setting_row;
 
 extern const tn_setting_row tn_setting_rows[TN_SETTING_COUNT];
@@ -42,10 +54,26 @@ typedef struct tn_setting_value {
     uint32_t file, begin, end;
 } tn_setting_value;
 
-/* One of each, the defaults where nothing is written. */
+#define TN_EACH_MAX 64u /* settings that may be there more than once, in all */
+
+typedef struct tn_setting_each {
+    tn_setting setting;
+    tn_setting_value value;
+} tn_setting_each;
+
+/* One of each, the defaults where nothing is written. What may be there more than once is listed behind it, in the
+ * order in which it is written; its first is also the one of its setting. */
 typedef struct tn_evolution_study {
     tn_setting_value of[TN_SETTING_COUNT];
+    tn_setting_each each[TN_EACH_MAX];
+    uint32_t each_count;
 } tn_evolution_study;
+
+/* Which genomes a study breeds. */
+tn_setting_use tn_evolution_study_use(const tn_evolution_study *study);
+
+/* Adds one of those that may be there more than once; false where there are too many. */
+bool tn_evolution_study_add(tn_evolution_study *study, tn_setting setting, const tn_setting_value *value);
 
 void tn_evolution_study_default(tn_evolution_study *study);
 

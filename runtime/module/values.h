@@ -32,7 +32,10 @@ typedef enum tn_field_role {
     TN_ROLE_LEVEL,  /* the n-th value has n levels */
     TN_ROLE_PUBLIC_END,
     TN_ROLE_GREAT_HALL,
-    TN_ROLE_BAND, /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_ROLE_BAND,  /* a zone drawn as a band; bands lie in schema order, top to bottom */
+    TN_ROLE_TEXT,  /* written large in the tray: what it is for */
+    TN_ROLE_TONE,  /* each value colours the tray in a tone of its own */
+    TN_ROLE_HATCH, /* each value but the first hatches it in a way of its own */
     TN_FIELD_ROLE_COUNT
 } tn_field_role;
 
@@ -232,7 +235,7 @@ typedef enum tn_axis {
 
 /* ---- solids */
 
-#define TN_SOLID_COORDINATE_MAX 1e9 /* of a box's faces and sizes */
+#define TN_SOLID_COORDINATE_MAX 1e9  /* of a box's faces and sizes */
 #define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
 
 /* Flags of a design. */

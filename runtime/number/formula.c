@@ -5,6 +5,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
+#include "runtime/module/code.h"
 
 enum { NUMBER_SIZE = 9, INDEX_SIZE = 5, PLAIN_SIZE = 1 }; /* bytes of an instruction: opcodes.def */
 
@@ -127,4 +128,16 @@ bool tn_formula_is_constant(const tn_formula *formula, double *number)
         return false;
     *number = tn_double_of(tn_get_u64(formula->code + 1));
     return true;
+}
+
+uint64_t tn_formula_terms(const tn_formula *formula)
+{
+    uint64_t terms = 0;
+    for (uint32_t offset = 0; offset < formula->size;) {
+        tn_instruction instruction = tn_code_read(formula->code, offset);
+        if (instruction.opcode == TN_OP_TERM && instruction.first < 64)
+            terms |= UINT64_C(1) << instruction.first;
+        offset += instruction.length;
+    }
+    return terms;
 }

@@ -40,6 +40,9 @@ void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh);
 /* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
 tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 
+/* The terms that it asks for, of the first 64: bit i is that of term i. It has been ended. */
+uint64_t tn_formula_terms(const tn_formula *formula);
+
 /* Is all of it one number? It has been ended. */
 bool tn_formula_is_constant(const tn_formula *formula, double *number);
 

@@ -1,6 +1,7 @@
 /* Pictures of faces in space in a build without the part `draw`: there are none. */
 #include "runtime/base/part.h"
 #include "runtime/scene/draw_mesh.h"
+#include "runtime/scene/draw_meshes.h"
 
 tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error)
 {
@@ -48,5 +49,12 @@ tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_optio
 tn_status tn_mesh_draw(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
 {
     (void)mesh, (void)picture, (void)to;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a mesh", error);
+}
+
+tn_status tn_meshes_draw(const tn_mesh *const *meshes, size_t count, const tn_meshes_picture *picture, tn_picture *to,
+                         tn_error *error)
+{
+    (void)meshes, (void)count, (void)picture, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a mesh", error);
 }

@@ -40,6 +40,26 @@ PYTHON
 [ "$pages" -gt 3 ] || fail "four hundred plans are on $pages pages"
 "$TARTAN" draw "$rows" --sample 3 --columns 1 --scale 100 --paper a2 --dpi 40 --title 'Three' -o "$scratch/options.png"
 
+# What a tray is for has a tone of its own, with roles and without; a tray without zones is dashed.
+# tones SVG: how many colours other than black, white and grey the fills have.
+tones() {
+    python3 - "$1" <<'PYTHON'
+import re, sys
+fills = set(re.findall(r'fill(?:="|:)rgb\(([^)]*)%\)', open(sys.argv[1]).read()))
+shades = [[float(x.strip(" %")) for x in f.split(",")] for f in fills]
+print(sum(max(s) - min(s) > 4 for s in shades))
+PYTHON
+}
+printf '2m %s north - open:1m none | 2m %s south water none none\n' fish meat flowers nothing >"$scratch/stalls.plans"
+"$TARTAN" draw "$files/stalls.plan" "$scratch/stalls.plans" -o "$scratch/stalls.svg"
+is 'tones of the trades and of the legend' "$(tones "$scratch/stalls.svg")" 5
+grep -q 'stroke-dasharray[=:]"*2.5' "$scratch/stalls.svg" || fail 'a tray without zones is not there'
+sed -E 's/ role [a-z]+//' "$files/stalls.plan" | sed -E 's/ role [a-z]+//g' >"$scratch/bare.plan"
+"$TARTAN" draw "$scratch/bare.plan" "$scratch/stalls.plans" -o "$scratch/bare.svg"
+is 'tones without roles' "$(tones "$scratch/bare.svg")" 5
+"$TARTAN" draw lahave-houses --sample 2 -o "$scratch/plain.svg"
+is 'tones where nothing is chosen by name' "$(tones "$scratch/plain.svg")" 0
+
 golden too_many_plans "tartan draw rows.plan --sample 60 --max-plans 50 -o $scratch/x.svg"
 golden too_many_pixels "tartan draw rows.plan --sample 60 --dpi 2400 -o $scratch/x.png"
 golden unknown_paper "tartan draw rows.plan --sample 6 --paper a9 -o $scratch/x.png"

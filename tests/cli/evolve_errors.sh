@@ -32,6 +32,23 @@ study goals '  grammar "boxes"; build "plain.solid"'
 printf 'solid plain { box all from (0, 0, 0) to (1, 1, 1); }\n' >plain.solid
 study designs '  grammar "boxes"; build "designs.solid"'
 printf 'solid one { box all from (0, 0, 0) to (1, 1, 1); }\nsolid two { box all from (0, 0, 0) to (1, 1, 1); }\n' >designs.solid
+study stranger '  parent "sphere"; crossover subtree 0.5'
+study parent '  parent "spere"'
+study weight '  parent "sphere" weight 2'
+study distance '  parent "far.field"'
+printf 'surface far = distance("hull.obj") - 1\n' >far.field
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >hull.obj
+study surface '  parent "two.field:thre"'
+printf 'surface one = x\nsurface three = y\nbox (-1, -1, -1)..(1, 1, 1)\n' >two.field
+study measure '  parent "sphere"; fitness volme target 3'
+study wish '  parent "sphere"; fitness volume 3'
+study like '  parent "sphere"; likeness "none.obj"'
+study box '  parent "sphere"; fitness volume target 3; box "(1, 2, 3)"'
+study goalless '  parent "sphere"'
+study many '  parent "sphere"; parent "torus"; parent "heart"; population 2'
+for wrong in stranger parent weight distance surface measure wish like box goalless many; do
+    golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
+done
 for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing build goals designs; do
     golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
 done

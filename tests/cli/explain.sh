@@ -46,4 +46,15 @@ exits 2 "$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds -o "
 [ -s "$scratch/near" ] || fail 'no nearest plans'
 is 'nearest plans that are not kept' "$("$TARTAN" prune "$files/sheds.plan" "$scratch/near" --library sheds | wc -l)" \
     "$(wc -l <"$scratch/near")"
+
+# In a picture what condemns is red, and the nearest plans that are kept stand below: without them it is lower.
+if "$TARTAN" draw "$files/rows.plan" --sample 1 -o "$scratch/any.svg" 2>/dev/null; then
+    plan='2m fish north - open:1m none | 2m fruit north - open:1m none | 2m nothing north - none none'
+    "$TARTAN" explain "$files/stalls.plan" "$plan" -o "$scratch/near.svg"
+    "$TARTAN" explain "$files/stalls.plan" "$plan" --nearest 0 -o "$scratch/alone.svg"
+    height() { sed -n 's/.*<svg[^>]* height="\([0-9]*\).*/\1/p' "$1" | head -1; }
+    [ "$(height "$scratch/near.svg")" -gt "$(($(height "$scratch/alone.svg") + 100))" ] || fail 'the nearest plans are not drawn'
+    grep -q 'rgb(78[.0-9]*%, *20[.0-9]*%, *17' "$scratch/alone.svg" || fail 'what condemns is not red'
+    grep -q 'rgb(36[.0-9]*%, *66[.0-9]*%, *38' "$scratch/alone.svg" && fail 'what condemns is green'
+fi
 finish

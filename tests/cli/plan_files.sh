@@ -91,4 +91,60 @@ for format in lines json csv bin sqlite; do
         "$TARTAN" match "$files/sheds.plan" --format bits <"$scratch/all.$format" | cmp -s - "$scratch/bits" ||
         fail "match reads $format otherwise from standard input"
 done
+
+# With --columns a row is a tray: what is written so is read again, at any spelling of the cells.
+"$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --format csv --columns -o "$scratch/columns.csv"
+"$TARTAN" match "$files/sheds.plan" "$scratch/columns.csv" --format bits | cmp -s - "$scratch/bits" || fail 'match reads columns otherwise'
+"$TARTAN" prune "$files/sheds.plan" -l sheds - <"$scratch/columns.csv" | cmp -s "$scratch/kept.lines" - || fail 'prune reads columns otherwise'
+python3 - "$scratch/columns.csv" >"$scratch/turned.csv" <<'PY'
+import csv, sys
+rows = list(csv.reader(open(sys.argv[1])))
+writer = csv.writer(sys.stdout, quoting=csv.QUOTE_ALL, lineterminator="\r\n")
+for row in rows: # the columns turned round, one more among them, and all in quotes
+    writer.writerow(row[::-1] + ["more"])
+PY
+"$TARTAN" prune "$files/sheds.plan" -l sheds "$scratch/turned.csv" | cmp -s "$scratch/kept.lines" - || fail 'turned columns are read otherwise'
+"$TARTAN" enumerate lahave-houses --limit 3000 --format csv --columns --csv-safe |
+    "$TARTAN" prune lahave-houses - | cmp -s - <("$TARTAN" enumerate lahave-houses --limit 3000) || fail 'houses are read otherwise'
+cat >"$scratch/wrong.csv" <<'CSV'
+tray,width,door,rank,more
+1,3m,-,7,x
+2,3m,dor,7,x
+3,3m,-,7,x
+
+1,3m,,8
+2,"3m",door,8
+4,3m,-,8
+1,3000mm,-,9
+x,3m,-,10
+0,,,12
+2,3m,-,13
+1,"3m,-,11
+1,6m,door,14
+2,3m,-,14
+CSV
+golden columns "$match/wrong.csv $skip"
+printf 'tray,widht,door\n1,6m,-\n' >"$scratch/misspelled.csv"
+golden columns_misspelled "$match/misspelled.csv"
+printf 'tray,width,door\n1,6m,door\n2,3m,-\n3,3m,-\n' >"$scratch/long.csv"
+golden columns_too_long "$match/long.csv --max-length 2 $skip"
+golden columns_of_lines 'tartan enumerate sheds.plan -l sheds --columns'
+
+# A database with columns answers questions in SQL; it goes on, and is read, as one without.
+"$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --columns -o "$scratch/columns.sqlite"
+"$TARTAN" match "$files/sheds.plan" "$scratch/columns.sqlite" --format bits | cmp -s - "$scratch/bits" || fail 'match reads a database with columns otherwise'
+is 'the trays of a database' "$(sqlite3 "$scratch/columns.sqlite" 'SELECT count(*) FROM trays')" "$(sqlite3 "$scratch/columns.sqlite" 'SELECT sum(length) FROM plans')"
+is 'their lengths' "$(sqlite3 "$scratch/columns.sqlite" 'SELECT count(*) FROM plans WHERE width_total != 1e6 * coalesce((SELECT sum(width_mm) FROM trays WHERE trays.number = plans.number), 0)')" 0
+is 'their doors' "$(sqlite3 "$scratch/columns.sqlite" "SELECT group_concat(CASE door WHEN 1 THEN 'door' ELSE '-' END, ' ') FROM (SELECT * FROM trays ORDER BY number, tray)")" \
+    "$(sqlite3 "$scratch/columns.sqlite" 'SELECT plan FROM plans ORDER BY number' | tr '|' '\n' | awk 'NF { printf "%s%s", sep, $2; sep = " " }')"
+sqlite3 "$scratch/columns.sqlite" "EXPLAIN QUERY PLAN SELECT number FROM trays WHERE width = '3m'" | grep -q 'USING.*INDEX trays_width' || fail 'a question does not use the index'
+"$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --columns -o "$scratch/part.sqlite" --limit 2
+"$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --columns -o "$scratch/part.sqlite" --resume 2>"$scratch/said"
+is 'the trays of a database that was gone on with' "$(sqlite3 "$scratch/part.sqlite" 'SELECT * FROM trays' | sum)" "$(sqlite3 "$scratch/columns.sqlite" 'SELECT * FROM trays' | sum)"
+golden columns_resumed_without "tartan enumerate sheds.plan -l any-sheds -o $scratch/part.sqlite --resume"
+printf 'schema s { number = 1m | 2m  Tray = a | b  tray = c | d }\nlibrary l using s { trays 1 }\n' >"$scratch/names.plan"
+exits 0 "$TARTAN" enumerate "$scratch/names.plan" --columns -o "$scratch/names.sqlite"
+is 'columns of taken names' "$(sqlite3 "$scratch/names.sqlite" "SELECT group_concat(name, ' ') FROM pragma_table_info('trays')")" 'number tray number_2 number_mm Tray_2 tray_3'
+exits 0 "$TARTAN" enumerate "$scratch/names.plan" --columns --format csv -o "$scratch/names.csv"
+"$TARTAN" prune "$scratch/names.plan" "$scratch/names.csv" | cmp -s - <("$TARTAN" enumerate "$scratch/names.plan") || fail 'a field called tray is read otherwise'
 finish

@@ -131,11 +131,17 @@ static bool is_modest(const tn_evolution_settings *settings)
            settings->depth_high <= 30 && settings->tail < 10;
 }
 
-/* Studies that name files of this machine are left alone. */
+/* Studies that name files of this machine are left alone, but for primitives on a coarse grid. */
 static bool names_files(const tn_evolution_study *study)
 {
+    for (uint32_t i = 0; i < study->each_count; i++)
+        if (study->each[i].setting == TN_SET_LIKENESS ||
+            (study->each[i].setting == TN_SET_PARENT && strpbrk(study->each[i].value.text, "./")))
+            return true;
+    if (study->each_count && study->of[TN_SET_GRID].first > 12)
+        return true;
     for (tn_setting i = 0; i < TN_SETTING_COUNT; i++)
-        if (tn_setting_rows[i].kind == TN_SETTING_TEXT && i != TN_SET_MATCH && study->of[i].written)
+        if (tn_setting_rows[i].kind == TN_SETTING_TEXT && i != TN_SET_MATCH && i != TN_SET_BOX && study->of[i].written)
             return true;
     return false;
 }
@@ -144,11 +150,11 @@ static void breed_study(const tn_module *module, const tn_evolution_study *study
 {
     tn_evolution_job job;
     tn_evolution_job_options options = {.threads = 1};
-    if (!names_files(study) && tn_evolution_job_make(study, "fuzz.study", module, &options, &job, NULL) == TN_OK) {
-        if (is_modest(&job.settings))
-            breed(job.grammar, &job.settings, &job.evaluator);
-        tn_evolution_job_clear(&job);
-    }
+    if (names_files(study))
+        return;
+    if (tn_evolution_job_make(study, "fuzz.study", module, &options, &job, NULL) == TN_OK && is_modest(&job.settings))
+        breed(job.grammar, &job.settings, &job.evaluator);
+    tn_evolution_job_clear(&job);
 }
 
 static void breed_grammar(const tn_module *module)
@@ -180,7 +186,7 @@ void fuzz_genome(const tn_module *module)
     bool has_study = tn_evolution_study_of(module, &study);
     if (has_study && tn_evolution_study_faults(&study, faults) > 0)
         fuzz_broken("a study that contradicts itself is loaded");
-    if (has_study && module->GRAMMAR_count > 0)
+    if (has_study)
         breed_study(module, &study);
     else if (module->GRAMMAR_count > 0)
         breed_grammar(module);

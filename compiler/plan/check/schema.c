@@ -34,7 +34,8 @@ static bool name_is_good(tn_check *check, tn_checked_schema *schema, const tn_as
 
 /* ---- roles */
 
-static const char *const field_roles[] = {"none", "length", "level", "public-end", "great-hall", "band"};
+static const char *const field_roles[] = {"none", "length", "level", "public-end", "great-hall",
+                                          "band", "text",   "tone",  "hatch"};
 static const char *const fill_roles[] = {"none", "solid", "void", "absent"};
 
 /* The number of a role's name; 0 where there is none: then reported, with the roles that there are. */
@@ -83,6 +84,9 @@ static void check_field_role(tn_check *check, tn_checked_field *field)
         [TN_ROLE_PUBLIC_END] = {TN_FIELD_FLAG, "`role public-end` is for a flag"},
         [TN_ROLE_GREAT_HALL] = {TN_FIELD_FLAG, "`role great-hall` is for a flag"},
         [TN_ROLE_BAND] = {TN_FIELD_ZONE, "`role band` is for a zone"},
+        [TN_ROLE_TEXT] = {TN_FIELD_CHOICE, "`role text` is for a field whose values are names"},
+        [TN_ROLE_TONE] = {TN_FIELD_CHOICE, "`role tone` is for a field whose values are names"},
+        [TN_ROLE_HATCH] = {TN_FIELD_CHOICE, "`role hatch` is for a field whose values are names"},
     };
     if (number > 0 && needs[number].kind != field->kind)
         misplaced_role(check, role, needs[number].needs);

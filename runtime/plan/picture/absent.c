@@ -25,10 +25,9 @@ tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, siz
     return tn_part_absent(TN_WITH_DRAW, "drawing rules", error);
 }
 
-tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, tn_picture *to, tn_error *error)
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_reasons *drawn, tn_picture *to, tn_error *error)
 {
-    (void)schema, (void)plan, (void)reasons, (void)count, (void)title, (void)to;
+    (void)schema, (void)drawn, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing an explanation", error);
 }
 

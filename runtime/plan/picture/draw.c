@@ -126,14 +126,29 @@ static bool is_metric(const drawing *d)
     return d->roles.style != TN_STYLE_FEET;
 }
 
-/* The smallest scale 1:n at which each tray's length can be written along it. */
+/* How wide the widest name of what a tray is for is. */
+static double widest_text(const drawing *d, cairo_t *context)
+{
+    const tn_schema *schema = d->roles.schema;
+    uint32_t field = d->roles.text;
+    double widest = 0;
+    tn_type_face(context, TN_INSIDE_LEAST, true);
+    for (uint32_t v = 0; field != TN_NO_FIELD && v < schema->fields[field].value_count; v++)
+        widest = fmax(widest, tn_type_width(context, tn_text(schema->module,
+                                                             schema->values[schema->value_start[field] + v].spelling)) +
+                                  LEGIBLE_ROOM / 2);
+    return widest;
+}
+
+/* The smallest scale 1:n at which each tray's length, and what it is for, can be written along it. */
 static double legible_scale(const drawing *d, cairo_t *context)
 {
     const tn_schema *schema = d->roles.schema;
-    double most = 1e9;
+    double most = 1e9, text = widest_text(d, context);
     tn_type_face(context, LEGIBLE_SIZE, false);
     for (uint32_t v = schema->value_start[d->roles.length]; v < schema->value_start[d->roles.length + 1]; v++) {
-        double width = tn_type_width(context, tn_text(schema->module, schema->values[v].name)) + LEGIBLE_ROOM;
+        double width =
+            fmax(text, tn_type_width(context, tn_text(schema->module, schema->values[v].name)) + LEGIBLE_ROOM);
         if (schema->values[v].length > 0)
             most = fmin(most, (double)schema->values[v].length * TN_POINTS_PER_NM / width);
     }

@@ -23,6 +23,7 @@
 #define TRAY_MIN 14.0    /* the narrowest tray, in points: marks stay visible */
 #define PLAN_WIDTH 420.0 /* about how wide the plan is */
 #define BAR_INSET 1.6
+#define CAPTION_ROOM 12.0 /* above a plan to compare with */
 
 static const double green[3] = {0.36, 0.66, 0.38}, pale[3] = {0.80, 0.91, 0.80}, red[3] = {0.78, 0.20, 0.17},
                     rose[3] = {0.96, 0.80, 0.78}, grey[3] = {0.62, 0.62, 0.62};
@@ -37,6 +38,7 @@ static const double *colour_of(const tn_drawn_reason *reason, bool matched)
 typedef struct picture {
     cairo_t *context;
     const tn_schema *schema;
+    const tn_drawn_reasons *drawn;
     const tn_drawn_plan *plan;
     const char *title;
     tn_draw_roles roles;
@@ -68,6 +70,8 @@ static void measure_to_scale(picture *p)
         narrowest = length > 0 && length < narrowest ? length : narrowest;
     }
     tn_draw_measure(&p->roles, p->plan, &p->extent);
+    for (size_t i = 0; i < p->drawn->near_count; i++)
+        tn_draw_measure(&p->roles, &p->drawn->near[i], &p->extent);
     p->scale = p->extent.width > 0 ? PLAN_WIDTH / p->extent.width : 1e-9;
     p->scale = fmin(p->scale, 72.0 / 3657600000.0 * 1.2); /* a 12' tray is at most 1.2 inches */
     if (narrowest != INT64_MAX)
@@ -75,6 +79,15 @@ static void measure_to_scale(picture *p)
     p->plan_width = fmax(p->extent.width * p->scale, 40);
     p->plan_height =
         (p->extent.above + p->extent.below) * p->scale + tn_draw_dimension_room(&p->extent) + 2 * TN_MARK_ROOM;
+}
+
+/* The most trays of any plan of the picture. */
+static size_t longest(const picture *p)
+{
+    size_t most = p->plan->length;
+    for (size_t i = 0; i < p->drawn->near_count; i++)
+        most = p->drawn->near[i].length > most ? p->drawn->near[i].length : most;
+    return most;
 }
 
 static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
@@ -85,7 +98,7 @@ static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
         measure_to_scale(p);
     } else {
         tn_draw_table_measure(context, &p->roles, &p->table);
-        p->plan_width = fmax(p->table.box_width * (double)p->plan->length, 40);
+        p->plan_width = fmax(p->table.box_width * (double)longest(p), 40);
         p->plan_height = tn_draw_table_height(&p->table, &p->roles) + GAP;
     }
     cairo_destroy(context);
@@ -97,17 +110,18 @@ static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
     p->height = 2 * p->margin + (p->title ? TITLE_ROOM : 0) + p->plan_height;
     for (size_t i = 0; i < count; i++)
         p->height += ROW_HEIGHT + (reasons[i].depth == 0 ? RULE_ROOM : 0);
+    if (p->drawn->near_count > 0)
+        p->height += TITLE_ROOM + 2 * RULE_ROOM + (CAPTION_ROOM + p->plan_height) * (double)p->drawn->near_count;
 }
 
-static void draw_plan(const picture *p, double y)
+static void draw_plan(const picture *p, const tn_drawn_plan *plan, double y)
 {
     if (!p->roles.to_scale) {
-        tn_draw_table_plan(p->context, &p->roles, &p->table, p->plan, p->left - p->table.name_width, y);
+        tn_draw_table_plan(p->context, &p->roles, &p->table, plan, p->left - p->table.name_width, y);
         return;
     }
     double spine = y + TN_MARK_ROOM + p->extent.above * p->scale;
-    tn_draw_plan(p->context, &p->roles, p->plan, p->scale, p->left, spine, spine + p->extent.below * p->scale,
-                 &p->extent);
+    tn_draw_plan(p->context, &p->roles, plan, p->scale, p->left, spine, spine + p->extent.below * p->scale, &p->extent);
 }
 
 static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
@@ -214,6 +228,25 @@ static void draw_grid(const picture *p, double from, double to)
     cairo_set_source_rgb(p->context, 0, 0, 0);
 }
 
+static void draw_near(const picture *p, double y)
+{
+    if (p->drawn->near_count == 0)
+        return;
+    y += 2 * RULE_ROOM;
+    tn_type_face(p->context, TITLE_SIZE, true);
+    tn_type_fit(p->context, p->margin, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * p->margin, p->drawn->near_title);
+    y += TITLE_ROOM;
+    for (size_t i = 0; i < p->drawn->near_count; i++) {
+        const tn_drawn_plan *plan = &p->drawn->near[i];
+        tn_type_face(p->context, RULE_SIZE, false);
+        if (plan->caption)
+            tn_type_fit(p->context, p->left, y + RULE_SIZE, TN_ALIGN_LEFT, p->width - p->margin - p->left,
+                        plan->caption);
+        draw_plan(p, plan, y + CAPTION_ROOM);
+        y += CAPTION_ROOM + p->plan_height;
+    }
+}
+
 static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t count)
 {
     double y = p->margin;
@@ -222,7 +255,7 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
         tn_type_fit(p->context, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
         y += TITLE_ROOM;
     }
-    draw_plan(p, y);
+    draw_plan(p, p->plan, y);
     y += p->plan_height;
     for (size_t i = 0; i < count; i++) {
         if (reasons[i].depth == 0) {
@@ -234,22 +267,22 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
         }
         y += ROW_HEIGHT;
     }
+    draw_near(p, y);
 }
 
-tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, tn_picture *to, tn_error *error)
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_reasons *drawn, tn_picture *to, tn_error *error)
 {
-    picture p = {.schema = schema, .plan = plan, .title = title};
+    picture p = {.schema = schema, .drawn = drawn, .plan = &drawn->plan, .title = drawn->title};
     tn_canvas *canvas = NULL;
-    if (count > TN_DRAW_REASONS_MAX)
-        return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u", count,
-                       TN_DRAW_REASONS_MAX);
+    if (drawn->count > TN_DRAW_REASONS_MAX)
+        return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u",
+                       drawn->count, TN_DRAW_REASONS_MAX);
     tn_draw_roles_find(schema, &p.roles);
-    measure(&p, reasons, count);
-    tn_status status = tn_canvas_begin(to, p.width, p.height, title, &canvas, error);
+    measure(&p, drawn->reasons, drawn->count);
+    tn_status status = tn_canvas_begin(to, p.width, p.height, drawn->title, &canvas, error);
     if (status == TN_OK) {
         p.context = tn_canvas_context(canvas);
-        draw_all(&p, reasons, count);
+        draw_all(&p, drawn->reasons, drawn->count);
         status = tn_canvas_commit(canvas, error);
     }
     tn_canvas_free(canvas);

@@ -23,8 +23,18 @@ typedef struct tn_drawn_reason {
 /* The most rows of a picture (E0820 past it). */
 #define TN_DRAW_REASONS_MAX 2000u
 
-/* title may be NULL. Errors as in tn_plans_draw. */
-tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_plan *plan, const tn_drawn_reason *reasons,
-                          size_t count, const char *title, tn_picture *to, tn_error *error);
+/* A plan, why it is as it is, and perhaps plans to compare it with, each under its caption. */
+typedef struct tn_drawn_reasons {
+    const char *title; /* or NULL */
+    tn_drawn_plan plan;
+    const tn_drawn_reason *reasons;
+    size_t count;
+    const char *near_title;
+    const tn_drawn_plan *near;
+    size_t near_count;
+} tn_drawn_reasons;
+
+/* Errors as in tn_plans_draw. */
+tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_reasons *drawn, tn_picture *to, tn_error *error);
 
 #endif

@@ -21,6 +21,7 @@ typedef struct tn_draw_roles {
     const tn_schema *schema;
     bool to_scale;                                  /* it has a length and at least one band */
     uint32_t length, level, public_end, great_hall; /* fields, or TN_NO_FIELD */
+    uint32_t text, tone, hatch;                     /* the same: without such roles the first choice is text and tone */
     uint32_t bands[TN_BANDS_MAX];                   /* fields, top to bottom */
     uint32_t band_count;
     uint32_t spine; /* index into bands */
@@ -55,7 +56,24 @@ void tn_draw_plan(cairo_t *context, const tn_draw_roles *roles, const tn_drawn_p
                   double y, double bottom, const tn_draw_extent *extent);
 
 /* The pieces of it that the legend shows too. */
-void tn_draw_fill(cairo_t *context, tn_fill_role role, double x, double y, double width, double height);
+
+/* A fill of a band: VALUE record `value`. Fills of one role but of different names are told apart. */
+void tn_draw_fill(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+                  double height);
+
+/* The colour of the tray's value in the field of role tone, and the lines of that in the field of role hatch; nothing
+ * where the schema has no such field. `value`: counted from the field's first. */
+void tn_draw_tone(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+                  double height);
+void tn_draw_hatch(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+                   double height);
+
+/* Sets the text in the middle of the rectangle, upright where that is the only way that it fits; on a pale ground where
+ * that is `hatched`. */
+#define TN_INSIDE_SIZE 7.0  /* in a tray */
+#define TN_INSIDE_LEAST 4.6 /* where that does not fit */
+void tn_draw_inside(cairo_t *context, const char *text, double size, bool hatched, double x, double y, double width,
+                    double height);
 void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height);
 void tn_draw_hall_mark(cairo_t *context, double x, double y, double radius);
 void tn_draw_public_mark(cairo_t *context, double x, double y, double dx,
@@ -65,6 +83,7 @@ void tn_draw_public_mark(cairo_t *context, double x, double y, double dx,
 typedef struct tn_draw_table {
     double name_width; /* of the column of field names */
     double box_width, row_height;
+    double head_height; /* of the row of the field of role text, on top; 0: there is none */
 } tn_draw_table;
 
 void tn_draw_table_measure(cairo_t *context, const tn_draw_roles *roles, tn_draw_table *table);

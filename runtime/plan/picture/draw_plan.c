@@ -9,14 +9,14 @@
 #define WRITTEN_SIZE 4.6
 #define WRITTEN_MIN 10.0 /* a tray narrower than this has no room for words */
 #define WRITTEN_LEADING 5.8
-#define HATCH_SPACING 2.8
+
 #define DIMENSION_GAP 11.0 /* from the plan to the line that measures trays */
 #define OVERALL_GAP 10.5   /* from there to the line that measures the whole */
 
 /* A band of one tray, in points. */
 typedef struct rectangle {
     double x, y, width, height;
-    tn_fill_role role;
+    uint32_t value; /* VALUE record */
 } rectangle;
 
 /* The plan being drawn. */
@@ -43,10 +43,23 @@ static bool is_set(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
     return field != TN_NO_FIELD && tn_tray_value(roles->schema, tray, field) == 1;
 }
 
-/* Is there something to write about this field's value? The first value goes without saying. */
+/* Is this field's value written below the tray? A flag only where it is set. */
 static bool is_worth_writing(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
 {
-    return tn_draw_written(roles, field) && tn_tray_value(roles->schema, tray, field) != 0;
+    return tn_draw_written(roles, field) && field != roles->text &&
+           (roles->schema->fields[field].kind != TN_FIELD_FLAG || is_set(roles, tray, field));
+}
+
+/* A tray without bands still has a place: as deep as the shallowest spine. */
+static int64_t bare_depth(const tn_draw_roles *roles)
+{
+    const tn_schema *schema = roles->schema;
+    int64_t least = 0;
+    uint32_t field = roles->bands[roles->spine];
+    for (uint32_t v = schema->value_start[field]; v < schema->value_start[field + 1]; v++)
+        if (schema->values[v].length > 0 && (least == 0 || schema->values[v].length < least))
+            least = schema->values[v].length;
+    return least > 0 ? least : INT64_C(1000000000);
 }
 
 void tn_draw_measure(const tn_draw_roles *roles, const tn_drawn_plan *plan, tn_draw_extent *extent)
@@ -59,6 +72,8 @@ void tn_draw_measure(const tn_draw_roles *roles, const tn_drawn_plan *plan, tn_d
         width += (double)value_of(roles, tray, roles->length)->length;
         for (uint32_t b = 0; b < roles->band_count; b++)
             *(b < roles->spine ? &above : &below) += (double)depth_of(roles, tray, b);
+        if (above + below <= 0)
+            below = (double)bare_depth(roles);
         for (uint32_t f = 0; f < roles->schema->field_count; f++)
             lines += is_worth_writing(roles, tray, f);
         extent->above = fmax(extent->above, above);
@@ -74,30 +89,6 @@ double tn_draw_dimension_room(const tn_draw_extent *extent)
 {
     return DIMENSION_GAP + OVERALL_GAP + extent->written_lines * WRITTEN_LEADING +
            (extent->mark_below ? TN_MARK_ROOM : 0) + 4;
-}
-
-/* Lines at 45 degrees, x + y = a multiple of the spacing, so that the hatches of neighbours meet. */
-static void hatch(cairo_t *context, double x, double y, double width, double height)
-{
-    for (double sum = ceil((x + y) / HATCH_SPACING) * HATCH_SPACING; sum < x + y + width + height;
-         sum += HATCH_SPACING) {
-        double from = fmax(x, sum - y - height), to = fmin(x + width, sum - y);
-        if (to - from < 0.01)
-            continue;
-        cairo_move_to(context, from, sum - from);
-        cairo_line_to(context, to, sum - to);
-    }
-    cairo_set_line_width(context, TN_LINE_HAIR + 0.08);
-    cairo_stroke(context);
-}
-
-void tn_draw_fill(cairo_t *context, tn_fill_role role, double x, double y, double width, double height)
-{
-    if (role == TN_FILL_SOLID)
-        hatch(context, x, y, width, height);
-    cairo_rectangle(context, x, y, width, height);
-    cairo_set_line_width(context, role == TN_FILL_SOLID ? TN_LINE_EDGE : TN_LINE_HAIR);
-    cairo_stroke(context);
 }
 
 void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height)
@@ -157,7 +148,8 @@ static bool band_rectangle(const picture *p, tn_tray tray, uint32_t band, double
     }
     *out = (rectangle){x, p->y + (double)offset * p->scale,
                        (double)value_of(roles, tray, roles->length)->length * p->scale, (double)depth * p->scale,
-                       (tn_fill_role)value_of(roles, tray, roles->bands[band])->role};
+                       roles->schema->value_start[roles->bands[band]] +
+                           tn_tray_value(roles->schema, tray, roles->bands[band])};
     return true;
 }
 
@@ -177,25 +169,6 @@ static void outline(const picture *p)
                 cairo_rectangle(p->context, r.x, r.y, r.width, r.height);
 }
 
-/* The heavy contour is what remains of thick outlines when the insides are painted white over them. */
-static void draw_masses(const picture *p)
-{
-    outline(p);
-    cairo_set_line_width(p->context, 2 * TN_LINE_CUT);
-    cairo_set_line_join(p->context, CAIRO_LINE_JOIN_MITER);
-    cairo_stroke(p->context);
-    outline(p);
-    cairo_set_source_rgb(p->context, 1, 1, 1);
-    cairo_fill(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
-    double x = p->x;
-    rectangle r;
-    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++))
-        for (uint32_t b = 0; b < p->roles->band_count; b++)
-            if (band_rectangle(p, p->plan->trays[i], b, x, &r))
-                tn_draw_fill(p->context, r.role, r.x, r.y, r.width, r.height);
-}
-
 /* The room of a tray, which height, public end and great hall are said of: its spine band, or, where that is absent,
  * the largest band there is (Fig. 7 of the paper: "an open, public end, double height, great hall, body zone"). */
 static bool room_of(const picture *p, tn_tray tray, double x, rectangle *room)
@@ -213,6 +186,55 @@ static bool room_of(const picture *p, tn_tray tray, double x, rectangle *room)
     return area > 0;
 }
 
+/* A tray that has no bands: its place, dashed. */
+static void draw_bare(const picture *p, rectangle room)
+{
+    static const double dashes[] = {2.5, 2};
+    cairo_save(p->context);
+    cairo_set_dash(p->context, dashes, 2, 0);
+    cairo_rectangle(p->context, room.x, room.y, room.width, room.height);
+    cairo_set_line_width(p->context, TN_LINE_EDGE);
+    cairo_stroke(p->context);
+    cairo_restore(p->context);
+}
+
+/* What the tray is for colours its room, under the fills. */
+static void draw_room(const picture *p, tn_tray tray, double x, double width)
+{
+    const tn_draw_roles *roles = p->roles;
+    rectangle room = {x, p->y, width, (double)bare_depth(roles) * p->scale, 0};
+    bool bare = !room_of(p, tray, x, &room);
+    if (roles->tone != TN_NO_FIELD)
+        tn_draw_tone(p->context, roles, tn_tray_value(roles->schema, tray, roles->tone), room.x, room.y, room.width,
+                     room.height);
+    if (roles->hatch != TN_NO_FIELD)
+        tn_draw_hatch(p->context, roles, tn_tray_value(roles->schema, tray, roles->hatch), room.x, room.y, room.width,
+                      room.height);
+    if (bare)
+        draw_bare(p, room);
+}
+
+/* The heavy contour is what remains of thick outlines when the insides are painted white over them. */
+static void draw_masses(const picture *p)
+{
+    outline(p);
+    cairo_set_line_width(p->context, 2 * TN_LINE_CUT);
+    cairo_set_line_join(p->context, CAIRO_LINE_JOIN_MITER);
+    cairo_stroke(p->context);
+    outline(p);
+    cairo_set_source_rgb(p->context, 1, 1, 1);
+    cairo_fill(p->context);
+    cairo_set_source_rgb(p->context, 0, 0, 0);
+    double x = p->x;
+    rectangle r;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
+        draw_room(p, p->plan->trays[i], x, tray_width(p, i));
+        for (uint32_t b = 0; b < p->roles->band_count; b++)
+            if (band_rectangle(p, p->plan->trays[i], b, x, &r))
+                tn_draw_fill(p->context, p->roles, r.value, r.x, r.y, r.width, r.height);
+    }
+}
+
 static void draw_public_end(const picture *p, size_t i, const rectangle *room, double bottom)
 {
     double middle = room->y + room->height / 2, gap = TN_LINE_CUT + 3;
@@ -224,6 +246,23 @@ static void draw_public_end(const picture *p, size_t i, const rectangle *room, d
         tn_draw_public_mark(p->context, room->x + room->width / 2, bottom + gap, 0, -1);
 }
 
+/* What the tray is for stands in its room, or where its room would be. */
+static void draw_text(const picture *p, tn_tray tray, double x, double width)
+{
+    const tn_draw_roles *roles = p->roles;
+    rectangle room = {x, p->y, width, (double)bare_depth(roles) * p->scale, 0};
+    if (roles->text == TN_NO_FIELD)
+        return;
+    bool bare = !room_of(p, tray, x, &room);
+    bool hatched = !bare && roles->schema->values[room.value].role == TN_FILL_SOLID;
+    if (is_set(roles, tray, roles->great_hall)) { /* below its mark */
+        room.y += room.height * 0.7;
+        room.height *= 0.3;
+    }
+    tn_draw_inside(p->context, tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling),
+                   TN_INSIDE_SIZE, hatched, room.x, room.y, room.width, room.height);
+}
+
 static void draw_marks(const picture *p, double bottom)
 {
     const tn_draw_roles *roles = p->roles;
@@ -231,6 +270,7 @@ static void draw_marks(const picture *p, double bottom)
     for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
         tn_tray tray = p->plan->trays[i];
         rectangle room;
+        draw_text(p, tray, x, tray_width(p, i));
         if (!room_of(p, tray, x, &room))
             continue;
         uint32_t levels = roles->level == TN_NO_FIELD ? 1 : tn_tray_value(roles->schema, tray, roles->level) + 1;

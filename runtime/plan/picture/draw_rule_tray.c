@@ -212,7 +212,7 @@ static void draw_zone(cairo_t *context, const tn_draw_roles *roles, uint32_t spe
         if (role == TN_FILL_ABSENT)
             draw_absent(context, x + width * i, y, width, height);
         else
-            tn_draw_fill(context, role, x + width * i, y, width, height);
+            tn_draw_fill(context, roles, roles->schema->value_start[field] + fills[i], x + width * i, y, width, height);
     }
     char text[ITEM_MAX];
     zone_text(roles, spec, field, text);
@@ -337,26 +337,42 @@ static double mark_room(const tn_draw_roles *roles, uint32_t spec)
     return is_free(roles, spec, roles->public_end) ? SIDE_ROOM : MARK_ROOM;
 }
 
+/* What is beside the tray's middle: its half, marks and depths, and the words below it, which are centred. */
+typedef struct sides {
+    double left, right;
+} sides;
+
+static sides sides_of(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
+{
+    char text[ITEM_MAX];
+    double words = written_width(context, roles, spec, lines), depths = 0, room = mark_room(roles, spec);
+    for (uint32_t b = 0; b < roles->band_count; b++) {
+        zone_text(roles, spec, roles->bands[b], text);
+        depths = fmax(depths, *text ? tn_type_width(context, text) + DEPTH_GAP : 0);
+    }
+    if (!is_free(roles, spec, roles->length)) {
+        list_values(roles, spec, roles->length, text);
+        tn_type_face(context, TEXT_SIZE, true);
+        words = fmax(words, tn_type_width(context, text));
+    }
+    words += 2 * SIDE_ROOM;
+    return (sides){fmax(room + TRAY_WIDTH / 2, words / 2), fmax(TRAY_WIDTH / 2 + fmax(depths, room), words / 2)};
+}
+
 void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height)
 {
     uint32_t lines;
-    double written = written_width(context, roles, spec, &lines);
     if (!roles->to_scale) {
+        double written = written_width(context, roles, spec, &lines);
         *width = fmax(written, 18) + 2 * LABEL_PADDING;
         *height = fmax(lines, 1) * LABEL_LEADING + 2 * LABEL_PADDING - 2;
         return;
     }
-    double depths = 0;
-    *height = 0;
-    for (uint32_t b = 0; b < roles->band_count; b++) {
-        char text[ITEM_MAX];
-        zone_text(roles, spec, roles->bands[b], text);
-        depths = fmax(depths, *text ? tn_type_width(context, text) + DEPTH_GAP : 0);
+    sides beside = sides_of(context, roles, spec, &lines);
+    *width = beside.left + beside.right;
+    *height = WIDTH_ROOM + lines * TEXT_LEADING;
+    for (uint32_t b = 0; b < roles->band_count; b++)
         *height += band_height(roles, b);
-    }
-    double room = mark_room(roles, spec);
-    *width = fmax(room + TRAY_WIDTH + fmax(depths, room), written);
-    *height += WIDTH_ROOM + lines * TEXT_LEADING;
 }
 
 static void draw_label(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
@@ -380,7 +396,8 @@ void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, d
         draw_label(context, roles, spec, x, y);
         return;
     }
-    double left = x + mark_room(roles, spec), at = y, spine = y;
+    uint32_t lines;
+    double left = x + sides_of(context, roles, spec, &lines).left - TRAY_WIDTH / 2, at = y, spine = y;
     for (uint32_t b = 0; b < roles->band_count; b++) {
         double height = band_height(roles, b);
         draw_zone(context, roles, spec, roles->bands[b], left, at, height);

@@ -20,6 +20,7 @@
 #define ENTRY_HEIGHT 15.5
 #define SWATCH_WIDTH 20.0
 #define SWATCH_HEIGHT 10.0
+#define COLUMN_WIDTH 200.0 /* of the legend, about */
 
 /* The strip being drawn. */
 typedef struct strip {
@@ -89,7 +90,7 @@ static void draw_key(const strip *s)
         if (!value)
             continue;
         double height = (double)value->length / depth * room;
-        tn_draw_fill(s->context, (tn_fill_role)value->role, x, y, tray, height);
+        tn_draw_fill(s->context, roles, (uint32_t)(value - roles->schema->values), x, y, tray, height);
         cairo_move_to(s->context, x + tray + 4, y + height / 2);
         cairo_line_to(s->context, x + tray + 12, y + height / 2);
         cairo_set_line_width(s->context, TN_LINE_HAIR);
@@ -104,9 +105,10 @@ static void draw_key(const strip *s)
 /* The place of the next entry's swatch; false where the legend is full. */
 static bool next_entry(strip *s, double *x, double *y, double *width)
 {
-    unsigned column = s->entry / s->rows, row = s->entry % s->rows;
-    double column_width = (s->width - PADDING) / 2;
-    if (column > 1)
+    unsigned column = s->entry / s->rows, row = s->entry % s->rows,
+             columns = (unsigned)fmax(2, (s->width - PADDING) / COLUMN_WIDTH);
+    double column_width = (s->width - PADDING) / columns;
+    if (column >= columns)
         return false;
     s->entry++;
     *x = s->x + PADDING + column * column_width;
@@ -171,9 +173,10 @@ static void fill_entries(strip *s)
             const tn_value_record *value = &schema->values[v];
             char bands[128];
             double x, y, width;
-            if (value->role == TN_FILL_ABSENT || !is_first_fill(s, b, v) || !next_entry(s, &x, &y, &width))
+            if (value->role == TN_FILL_ABSENT || value->length == 0 || !is_first_fill(s, b, v) ||
+                !next_entry(s, &x, &y, &width))
                 continue;
-            tn_draw_fill(s->context, (tn_fill_role)value->role, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+            tn_draw_fill(s->context, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
             name_bands(s, value, bands, sizeof bands);
             label(s, x, y, width, text_at(s, value->name), value->doc ? text_at(s, value->doc) : bands);
         }
@@ -210,10 +213,30 @@ static void flag_entry(strip *s, uint32_t field, bool hall)
     label(s, x, y, width, text_at(s, record->name), text_at(s, record->doc));
 }
 
+/* The values that tones or hatches tell apart. */
+static void choice_entries(strip *s, uint32_t field, bool tone)
+{
+    const tn_schema *schema = s->roles->schema;
+    double x, y, width;
+    if (field == TN_NO_FIELD)
+        return;
+    for (uint32_t v = 0; v < schema->fields[field].value_count && next_entry(s, &x, &y, &width); v++) {
+        const tn_value_record *value = &schema->values[schema->value_start[field] + v];
+        (tone ? tn_draw_tone : tn_draw_hatch)(s->context, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        cairo_rectangle(s->context, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        cairo_set_line_width(s->context, TN_LINE_HAIR);
+        cairo_stroke(s->context);
+        label(s, x, y, width, text_at(s, value->name),
+              value->doc ? text_at(s, value->doc) : text_at(s, schema->fields[field].name));
+    }
+}
+
 static void draw_legend(strip *s)
 {
     s->rows = (unsigned)((TN_STRIP_HEIGHT - 24) / ENTRY_HEIGHT);
     heading(s, "LEGEND");
+    choice_entries(s, s->roles->tone, true);
+    choice_entries(s, s->roles->hatch, false);
     fill_entries(s);
     if (s->roles->level != TN_NO_FIELD)
         level_entries(s);
@@ -331,8 +354,13 @@ void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_o
         s.x += key;
         divider(&s, s.x);
         draw_legend(&s);
-    } else {
+    } else if (roles->tone == TN_NO_FIELD) {
         list_fields(&s);
+    } else {
+        s.width /= 2;
+        list_fields(&s);
+        s.x += s.width;
+        draw_legend(&s);
     }
     s.x += s.width;
     divider(&s, s.x);

@@ -7,6 +7,8 @@
 #define TABLE_SIZE 6.0
 #define ROW_HEIGHT 9.0
 #define BOX_MIN 22.0
+#define HEAD_SIZE 7.6 /* of what a tray is for */
+#define HEAD_HEIGHT 15.0
 
 static const char *text_of(const tn_draw_roles *roles, tn_tray tray, uint32_t field)
 {
@@ -17,13 +19,16 @@ void tn_draw_table_measure(cairo_t *context, const tn_draw_roles *roles, tn_draw
 {
     const tn_schema *schema = roles->schema;
     *table = (tn_draw_table){.box_width = BOX_MIN, .row_height = ROW_HEIGHT};
-    tn_type_face(context, TABLE_SIZE, false);
-    for (uint32_t f = 0; f < schema->field_count; f++)
+    table->head_height = roles->text == TN_NO_FIELD ? 0 : HEAD_HEIGHT;
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        tn_type_face(context, TABLE_SIZE, false);
         table->name_width =
             fmax(table->name_width, tn_type_width(context, tn_text(schema->module, schema->fields[f].name)) + 6);
-    for (uint32_t v = 0; v < schema->value_count; v++)
-        table->box_width =
-            fmax(table->box_width, tn_type_width(context, tn_text(schema->module, schema->values[v].spelling)) + 8);
+        tn_type_face(context, f == roles->text ? HEAD_SIZE : TABLE_SIZE, f == roles->text);
+        for (uint32_t v = schema->value_start[f]; v < schema->value_start[f + 1]; v++)
+            table->box_width =
+                fmax(table->box_width, tn_type_width(context, tn_text(schema->module, schema->values[v].spelling)) + 8);
+    }
 }
 
 double tn_draw_table_width(const tn_draw_table *table, size_t length)
@@ -33,13 +38,14 @@ double tn_draw_table_width(const tn_draw_table *table, size_t length)
 
 double tn_draw_table_height(const tn_draw_table *table, const tn_draw_roles *roles)
 {
-    return table->row_height * roles->schema->field_count;
+    return table->head_height + table->row_height * (roles->schema->field_count - (table->head_height > 0));
 }
 
 static void draw_lines(cairo_t *context, const tn_draw_table *table, double x, double y, double width, double height,
                        size_t length)
 {
-    for (double row = table->row_height; row < height - 0.01; row += table->row_height) {
+    for (double row = table->head_height > 0 ? table->head_height : table->row_height; row < height - 0.01;
+         row += table->row_height) {
         cairo_move_to(context, x, y + row);
         cairo_line_to(context, x + width, y + row);
     }
@@ -56,19 +62,38 @@ static void draw_lines(cairo_t *context, const tn_draw_table *table, double x, d
     cairo_stroke(context);
 }
 
+/* A field's row, with its tones or hatches under the words. */
+static void draw_row(cairo_t *context, const tn_draw_roles *roles, const tn_draw_table *table,
+                     const tn_drawn_plan *plan, uint32_t field, double left, double y)
+{
+    bool head = field == roles->text;
+    double height = head ? table->head_height : table->row_height, size = head ? HEAD_SIZE : TABLE_SIZE;
+    bool flag = roles->schema->fields[field].kind == TN_FIELD_FLAG;
+    tn_type_face(context, TABLE_SIZE - 0.8, head);
+    tn_type_line(context, left - 5, y + height / 2 + 2.1, TN_ALIGN_RIGHT,
+                 tn_text(roles->schema->module, roles->schema->fields[field].name));
+    for (size_t i = 0; i < plan->length; i++) {
+        double x = left + table->box_width * (double)i;
+        uint32_t value = tn_tray_value(roles->schema, plan->trays[i], field);
+        if (field == roles->tone)
+            tn_draw_tone(context, roles, value, x, y, table->box_width, height);
+        if (field == roles->hatch)
+            tn_draw_hatch(context, roles, value, x, y, table->box_width, height);
+        tn_type_face(context, size, head);
+        if (!flag || value) /* a flag that is not set says nothing */
+            tn_type_line(context, x + table->box_width / 2, y + height / 2 + size * 0.36, TN_ALIGN_CENTRE,
+                         text_of(roles, plan->trays[i], field));
+    }
+}
+
 void tn_draw_table_plan(cairo_t *context, const tn_draw_roles *roles, const tn_draw_table *table,
                         const tn_drawn_plan *plan, double x, double y)
 {
-    const tn_schema *schema = roles->schema;
-    double left = x + table->name_width;
-    for (uint32_t f = 0; f < schema->field_count; f++) {
-        double baseline = y + table->row_height * (f + 1) - 2.6;
-        tn_type_face(context, TABLE_SIZE - 0.8, false);
-        tn_type_line(context, left - 5, baseline, TN_ALIGN_RIGHT, tn_text(schema->module, schema->fields[f].name));
-        tn_type_face(context, TABLE_SIZE, false);
-        for (size_t i = 0; i < plan->length; i++)
-            tn_type_line(context, left + table->box_width * ((double)i + 0.5), baseline, TN_ALIGN_CENTRE,
-                         text_of(roles, plan->trays[i], f));
+    double left = x + table->name_width, row = y + table->head_height;
+    for (uint32_t f = 0; f < roles->schema->field_count; f++) {
+        bool head = f == roles->text;
+        draw_row(context, roles, table, plan, f, left, head ? y : row);
+        row += head ? 0 : table->row_height;
     }
     if (plan->length > 0)
         draw_lines(context, table, left, y, table->box_width * (double)plan->length, tn_draw_table_height(table, roles),

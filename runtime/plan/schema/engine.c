@@ -216,8 +216,15 @@ static void list_value(tn_lister *lister, tn_field_kind kind, const tn_value_rec
 static void list_field(tn_lister *lister, uint32_t index)
 {
     static const char *const kinds[] = {"length", "choice", "flag", "zone"};
-    static const char *const roles[] = {
-        "", ", role length", ", role level", ", role public-end", ", role great-hall", ", role band"};
+    static const char *const roles[] = {"",
+                                        ", role length",
+                                        ", role level",
+                                        ", role public-end",
+                                        ", role great-hall",
+                                        ", role band",
+                                        ", role text",
+                                        ", role tone",
+                                        ", role hatch"};
     const tn_field_record *field = &lister->module->FIELD_records[index];
     fprintf(lister->out, "  field %u  ", index);
     tn_list_name(lister, field->name);

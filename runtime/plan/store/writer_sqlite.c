@@ -23,7 +23,7 @@ static int why_not_opened(const tn_plan_writer *writer)
     return sqlite3_system_errno(writer->database);
 }
 
-static tn_status failed(const tn_plan_writer *writer, tn_error *error)
+tn_status tn_writer_sqlite_failed(const tn_plan_writer *writer, tn_error *error)
 {
     int code = writer->database ? sqlite3_errcode(writer->database) : SQLITE_NOMEM;
     if (code == SQLITE_NOMEM)
@@ -43,11 +43,11 @@ static tn_status failed(const tn_plan_writer *writer, tn_error *error)
 
 static tn_status run(tn_plan_writer *writer, const char *sql, tn_error *error)
 {
-    return sqlite3_exec(writer->database, sql, NULL, NULL, NULL) == SQLITE_OK ? TN_OK : failed(writer, error);
+    return sqlite3_exec(writer->database, sql, NULL, NULL, NULL) == SQLITE_OK ? TN_OK
+                                                                              : tn_writer_sqlite_failed(writer, error);
 }
 
-/* Runs a statement made with sqlite3_mprintf, and frees it. */
-static tn_status run_made(tn_plan_writer *writer, char *sql, tn_error *error)
+tn_status tn_writer_sqlite_run(tn_plan_writer *writer, char *sql, tn_error *error)
 {
     if (!sql)
         return tn_fail_memory(error);
@@ -74,12 +74,14 @@ static tn_status create_tables(tn_plan_writer *writer, tn_error *error)
                                 " length INTEGER NOT NULL, %splan TEXT NOT NULL, packed BLOB NOT NULL);",
                                 TN_LIBRARY_APPLICATION_ID, total ? total : "");
     sqlite3_free(total);
-    return run_made(writer, sql, error);
+    tn_status status = tn_writer_sqlite_run(writer, sql, error);
+    return status == TN_OK && writer->columns ? tn_trays_create(writer, error) : status;
 }
 
 static tn_status set_metadata(tn_plan_writer *writer, const char *key, const char *value, tn_error *error)
 {
-    return run_made(writer, sqlite3_mprintf("INSERT OR REPLACE INTO metadata VALUES (%Q, %Q)", key, value), error);
+    return tn_writer_sqlite_run(writer, sqlite3_mprintf("INSERT OR REPLACE INTO metadata VALUES (%Q, %Q)", key, value),
+                                error);
 }
 
 /* Makes the tables of a new library, in place of those that are there: within one transaction, so that whoever reads it
@@ -89,7 +91,10 @@ static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata
     tn_metadata_room room;
     tn_metadata_item items[TN_METADATA_ITEMS];
     tn_writer_metadata(writer, metadata, &room, items);
-    tn_status status = run(writer, "BEGIN IMMEDIATE; DROP TABLE IF EXISTS plans; DROP TABLE IF EXISTS metadata", error);
+    tn_status status = run(writer,
+                           "BEGIN IMMEDIATE; DROP TABLE IF EXISTS trays; DROP TABLE IF EXISTS plans; "
+                           "DROP TABLE IF EXISTS metadata",
+                           error);
     if (status == TN_OK)
         status = create_tables(writer, error);
     for (size_t i = 0; status == TN_OK && i < TN_METADATA_ITEMS; i++) {
@@ -186,7 +191,7 @@ static tn_status find_last(tn_plan_writer *writer, tn_error *error)
             status = tn_fail_memory(error);
         writer->resumed = writer->number;
     } else if (code != SQLITE_DONE) {
-        status = failed(writer, error);
+        status = tn_writer_sqlite_failed(writer, error);
     }
     sqlite3_finalize(row);
     return status;
@@ -204,7 +209,7 @@ static tn_status open_database(tn_plan_writer *writer, tn_error *error)
 {
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(writer->path, &writer->database, flags, NULL) != SQLITE_OK)
-        return failed(writer, error);
+        return tn_writer_sqlite_failed(writer, error);
     sqlite3_busy_timeout(writer->database, BUSY_MILLISECONDS);
     sqlite3_db_config(writer->database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
     return run(writer, "PRAGMA cell_size_check = 1", error);
@@ -224,13 +229,15 @@ static tn_status prepare_insert(tn_plan_writer *writer, size_t plans, sqlite3_st
         return tn_fail_memory(error);
     int code = sqlite3_prepare_v2(writer->database, text, -1, insert, NULL);
     sqlite3_free(text);
-    return code == SQLITE_OK ? TN_OK : failed(writer, error);
+    return code == SQLITE_OK ? TN_OK : tn_writer_sqlite_failed(writer, error);
 }
 
 static tn_status prepare_inserts(tn_plan_writer *writer, tn_error *error)
 {
     tn_status status = prepare_insert(writer, 1, &writer->insert_one, error);
-    return status == TN_OK ? prepare_insert(writer, TN_WAITING_MAX, &writer->insert_waiting, error) : status;
+    if (status == TN_OK)
+        status = prepare_insert(writer, TN_WAITING_MAX, &writer->insert_waiting, error);
+    return status == TN_OK && writer->columns ? tn_trays_prepare(writer, error) : status;
 }
 
 tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
@@ -299,7 +306,7 @@ static tn_status flush(tn_plan_writer *writer, tn_error *error)
         int code = sqlite3_step(insert);
         sqlite3_reset(insert);
         if (code != SQLITE_DONE)
-            return failed(writer, error);
+            return tn_writer_sqlite_failed(writer, error);
         column = 0;
     }
     writer->waiting_count = writer->text.size = writer->packed.size = 0;
@@ -314,6 +321,8 @@ tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const
         return status;
     if (!make_plan(writer, rank, trays, length))
         return tn_fail_memory(error);
+    if (writer->columns && !tn_trays_insert(writer, trays, length))
+        return tn_writer_sqlite_failed(writer, error);
     bool batch_ends = ++writer->in_batch == writer->batch;
     if (batch_ends || writer->waiting_count == TN_WAITING_MAX)
         status = flush(writer, error);
@@ -327,7 +336,8 @@ static void finalize(tn_plan_writer *writer)
 {
     sqlite3_finalize(writer->insert_one);
     sqlite3_finalize(writer->insert_waiting);
-    writer->insert_one = writer->insert_waiting = NULL;
+    sqlite3_finalize(writer->insert_tray);
+    writer->insert_one = writer->insert_waiting = writer->insert_tray = NULL;
 }
 
 tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
@@ -336,13 +346,15 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
     writer->in_batch = 0;
     if (status == TN_OK)
         status = run(writer, "CREATE UNIQUE INDEX IF NOT EXISTS plans_rank ON plans (rank)", error);
+    if (status == TN_OK && writer->columns)
+        status = tn_trays_index(writer, error);
     if (status == TN_OK)
         status = set_metadata(writer, "complete", "1", error);
     if (status == TN_OK)
         status = run(writer, "COMMIT", error);
     finalize(writer);
     if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
-        return failed(writer, error);
+        return tn_writer_sqlite_failed(writer, error);
     if (status == TN_OK)
         writer->database = NULL;
     return status;

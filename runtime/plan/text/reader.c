@@ -187,8 +187,10 @@ static tn_status open_text(tn_plan_reader *reader, tn_error *error)
         if (is_csv)
             reader->format = TN_FORMAT_CSV;
         else if (reader->format == TN_FORMAT_CSV)
-            return refuse_text(reader, "has no CSV header with a column named plan",
-                               "the first line names the columns: rank,length,plan", error);
+            return refuse_text(reader, "has no CSV header with a column named plan, or tray",
+                               "the first line names the columns: rank,length,plan for a row a plan, or tray and the "
+                               "schema's fields for a row a tray",
+                               error);
     }
     if (reader->format == TN_FORMAT_AUTO)
         reader->format = find_text_format(reader);
@@ -271,6 +273,7 @@ void tn_plan_reader_free(tn_plan_reader *reader)
     free(reader->plan.trays);
     free(reader->rank.data);
     free(reader->quoted.data);
+    free(reader->column_fields);
     free(reader->data);
     free(reader->path);
     free(reader);

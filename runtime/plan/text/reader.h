@@ -32,6 +32,12 @@ struct tn_plan_reader {
     size_t plan_column, rank_column;
     tn_buffer quoted;
 
+    /* CSV with a row a tray: the column of the tray's place, and the field of each column (or UINT32_MAX); NULL: a row
+     * is a plan */
+    size_t tray_column, column_count;
+    uint32_t *column_fields;
+    bool skipping; /* the rows of a plan of which one was bad */
+
     unsigned tray_bytes; /* packed */
 
     const tn_plan_database *sqlite; /* where it is SQLite that is read */

@@ -2,21 +2,11 @@
  * doubled. A plan holds no line breaks, so a record is a line. */
 #include <string.h>
 
-#include "runtime/plan/text/reader.h"
+#include "runtime/plan/text/csv.h"
 
-/* A field of a record: its text without the quotes around it, where that begins in the line, and whether quotes are
- * doubled in it. */
-typedef struct csv_field {
-    const char *text;
-    size_t size;
-    size_t column;
-    bool doubled;
-} csv_field;
-
-/* Takes the field at *at, and the comma after it; false (and *at on what is wrong) where it is not well-formed. */
-static bool take_field(const char *line, size_t size, size_t *at, csv_field *field)
+bool tn_csv_take(const char *line, size_t size, size_t *at, tn_csv_field *field)
 {
-    *field = (csv_field){.text = line + *at, .column = *at + 1};
+    *field = (tn_csv_field){.text = line + *at, .column = *at + 1};
     if (*at < size && line[*at] == '"') {
         size_t begin = ++*at;
         for (; *at < size; ++*at) {
@@ -27,7 +17,7 @@ static bool take_field(const char *line, size_t size, size_t *at, csv_field *fie
             field->doubled = true;
             ++*at;
         }
-        *field = (csv_field){line + begin, *at - begin, begin + 1, field->doubled};
+        *field = (tn_csv_field){line + begin, *at - begin, begin + 1, field->doubled};
         if (*at >= size)
             return false;
         ++*at;
@@ -42,7 +32,7 @@ static bool take_field(const char *line, size_t size, size_t *at, csv_field *fie
     return true;
 }
 
-static bool is_named(const csv_field *field, const char *name)
+bool tn_csv_named(const tn_csv_field *field, const char *name)
 {
     return !field->doubled && field->size == strlen(name) && memcmp(field->text, name, field->size) == 0;
 }
@@ -53,12 +43,12 @@ static bool read_header(tn_plan_reader *reader, const char *line, size_t size)
     reader->plan_column = reader->rank_column = SIZE_MAX;
     size_t at = 0, columns = 0;
     while (at < size) {
-        csv_field field;
-        if (!take_field(line, size, &at, &field))
+        tn_csv_field field;
+        if (!tn_csv_take(line, size, &at, &field))
             return false;
-        if (is_named(&field, "plan") && reader->plan_column == SIZE_MAX)
+        if (tn_csv_named(&field, "plan") && reader->plan_column == SIZE_MAX)
             reader->plan_column = columns;
-        if (is_named(&field, "rank") && reader->rank_column == SIZE_MAX)
+        if (tn_csv_named(&field, "rank") && reader->rank_column == SIZE_MAX)
             reader->rank_column = columns;
         columns++;
     }
@@ -85,6 +75,11 @@ tn_status tn_reader_csv_open(tn_plan_reader *reader, bool *is_csv, tn_error *err
     size_t length = newline ? (size_t)(newline - line) : size;
     size_t bare = length > 0 && line[length - 1] == '\r' ? length - 1 : length;
     *is_csv = read_header(reader, line, bare);
+    if (!*is_csv) {
+        tn_status status = tn_columns_header(reader, line, bare, is_csv, error);
+        if (status != TN_OK)
+            return status;
+    }
     if (*is_csv) {
         reader->begin += length + (newline ? 1 : 0);
         reader->line = 1;
@@ -92,8 +87,7 @@ tn_status tn_reader_csv_open(tn_plan_reader *reader, bool *is_csv, tn_error *err
     return TN_OK;
 }
 
-/* The field's text with doubled quotes made single, in reader->quoted. */
-static bool unquote(tn_plan_reader *reader, csv_field *field)
+bool tn_csv_unquote(tn_plan_reader *reader, tn_csv_field *field)
 {
     reader->quoted.size = 0;
     for (size_t i = 0; i < field->size; i++) {
@@ -107,7 +101,7 @@ static bool unquote(tn_plan_reader *reader, csv_field *field)
 }
 
 /* The column of the line where the field's byte `index` (from 0, of its text without doubled quotes) is. */
-static size_t column_in_line(const csv_field *written, size_t index)
+static size_t column_in_line(const tn_csv_field *written, size_t index)
 {
     size_t at = 0;
     for (; index > 0 && at < written->size; index--)
@@ -115,18 +109,17 @@ static size_t column_in_line(const csv_field *written, size_t index)
     return written->column + at;
 }
 
-/* The mark that keeps a spreadsheet from computing what follows (tn_writer_options.csv_safe) is no part of the plan. */
-static size_t mark_of(const csv_field *field)
+size_t tn_csv_mark(const tn_csv_field *field)
 {
     return field->size > 1 && field->text[0] == '\'' && strchr("=+-@", field->text[1]);
 }
 
-static tn_status parse_plan(tn_plan_reader *reader, const csv_field *written, tn_error *error)
+static tn_status parse_plan(tn_plan_reader *reader, const tn_csv_field *written, tn_error *error)
 {
-    csv_field field = *written;
-    if (field.doubled && !unquote(reader, &field))
+    tn_csv_field field = *written;
+    if (field.doubled && !tn_csv_unquote(reader, &field))
         return tn_fail_memory(error);
-    size_t mark = mark_of(&field);
+    size_t mark = tn_csv_mark(&field);
     tn_status status = tn_plan_scan_line(reader->scanner, field.text + mark, field.size - mark, reader->max_length,
                                          &reader->plan, error);
     if (status != TN_OK && error->column > 0)
@@ -135,7 +128,7 @@ static tn_status parse_plan(tn_plan_reader *reader, const csv_field *written, tn
     return status;
 }
 
-static tn_status bad_record(tn_plan_reader *reader, size_t at, const char *message, const char *help, tn_error *error)
+tn_status tn_csv_bad_record(tn_plan_reader *reader, size_t at, const char *message, const char *help, tn_error *error)
 {
     tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "%s", message);
     tn_error_help(error, "%s", help);
@@ -145,18 +138,21 @@ static tn_status bad_record(tn_plan_reader *reader, size_t at, const char *messa
 
 tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *error)
 {
+    if (reader->column_fields)
+        return tn_columns_next(reader, found, error);
     do {
         tn_status status = tn_reader_line(reader, found, error);
         if (status != TN_OK || !*found)
             return status;
     } while (reader->text_size == 0);
-    csv_field plan = {.text = NULL};
+    tn_csv_field plan = {.text = NULL};
     size_t at = 0;
     for (size_t column = 0; at < reader->text_size || column == 0; column++) {
-        csv_field field;
-        if (!take_field(reader->text, reader->text_size, &at, &field))
-            return bad_record(reader, at, "the record has a quote that does not belong",
-                              "a field with quotes in it stands in quotes, with each quote in it doubled", error);
+        tn_csv_field field;
+        if (!tn_csv_take(reader->text, reader->text_size, &at, &field))
+            return tn_csv_bad_record(reader, at, "the record has a quote that does not belong",
+                                     "a field with quotes in it stands in quotes, with each quote in it doubled",
+                                     error);
         if (column == reader->plan_column)
             plan = field;
         if (column == reader->rank_column && !tn_buffer_append(&reader->rank, field.text, field.size))
@@ -164,8 +160,9 @@ tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *erro
     }
     size_t size = reader->text_size;
     if (!plan.text && reader->text[size - 1] == ',')
-        plan = (csv_field){.text = reader->text + size, .column = size + 1}; /* an empty last field: the empty plan */
+        plan =
+            (tn_csv_field){.text = reader->text + size, .column = size + 1}; /* an empty last field: the empty plan */
     return plan.text ? parse_plan(reader, &plan, error)
-                     : bad_record(reader, size, "the record ends before the column named plan",
-                                  "a record has a field for each column that the header names", error);
+                     : tn_csv_bad_record(reader, size, "the record ends before the column named plan",
+                                         "a record has a field for each column that the header names", error);
 }

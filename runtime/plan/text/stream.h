@@ -101,6 +101,7 @@ typedef struct tn_plan_metadata {
 typedef struct tn_writer_options {
     tn_plan_format format;
     tn_plan_metadata metadata;
+    bool columns;   /* CSV: a row a tray, and a column a field; SQLite: also a table `trays` of such rows */
     bool csv_safe;  /* a plan in CSV that begins with = + - or @ gets a ' before it: spreadsheets compute such cells */
     bool resume;    /* go on with the SQLite library at the path, if there is one */
     uint32_t batch; /* plans a transaction; 0: 100,000 */

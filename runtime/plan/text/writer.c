@@ -76,8 +76,63 @@ bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t l
 
 /* ---- what a file starts with */
 
+static bool append_text(tn_buffer *out, const char *text)
+{
+    return tn_buffer_append(out, text, strlen(text));
+}
+
+/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180). A zero byte follows the text. */
+static bool append_field(tn_buffer *out, const char *text, size_t size)
+{
+    if (strcspn(text, ",\"\r\n") == size)
+        return tn_buffer_append(out, text, size);
+    bool done = append_text(out, "\"");
+    for (size_t i = 0; done && i < size; i++)
+        done = (text[i] != '"' || append_text(out, "\"")) && tn_buffer_append(out, &text[i], 1);
+    return done && append_text(out, "\"");
+}
+
+/* A field, with a mark before what a spreadsheet would compute. */
+static bool append_cell(const tn_plan_writer *writer, tn_buffer *out, const char *text)
+{
+    char marked[TN_SPELLING_MAX + 2];
+    if (writer->csv_safe && text[0] && strchr("=+-@", text[0])) {
+        snprintf(marked, sizeof marked, "'%s", text);
+        text = marked;
+    }
+    return append_text(out, ",") && append_field(out, text, strlen(text));
+}
+
+static bool columns_header(tn_plan_writer *writer)
+{
+    const tn_schema *schema = writer->schema;
+    bool done = append_text(&writer->text, "rank,tray");
+    for (uint32_t f = 0; done && f < schema->field_count; f++)
+        done = append_cell(writer, &writer->text, tn_text(schema->module, schema->fields[f].name));
+    return done && append_text(&writer->text, "\n");
+}
+
+/* A row a tray; for the plan without trays one that says so. */
+static bool append_columns(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+{
+    const tn_schema *schema = writer->schema;
+    tn_buffer *out = &writer->text;
+    bool done = length > 0 || tn_buffer_printf(out, "%s,0", rank);
+    for (uint32_t f = 0; done && length == 0 && f < schema->field_count; f++)
+        done = append_text(out, ",");
+    for (size_t i = 0; done && i < length; i++) {
+        done = tn_buffer_printf(out, "%s%s,%zu", i ? "\n" : "", rank, i + 1);
+        for (uint32_t f = 0; done && f < schema->field_count; f++)
+            done =
+                append_cell(writer, out, tn_text(schema->module, tn_tray_value_record(schema, trays[i], f)->spelling));
+    }
+    return done && append_text(out, "\n");
+}
+
 static bool csv_header(tn_plan_writer *writer)
 {
+    if (writer->columns)
+        return columns_header(writer);
     const char *header = writer->length_field == UINT32_MAX ? "rank,length,plan\n" : "rank,length,total,plan\n";
     return tn_buffer_append(&writer->text, header, strlen(header));
 }
@@ -147,6 +202,11 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
         bool sqlite = ends_in(path, ".sqlite") || ends_in(path, ".sqlite3") || ends_in(path, ".db");
         writer->format = sqlite ? TN_FORMAT_SQLITE : TN_FORMAT_LINES;
     }
+    if (writer->columns && writer->format != TN_FORMAT_CSV && writer->format != TN_FORMAT_SQLITE) {
+        tn_fail(error, TN_INVALID, E_USAGE, "columns are for CSV and databases");
+        tn_error_help(error, "--format csv, or write to a file that ends in .sqlite");
+        return TN_INVALID;
+    }
     if (!make_tray_texts(writer))
         return tn_fail_memory(error);
     if (writer->format != TN_FORMAT_SQLITE)
@@ -164,6 +224,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->columns = options->columns;
     writer->csv_safe = options->csv_safe;
     writer->sqlite = options->sqlite;
     writer->length_field = tn_schema_length_field(schema);
@@ -181,22 +242,6 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
 }
 
 /* ---- plans */
-
-static bool append_text(tn_buffer *out, const char *text)
-{
-    return tn_buffer_append(out, text, strlen(text));
-}
-
-/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180). A zero byte follows the text. */
-static bool append_field(tn_buffer *out, const char *text, size_t size)
-{
-    if (strcspn(text, ",\"\r\n") == size)
-        return tn_buffer_append(out, text, size);
-    bool done = append_text(out, "\"");
-    for (size_t i = 0; done && i < size; i++)
-        done = (text[i] != '"' || append_text(out, "\"")) && tn_buffer_append(out, &text[i], 1);
-    return done && append_text(out, "\"");
-}
 
 static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
 {
@@ -242,7 +287,7 @@ static bool append_plan(tn_plan_writer *writer, const char *rank, const tn_tray 
 {
     switch (writer->format) {
     case TN_FORMAT_CSV:
-        return append_csv(writer, rank, trays, length);
+        return writer->columns ? append_columns(writer, rank, trays, length) : append_csv(writer, rank, trays, length);
     case TN_FORMAT_JSON:
         return append_json(writer, rank, trays, length);
     case TN_FORMAT_BIN:

@@ -37,7 +37,7 @@ struct tn_plan_writer {
     bool closed;
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
-    bool csv_safe;
+    bool columns, csv_safe;
     tn_buffer text;        /* of the plan in hand; SQLite: of those that wait */
     tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
     size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
@@ -46,6 +46,7 @@ struct tn_plan_writer {
     const tn_plan_database *sqlite; /* where it is SQLite that is written */
     struct sqlite3 *database;
     struct sqlite3_stmt *insert_one, *insert_waiting; /* one plan, TN_WAITING_MAX of them */
+    struct sqlite3_stmt *insert_tray;                 /* or NULL */
     tn_waiting_plan waiting[TN_WAITING_MAX];
     size_t waiting_count;
     uint32_t batch, in_batch;

@@ -1,0 +1,79 @@
+/* Puts a run of fields together from a study: parents, how they are crossed, and goals. */
+#include "driver/breed/evolve_forms.h"
+
+#include <string.h>
+
+#include "runtime/genome/tree/tree_kind.h"
+
+static tn_tree_variation tree_variation(const tn_evolution_study *s)
+{
+    return (tn_tree_variation){.order = (tn_pick_order)s->of[TN_SET_CHOICE].choice,
+                               .maxprob = s->of[TN_SET_MAXPROB].first,
+                               .mutation_rate = s->of[TN_SET_MUTATION_RATE].first,
+                               .shares = {s->of[TN_SET_SWAP_NODES].first, s->of[TN_SET_SWAP_SUBTREES].first,
+                                          s->of[TN_SET_DESTROY].first, s->of[TN_SET_NUDGE].first},
+                               .max_nodes = (uint32_t)s->of[TN_SET_MAX_NODES].first};
+}
+
+/* The parents as text: from the run, or else from their files. */
+static tn_status parents_text(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
+{
+    if (stored) {
+        job->seeds_text = strdup(stored);
+        return job->seeds_text ? TN_OK : tn_fail_memory(error);
+    }
+    job->blamed = TN_SET_PARENT;
+    tn_status status =
+        tn_field_parents_read(&job->study, path, &job->seeds_text, &job->inputs, &job->blamed_each, error);
+    if (status != TN_OK && job->blamed_each == UINT32_MAX)
+        job->blamed = TN_SET_BOX;
+    return status;
+}
+
+static tn_status take_parents(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
+{
+    tn_status status = parents_text(job, path, stored, error);
+    if (status == TN_OK)
+        status = tn_field_parents_of(job->seeds_text, &job->parents, error);
+    if (status != TN_OK)
+        return status;
+    tn_tree_breeding *breeding = tn_field_parents_breeding(job->parents);
+    if (breeding->parent_count > job->settings.population) {
+        job->blamed = TN_SET_POPULATION;
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "there are more parents than individuals");
+        tn_error_help(error, "make the population at least %zu", breeding->parent_count);
+        return TN_INVALID;
+    }
+    breeding->how = tree_variation(&job->study);
+    job->kind = tn_tree_kind(breeding);
+    job->settings.kind = &job->kind;
+    job->settings.seeds = breeding->parents;
+    job->settings.seed_count = breeding->parent_count;
+    return TN_OK;
+}
+
+static tn_status make_fields(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
+    uint32_t each = UINT32_MAX;
+    tn_status status = tn_field_scorer_new(&job->study, path, separately, &job->fields, &job->inputs, &each, error);
+    job->blamed_each = each;
+    job->blamed = each < job->study.each_count ? job->study.each[each].setting : TN_SETTING_COUNT;
+    if (status != TN_OK)
+        return status;
+    job->forms = (tn_bred_forms){job->fields, "surface", ".png", tn_field_scorer_draw, tn_field_scorer_objective};
+    job->evaluator = tn_field_scorer_evaluator(job->fields);
+    job->scored = job->study.of[TN_SET_FITNESS].written || job->study.of[TN_SET_LIKENESS].written;
+    return TN_OK;
+}
+
+tn_status tn_evolution_forms(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
+                             tn_error *error)
+{
+    job->extension = "field";
+    tn_status status = take_parents(job, path, options->stored_seeds, error);
+    if (status != TN_OK || !options->only_replay)
+        return status == TN_OK ? make_fields(job, path, error) : status;
+    job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = tn_never_evaluate};
+    return TN_OK;
+}

@@ -1,0 +1,255 @@
+/* Scores bred fields: compiles a sentence, meshes its surface, and measures that. */
+#include "driver/breed/field_scorer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "driver/breed/beside.h"
+#include "driver/breed/goals.h"
+#include "driver/breed/inputs.h"
+#include "driver/breed/target.h"
+#include "driver/open/open.h"
+#include "runtime/field/contour.h"
+#include "runtime/geometry/measure.h"
+#include "runtime/scene/draw_meshes.h"
+
+/* What goals can speak of. */
+typedef enum measure {
+    VOLUME,
+    AREA,
+    PARTS,
+    WIDTH,
+    DEPTH,
+    HEIGHT,
+    EULER,
+    CENTRE_X,
+    CENTRE_Y,
+    CENTRE_Z,
+    TRIANGLES,
+    JUMPS,
+    CUT,
+    MEASURE_COUNT
+} measure;
+
+static const char *const measure_names[MEASURE_COUNT] = {"volume",    "area",  "parts",    "width",    "depth",
+                                                         "height",    "euler", "centre-x", "centre-y", "centre-z",
+                                                         "triangles", "jumps", "cut"};
+
+struct tn_field_scorer {
+    tn_goals goals;
+    tn_target *targets[TN_OBJECTIVES_MAX]; /* of likeness */
+    double weights[TN_OBJECTIVES_MAX];
+    size_t target_count;
+    bool separately;
+};
+
+void tn_field_scorer_free(tn_field_scorer *s)
+{
+    if (!s)
+        return;
+    tn_goals_clear(&s->goals);
+    for (size_t i = 0; i < s->target_count; i++)
+        tn_target_free(s->targets[i]);
+    free(s);
+}
+
+/* ---- goals */
+
+static tn_status read_targets(tn_field_scorer *s, const tn_evolution_study *study, const char *path, char **inputs,
+                              uint32_t *blamed, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < study->each_count && status == TN_OK; i++) {
+        if (study->each[i].setting != TN_SET_LIKENESS)
+            continue;
+        *blamed = i;
+        if (s->target_count == TN_OBJECTIVES_MAX)
+            return tn_fail(error, TN_INVALID, E_FIELD_GOAL, "a study has at most %u lines `likeness`",
+                           TN_OBJECTIVES_MAX);
+        char *mesh = tn_study_beside(path, study->each[i].value.text);
+        status = mesh ? tn_target_read(mesh, &s->targets[s->target_count], error) : tn_fail_memory(error);
+        if (status == TN_OK)
+            s->weights[s->target_count++] = study->each[i].value.second;
+        if (status == TN_OK)
+            status = tn_inputs_add_file(inputs, "likeness", mesh, error);
+        free(mesh);
+    }
+    return status;
+}
+
+tn_status tn_field_scorer_new(const tn_evolution_study *study, const char *path, bool separately,
+                              tn_field_scorer **scorer, char **inputs, uint32_t *blamed, tn_error *error)
+{
+    tn_field_scorer *s = calloc(1, sizeof *s);
+    *scorer = s;
+    if (!s)
+        return tn_fail_memory(error);
+    tn_status status = tn_goals_read(study, measure_names, MEASURE_COUNT, &s->goals, blamed, error);
+    if (status == TN_OK)
+        status = read_targets(s, study, path, inputs, blamed, error);
+    size_t count = s->goals.count + s->target_count;
+    s->separately = separately && count > 1;
+    if (status == TN_OK && s->separately && count > TN_OBJECTIVES_MAX) {
+        status = tn_fail(error, TN_INVALID, E_FIELD_GOAL, "`selection nsga2` weighs at most %u goals, and here are %zu",
+                         TN_OBJECTIVES_MAX, count);
+        tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
+    }
+    if (status == TN_OK)
+        return TN_OK;
+    tn_field_scorer_free(s);
+    *scorer = NULL;
+    return status;
+}
+
+/* ---- one surface */
+
+typedef struct form {
+    tn_opened opened;
+    tn_field field;
+    tn_contour contour;
+} form;
+
+static void form_clear(form *f)
+{
+    tn_contour_clear(&f->contour);
+    tn_field_clear(&f->field);
+    tn_close(&f->opened);
+}
+
+/* Compiles a sentence and meshes its surface. Clear the form in any case. */
+static tn_status make_form(const char *sentence, size_t size, unsigned threads, form *f, tn_error *error)
+{
+    *f = (form){0};
+    tn_status status =
+        tn_open_text(TN_NOTATION(field), &(tn_input){.text = sentence, .size = size, .name = "the sentence"},
+                     &(tn_compile_options){0}, &f->opened);
+    if (status != TN_OK)
+        return tn_open_error(&f->opened, status, error);
+    status = tn_field_read(f->opened.module, 0, NULL, &f->field, error);
+    if (status != TN_OK)
+        return status;
+    tn_field_grid grid = tn_field_grid_of(&f->field, 0);
+    tn_contour_options options = {.threads = threads, .triangles = TN_BRED_TRIANGLES};
+    status = tn_contour_new(&f->field, &grid, &options, &f->contour, error);
+    if (status != TN_OK)
+        return status;
+    if (!f->contour.inside)
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "nothing of the box is inside");
+    if (!f->contour.outside)
+        return tn_fail(error, TN_INVALID, TN_CODE_NONE, "all of the box is inside");
+    return TN_OK;
+}
+
+static void take_measures(const tn_contour *contour, const tn_mesh_measures *m, double values[MEASURE_COUNT])
+{
+    values[VOLUME] = m->volume;
+    values[AREA] = m->area;
+    values[PARTS] = m->parts;
+    values[WIDTH] = m->high[0] - m->low[0];
+    values[DEPTH] = m->high[1] - m->low[1];
+    values[HEIGHT] = m->high[2] - m->low[2];
+    values[EULER] = (double)m->euler;
+    values[CENTRE_X] = m->centroid[0];
+    values[CENTRE_Y] = m->centroid[1];
+    values[CENTRE_Z] = m->centroid[2];
+    values[TRIANGLES] = (double)contour->mesh.face_count;
+    values[JUMPS] = (double)contour->jumps;
+    values[CUT] = __builtin_popcount(contour->cut);
+}
+
+static void add_part(const tn_field_scorer *s, size_t i, double part, tn_score *score)
+{
+    score->objectives[s->separately ? i : 0] += part;
+}
+
+static tn_status score_form(const tn_field_scorer *s, const form *f, tn_score *score, char message[200],
+                            tn_error *error)
+{
+    tn_mesh_measures measures;
+    double values[MEASURE_COUNT], total = 0;
+    size_t i = 0;
+    tn_status status = tn_mesh_measure(&f->contour.mesh, 0, &measures, error);
+    if (status != TN_OK)
+        return status;
+    take_measures(&f->contour, &measures, values);
+    for (; i < s->goals.count; i++)
+        add_part(s, i, tn_goal_part(&s->goals.items[i], values), score);
+    for (size_t k = 0; k < s->target_count && status == TN_OK; k++) {
+        double likeness = 0;
+        status = tn_target_likeness(s->targets[k], &f->field, &likeness, error);
+        add_part(s, i++, s->weights[k] * (1 - likeness), score);
+    }
+    for (size_t k = 0; k < TN_OBJECTIVES_MAX; k++)
+        total += score->objectives[k];
+    if (!isfinite(total)) {
+        score->state = TN_SCORE_FAILED;
+        snprintf(message, 200, "a goal has no value for this surface");
+    }
+    return status;
+}
+
+static tn_status score(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
+                       char message[200], tn_error *error)
+{
+    (void)thread;
+    form f;
+    tn_error own = {0};
+    tn_status status = make_form(sentence, size, 1, &f, &own);
+    if (status == TN_OK)
+        status = score_form(context, &f, score, message, &own);
+    form_clear(&f);
+    return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
+}
+
+/* "volume target 3 weight 2" */
+static tn_status adjust(void *context, const char *change, tn_error *error)
+{
+    tn_field_scorer *s = context;
+    if (tn_goals_adjust(&s->goals, change))
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
+    if (s->goals.count)
+        tn_error_help(error, "name a goal as the study writes it: \"%.60s target 3 weight 2\"", s->goals.items[0].text);
+    else
+        tn_error_help(error, "the study has no lines `fitness`");
+    return TN_INVALID;
+}
+
+tn_evaluator tn_field_scorer_evaluator(tn_field_scorer *s)
+{
+    return (tn_evaluator){.context = s,
+                          .objectives = s->separately ? s->goals.count + s->target_count : 1,
+                          .evaluate = score,
+                          .adjust = adjust};
+}
+
+const char *tn_field_scorer_objective(const void *scorer, size_t i)
+{
+    const tn_field_scorer *s = scorer;
+    return i < s->goals.count ? s->goals.items[i].text : "likeness";
+}
+
+/* ---- pictures */
+
+tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
+                               size_t count, const char *title, const char *path, tn_error *error)
+{
+    (void)scorer;
+    form *forms = calloc(count + 1, sizeof *forms);
+    const tn_mesh **meshes = calloc(count + 1, sizeof *meshes);
+    tn_status status = forms && meshes ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        status = make_form(sentences[i], strlen(sentences[i]), 0, &forms[i], error);
+        meshes[i] = &forms[i].contour.mesh;
+    }
+    const tn_meshes_picture picture = {.title = title, .labels = labels};
+    if (status == TN_OK)
+        status = tn_meshes_draw(meshes, count, &picture, &(tn_picture){.path = path}, error);
+    for (size_t i = 0; forms && i < count; i++)
+        form_clear(&forms[i]);
+    free(forms);
+    free(meshes);
+    return status;
+}

@@ -1,0 +1,28 @@
+/* Scoring fields: a sentence is a .field text; its surface is meshed, and the mesh is held to the goals of a study. */
+#ifndef TARTAN_DRIVER_BREED_FIELD_SCORER_H
+#define TARTAN_DRIVER_BREED_FIELD_SCORER_H
+
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/settings.h"
+
+typedef struct tn_field_scorer tn_field_scorer;
+
+#define TN_BRED_TRIANGLES 2000000u /* of a surface that is bred */
+
+/* The goals are the lines `fitness` and `likeness` of a study at `path`; without any, what has a surface scores 0. With
+ * `separately`, each is an objective. Adds the meshes that it reads to the inputs (inputs.h). TN_INVALID (E1248) where
+ * one is wrong: *blamed is then its number among study->each. */
+tn_status tn_field_scorer_new(const tn_evolution_study *study, const char *path, bool separately,
+                              tn_field_scorer **scorer, char **inputs, uint32_t *blamed, tn_error *error);
+void tn_field_scorer_free(tn_field_scorer *scorer);
+
+tn_evaluator tn_field_scorer_evaluator(tn_field_scorer *scorer);
+
+/* What objective `i` is, where each goal is one. */
+const char *tn_field_scorer_objective(const void *scorer, size_t i);
+
+/* Draws sentences that could be scored side by side, as tn_grower_draw does, but in pixels. */
+tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
+                               size_t count, const char *title, const char *path, tn_error *error);
+
+#endif

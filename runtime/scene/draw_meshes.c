@@ -1,0 +1,161 @@
+/* Draws meshes on a sheet, each in a cell with its label. */
+#include "runtime/scene/draw_meshes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "runtime/draw/canvas.h"
+#include "runtime/draw/type.h"
+#include "runtime/geometry/camera.h"
+#include "runtime/geometry/render.h"
+
+#define MARGIN 14.0
+#define GAP 10.0
+#define TITLE_HEIGHT 26.0
+#define LABEL_HEIGHT 16.0
+#define CELL 150.0   /* of several, in points */
+#define SINGLE 340.0 /* of one alone */
+#define DPI 144u
+
+/* What the eye sees of a mesh. */
+typedef struct extent {
+    double low[2], high[2];
+} extent;
+
+typedef struct sheet {
+    tn_eye eye;
+    size_t columns, rows;
+    double cell, top, label; /* points */
+    uint32_t dpi;
+} sheet;
+
+static extent extent_of(const tn_mesh *mesh, const tn_eye *eye)
+{
+    extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        tn_vector seen = tn_eye_sees(eye, tn_vector_at(mesh->positions + 3 * v));
+        e.low[0] = fmin(e.low[0], seen.x);
+        e.high[0] = fmax(e.high[0], seen.x);
+        e.low[1] = fmin(e.low[1], seen.y);
+        e.high[1] = fmax(e.high[1], seen.y);
+    }
+    for (int k = 0; k < 2 && mesh->vertex_count == 0; k++)
+        e.low[k] = e.high[k] = 0;
+    return e;
+}
+
+static double side_of(const extent *e)
+{
+    return fmax(fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]), 1e-300);
+}
+
+static sheet lay_out(size_t count, const tn_meshes_picture *picture, uint32_t dpi)
+{
+    tn_camera camera = tn_camera_default();
+    sheet s = {.eye = tn_camera_eye(&camera), .dpi = dpi ? dpi : DPI};
+    s.columns = (size_t)ceil(sqrt((double)count) * 1.2);
+    s.columns = s.columns > count ? count : s.columns;
+    s.rows = (count + s.columns - 1) / s.columns;
+    s.cell = count > 1 ? CELL : SINGLE;
+    s.top = MARGIN + (picture->title && picture->title[0] ? TITLE_HEIGHT : 0);
+    s.label = picture->labels ? LABEL_HEIGHT : 0;
+    return s;
+}
+
+/* Paints a mesh into the square whose corner is at x, y. `scale`: points a unit. */
+static tn_status paint(cairo_t *cr, const tn_mesh *mesh, const sheet *s, const extent *e, double scale,
+                       const double corner[2], tn_error *error)
+{
+    double pixel = 72.0 / s->dpi;
+    uint32_t side = (uint32_t)ceil(s->cell / pixel);
+    tn_render_frame frame = {.width = side,
+                             .height = side,
+                             .left = (e->low[0] + e->high[0]) / 2 - s->cell / scale / 2,
+                             .top = (e->low[1] + e->high[1]) / 2 + s->cell / scale / 2,
+                             .pixel = pixel / scale};
+    double *normals;
+    uint32_t *image = NULL;
+    tn_status status = tn_mesh_normals(mesh, &normals, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_mesh_render(mesh, normals, &s->eye, &frame, &image, error);
+    free(normals);
+    if (status != TN_OK)
+        return status;
+    cairo_surface_t *surface = cairo_image_surface_create_for_data((unsigned char *)image, CAIRO_FORMAT_ARGB32,
+                                                                   (int)side, (int)side, (int)(4 * side));
+    cairo_save(cr);
+    cairo_translate(cr, corner[0], corner[1]);
+    cairo_scale(cr, pixel, pixel);
+    cairo_set_source_surface(cr, surface, 0, 0);
+    cairo_paint(cr);
+    cairo_restore(cr);
+    cairo_surface_destroy(surface);
+    free(image);
+    return TN_OK;
+}
+
+static double largest_side(const extent *extents, size_t count)
+{
+    double side = 1e-300;
+    for (size_t i = 0; i < count; i++)
+        side = fmax(side, side_of(&extents[i]));
+    return side;
+}
+
+static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const extent *extents, size_t count,
+                            const sheet *s, const tn_meshes_picture *picture, tn_error *error)
+{
+    double largest = largest_side(extents, count);
+    tn_status status = TN_OK;
+    tn_type_face(cr, 9, false);
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        double corner[2] = {MARGIN + (double)(i % s->columns) * (s->cell + GAP),
+                            s->top + (double)(i / s->columns) * (s->cell + s->label + GAP)};
+        double side = picture->own_scales ? side_of(&extents[i]) : largest;
+        status = paint(cr, meshes[i], s, &extents[i], s->cell / side, corner, error);
+        cairo_set_source_rgb(cr, 0, 0, 0);
+        if (picture->labels)
+            tn_type_fit(cr, corner[0] + s->cell / 2, corner[1] + s->cell + 11, TN_ALIGN_CENTRE, s->cell,
+                        picture->labels[i]);
+    }
+    return status;
+}
+
+static tn_status draw(const tn_mesh *const *meshes, const extent *extents, size_t count, const sheet *s,
+                      const tn_meshes_picture *picture, tn_picture *to, tn_error *error)
+{
+    double width = 2 * MARGIN + (double)s->columns * (s->cell + GAP) - GAP,
+           height = s->top + (double)s->rows * (s->cell + s->label + GAP) - GAP + MARGIN;
+    tn_canvas_options options = {.width = width, .height = height, .dpi = s->dpi, .title = picture->title};
+    tn_canvas *canvas;
+    tn_status status = tn_canvas_open(to, &options, &canvas, error);
+    if (status != TN_OK)
+        return status;
+    cairo_t *cr = tn_canvas_context(canvas);
+    if (picture->title && picture->title[0]) {
+        tn_type_face(cr, 12, false);
+        tn_type_fit(cr, MARGIN, 18, TN_ALIGN_LEFT, width - 2 * MARGIN, picture->title);
+    }
+    status = draw_cells(cr, meshes, extents, count, s, picture, error);
+    if (status == TN_OK)
+        status = tn_canvas_commit(canvas, error);
+    tn_canvas_free(canvas);
+    return status;
+}
+
+tn_status tn_meshes_draw(const tn_mesh *const *meshes, size_t count, const tn_meshes_picture *picture, tn_picture *to,
+                         tn_error *error)
+{
+    if (count == 0)
+        return TN_OK;
+    sheet s = lay_out(count, picture, to->dpi);
+    extent *extents = calloc(count, sizeof *extents);
+    if (!extents)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        extents[i] = extent_of(meshes[i], &s.eye);
+    tn_status status = draw(meshes, extents, count, &s, picture, to, error);
+    free(extents);
+    return status;
+}
