@@ -117,7 +117,6 @@ static void test_other_notations(void **state)
     compile_with_failures(
         "b.kit", "unit 10 x 8 x 10;\nconnector a joins b;\npart p { fill 4 x 8 x 9; c up; }\nrule r at a = q;\n",
         false);
-    compile_with_failures("b.solid", "solid s { box b at (0, 0, 0) size (1, 1, 1) measure volume; }\n", false);
     compile_with_failures("a.bnf", "<e> ::= <e> + <v> | <v>\n<v> ::= x | y\n", true);
     compile_with_failures("b.bnf", "%dialct ge\n<e> ::= <f>\n", false);
     compile_with_failures("c.study", "evolution { grammar \"words\"; match \"hello\"; population 20 }\n", true);
