@@ -11,7 +11,7 @@
 
 enum { FACTS_MAX = 10000 };
 
-static bool write_mean(tn_amount_unit unit, const tn_moments *m, tn_buffer *text)
+static bool write_mean(tn_amount_unit unit, const tn_measure_moments *m, tn_buffer *text)
 {
     mpq_t number;
     tn_buffer root = {0};
@@ -26,7 +26,7 @@ static bool write_mean(tn_amount_unit unit, const tn_moments *m, tn_buffer *text
     return ok;
 }
 
-static bool write_moments(tn_amount_unit unit, const tn_moments *m, tn_buffer *text)
+static bool write_moments(tn_amount_unit unit, const tn_measure_moments *m, tn_buffer *text)
 {
     if (mpz_sgn(m->plans) == 0)
         return tn_buffer_printf(text, "no plan has a value");
@@ -53,16 +53,16 @@ static void measure_library(tn_measure_facts *facts, const tn_module *module, co
     const tn_measure_record *record = &module->MEASURE_records[measure];
     tn_amount_unit unit = tn_amount_unit_of(tn_library_schema(library), module->SUM_records[record->sum].power);
     tn_weighed *weighed = NULL;
-    tn_moments moments;
+    tn_measure_moments moments;
     tn_buffer text = {0};
     tn_error error;
-    tn_moments_init(&moments);
+    tn_measure_moments_init(&moments);
     if (tn_weighed_new(library, &measure, 1, &weighed, &error) == TN_OK &&
-        tn_moments_find(&moments, weighed, &error) == TN_OK && write_moments(unit, &moments, &text))
+        tn_measure_moments_find(&moments, weighed, &error) == TN_OK && write_moments(unit, &moments, &text))
         add_fact(facts, tn_text(module, module->LIBRARY_records[index].name), tn_text(module, record->name), text.data);
     else
         free(text.data);
-    tn_moments_clear(&moments);
+    tn_measure_moments_clear(&moments);
     tn_weighed_free(weighed);
 }
 

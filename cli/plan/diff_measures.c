@@ -16,7 +16,7 @@ static const char *const number_names[NUMBERS] = {"least", "mean", "most"};
 typedef struct change {
     const char *name;
     tn_amount_unit unit[SIDES];
-    tn_moments moments[SIDES];
+    tn_measure_moments moments[SIDES];
 } change;
 
 struct tn_measure_changes {
@@ -42,7 +42,7 @@ static tn_status find_side(const tn_ready_library *ready, uint32_t measure, chan
     c->unit[side] = tn_amount_unit_of(ready->schema, module->SUM_records[module->MEASURE_records[measure].sum].power);
     tn_status status = tn_weighed_new(ready->library, &measure, 1, &weighed, error);
     if (status == TN_OK)
-        status = tn_moments_find(&c->moments[side], weighed, error);
+        status = tn_measure_moments_find(&c->moments[side], weighed, error);
     tn_weighed_free(weighed);
     return status;
 }
@@ -50,7 +50,7 @@ static tn_status find_side(const tn_ready_library *ready, uint32_t measure, chan
 static void change_clear(change *c)
 {
     for (int side = 0; side < SIDES; side++)
-        tn_moments_clear(&c->moments[side]);
+        tn_measure_moments_clear(&c->moments[side]);
 }
 
 static tn_status find_change(tn_job *job, const tn_compared *compared, uint32_t before, uint32_t after,
@@ -60,7 +60,7 @@ static tn_status find_change(tn_job *job, const tn_compared *compared, uint32_t 
     change *c = &changes->items[changes->count];
     *c = (change){.name = tn_text(module, module->MEASURE_records[before].name)};
     for (int side = 0; side < SIDES; side++)
-        tn_moments_init(&c->moments[side]);
+        tn_measure_moments_init(&c->moments[side]);
     tn_status status = find_side(compared->before, before, c, BEFORE, error);
     if (status == TN_OK)
         status = find_side(compared->after, after, c, AFTER, error);
@@ -103,7 +103,7 @@ void tn_measure_changes_free(tn_measure_changes *changes)
 
 static mpq_srcptr number_of(const change *c, int side, int number)
 {
-    const tn_moments *m = &c->moments[side];
+    const tn_measure_moments *m = &c->moments[side];
     return number == LEAST ? m->least : number == MEAN ? m->mean : m->most;
 }
 

@@ -135,7 +135,7 @@ static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
 }
 
 /* mean := sum / count, variance := squares / count - mean^2, all in steps of the unit. */
-static void conclude(tn_moments *m, const heap *all, mpq_srcptr unit)
+static void conclude(tn_measure_moments *m, const heap *all, mpq_srcptr unit)
 {
     mpq_t square;
     mpz_set(m->plans, all->count);
@@ -160,7 +160,7 @@ static void conclude(tn_moments *m, const heap *all, mpq_srcptr unit)
     mpq_clear(square);
 }
 
-tn_status tn_moments_find(tn_moments *m, tn_weighed *weighed, tn_error *error)
+tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(weighed);
     heap all;
@@ -172,13 +172,13 @@ tn_status tn_moments_find(tn_moments *m, tn_weighed *weighed, tn_error *error)
     return status;
 }
 
-void tn_moments_init(tn_moments *m)
+void tn_measure_moments_init(tn_measure_moments *m)
 {
     mpz_init(m->plans);
     mpq_inits(m->least, m->most, m->mean, m->variance, NULL);
 }
 
-void tn_moments_clear(tn_moments *m)
+void tn_measure_moments_clear(tn_measure_moments *m)
 {
     mpz_clear(m->plans);
     mpq_clears(m->least, m->most, m->mean, m->variance, NULL);

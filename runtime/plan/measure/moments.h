@@ -6,15 +6,15 @@
 #include "runtime/plan/measure/weighed.h"
 
 /* Values in nanometres to the measure's power; of a library without plans all are 0. */
-typedef struct tn_moments {
+typedef struct tn_measure_moments {
     mpz_t plans;
     mpq_t least, most, mean, variance;
-} tn_moments;
+} tn_measure_moments;
 
-void tn_moments_init(tn_moments *moments);
-void tn_moments_clear(tn_moments *moments);
+void tn_measure_moments_init(tn_measure_moments *moments);
+void tn_measure_moments_clear(tn_measure_moments *moments);
 
 /* Of the first measure; `moments` is initialised. */
-tn_status tn_moments_find(tn_moments *moments, tn_weighed *weighed, tn_error *error);
+tn_status tn_measure_moments_find(tn_measure_moments *moments, tn_weighed *weighed, tn_error *error);
 
 #endif

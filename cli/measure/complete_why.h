@@ -1,6 +1,6 @@
 /* Why no plan of a library completes an open plan: the first written tray that leaves none. */
-#ifndef TARTAN_CLI_PLAN_COMPLETE_WHY_H
-#define TARTAN_CLI_PLAN_COMPLETE_WHY_H
+#ifndef TARTAN_CLI_MEASURE_COMPLETE_WHY_H
+#define TARTAN_CLI_MEASURE_COMPLETE_WHY_H
 
 #include <stdio.h>
 

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/complete_why.h"
-#include "cli/plan/wishes.h"
+#include "cli/measure/complete_why.h"
+#include "cli/measure/wishes.h"
 #include "compiler/plan/syntax/program.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/measure/bins.h"

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/measure/wishes.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sheet.h"
-#include "cli/plan/wishes.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/measure/best.h"
 

@@ -1,6 +1,6 @@
 /* Says which written tray of an open plan leaves no completion: it counts what begins as the open plan does, for longer
  * and longer beginnings. */
-#include "cli/plan/complete_why.h"
+#include "cli/measure/complete_why.h"
 
 #include <stdlib.h>
 #include <string.h>
