@@ -53,6 +53,10 @@ for name, volume in (("sphere", 4 / 3 * math.pi * 5**3), ("torus", 2 * math.pi**
     if not widths[0] > 2 * widths[1] > 3 * widths[2]:
         sys.exit("mesh: the bounds of %s do not come together: %s" % (name, widths))
 END
+printf 'surface shell = abs(sqrt(x*x + y*y + z*z) - 4) - 0.25\nsurface slab = max(abs(x) - 3, max(abs(y) - 3, abs(z) - 0.35))\n' > "$scratch/walls.field"
+golden thickness "tartan mesh $scratch/walls.field --surface shell --grid 61 --thickness"
+golden slab "tartan mesh $scratch/walls.field --surface slab --grid 60 --thickness --stats json"
+golden open_thickness "tartan mesh $scratch/walls.field --surface shell --thickness --open"
 golden bounds "tartan mesh $scratch/ball.field --grid 100 --bounds"
 golden cut "tartan mesh $scratch/odd.field --surface cut"
 golden wall "tartan mesh $scratch/odd.field --surface wall --stats json"
