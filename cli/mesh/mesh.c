@@ -9,7 +9,6 @@
 #include "cli/common/subject.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
-#include "runtime/geometry/thickness.h"
 
 /* ---- writing */
 
