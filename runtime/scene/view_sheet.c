@@ -17,6 +17,8 @@
 #define LEGEND_ROWS_MAX 40u /* more labels than these tell nobody anything */
 #define HAIRLINE 0.5
 
+static const double given_ambient = 0.5; /* of views in colours that are given: dark sides keep theirs */
+
 typedef struct sheet {
     double scale;     /* points per model unit */
     uint32_t *legend; /* labels that are seen; owned */
@@ -25,6 +27,7 @@ typedef struct sheet {
     double cell[2];
     size_t columns, rows;
     double size[2];
+    const double (*palette)[3]; /* or NULL */
 } sheet;
 
 static void mark_seen(const tn_view *view, const tn_legend *legend, bool *seen)
@@ -67,7 +70,7 @@ static bool lay_out_legend(tn_view *const *views, size_t count, const tn_legend 
 
 static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
 {
-    sheet s = {.columns = options->columns};
+    sheet s = {.columns = options->columns, .palette = options->palette};
     double extent[2] = {1e-9, 1e-9};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++)
@@ -190,8 +193,12 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
     double line = 0.8;
     if (view->face_count > 300)
         line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
-    tn_view_place place = {
-        left - view->low[0] * s->scale, top + high + view->low[1] * s->scale, s->scale, line, 0, NULL};
+    tn_view_place place = {left - view->low[0] * s->scale,
+                           top + high + view->low[1] * s->scale,
+                           s->scale,
+                           line,
+                           s->palette ? given_ambient : 0,
+                           s->palette};
     tn_view_paint(canvas, view, &place);
     if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
