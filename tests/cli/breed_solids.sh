@@ -37,6 +37,7 @@ END
 "$TARTAN" evolve legs.study -o one --threads 1 > /dev/null || fail "cannot evolve"
 "$TARTAN" evolve legs.study -o four --threads 4 > /dev/null
 cmp -s one/run.sqlite four/run.sqlite || fail "threads change a run"
+diff -r one/best four/best > /dev/null || fail "threads or folders change the results"
 "$TARTAN" evolve legs.study -o two -g 5 > /dev/null
 "$TARTAN" evolve legs.study -o two --resume > /dev/null || fail "cannot resume"
 cmp -s one/run.sqlite two/run.sqlite || fail "a resumed run differs"
