@@ -130,7 +130,8 @@ static const tn_option options[] = {
     TEXT("title", 0, "TEXT", outputs.title, "the title of a picture; by default the number of the house"),
     NUMBER("dpi", 0, "N", outputs.dpi, 10, 1200, "resolution of a .png (default 150)"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
-    TEXT("library", 0, "NAME", library, "the library of houses that the number belongs to; may be left out where the file has one"),
+    TEXT("library", 0, "NAME", library,
+         "the library of houses that the number belongs to; may be left out where the file has one"),
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
     NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
 };

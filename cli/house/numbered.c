@@ -96,6 +96,61 @@ static tn_tray *tray_room(const tn_numbered *n, tn_error *error)
     return trays;
 }
 
+/* The plan of a line or of #P, one of the library's. */
+tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error)
+{
+    uint32_t length = 0;
+    mpz_t rank;
+    *plan = (tn_plan){0};
+    if (text[0] == '#') {
+        plan->trays = tray_room(n, error);
+        if (!plan->trays)
+            return TN_MEMORY;
+        tn_status status = plan_of_rank(n, text + 1, strlen(text) - 1, plan->trays, &length, error);
+        plan->length = length;
+        return status;
+    }
+    mpz_init(rank);
+    tn_status status = tn_plan_parse_line(n->schema, text, strlen(text), max_length, plan, error);
+    if (status == TN_OK && !tn_library_rank(n->plans, plan->trays, plan->length, rank)) {
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is none of the library's");
+        tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
+    }
+    mpz_clear(rank);
+    return status;
+}
+
+static tn_status too_many_plans(const mpz_t plans, tn_error *error)
+{
+    char *digits = mpz_get_str(NULL, 10, plans);
+    tn_status status =
+        tn_fail(error, TN_LIMIT, E_VARIANTS, "the library has %.80s plans, too many to go through: the limit is %u",
+                digits ? digits : "more", TN_HOUSE_PLANS_MAX);
+    tn_error_help(error,
+                  "ask about one plan (--plan PLAN or '#P'; #P:V names a house on it), or make a library of houses "
+                  "from a smaller library of plans");
+    free(digits);
+    return status;
+}
+
+tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error)
+{
+    tn_cursor *cursor = NULL;
+    const tn_tray *trays;
+    uint32_t length;
+    bool stop = false;
+    mpz_t from, to;
+    mpz_inits(from, to, NULL);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, to);
+    tn_status status = mpz_cmp_ui(to, TN_HOUSE_PLANS_MAX) > 0 ? too_many_plans(to, error)
+                                                              : tn_cursor_new(n->plans, from, to, &cursor, error);
+    while (status == TN_OK && !stop && tn_cursor_next(cursor, &trays, &length))
+        status = visit(n, context, trays, length, &stop, error);
+    tn_cursor_free(cursor);
+    mpz_clears(from, to, NULL);
+    return status;
+}
+
 /* ---- counting */
 
 typedef struct house_tally {
@@ -119,44 +174,20 @@ static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t lengt
     return status;
 }
 
-static tn_status tally_all(tn_numbered *n, house_tally *tally, tn_error *error)
+static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                            tn_error *error)
 {
-    tn_cursor *cursor;
-    const tn_tray *trays;
-    uint32_t length;
-    mpz_t from, to;
-    mpz_inits(from, to, NULL);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, to);
-    tn_status status = tn_cursor_new(n->plans, from, to, &cursor, error);
-    while (status == TN_OK && tn_cursor_next(cursor, &trays, &length))
-        status = tally_plan(n, trays, length, tally, error);
-    tn_cursor_free(cursor);
-    mpz_clears(from, to, NULL);
-    return status;
+    (void)stop;
+    return tally_plan(n, trays, length, context, error);
 }
 
-/* The houses on the plan of a line or of #P. */
 static tn_status tally_text(tn_numbered *n, const char *text, size_t max_length, house_tally *tally, tn_error *error)
 {
-    tn_plan plan = {0};
-    uint32_t length = 0;
-    tn_tray *trays = tray_room(n, error);
-    if (!trays)
-        return TN_MEMORY;
-    mpz_t rank;
-    mpz_init(rank);
-    tn_status status = text[0] == '#' ? plan_of_rank(n, text + 1, strlen(text) - 1, trays, &length, error)
-                                      : tn_plan_parse_line(n->schema, text, strlen(text), max_length, &plan, error);
-    if (status == TN_OK && text[0] != '#' && !tn_library_rank(n->plans, plan.trays, plan.length, rank)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is not in the library");
-        tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
-    }
+    tn_plan plan;
+    tn_status status = tn_numbered_plan(n, text, max_length, &plan, error);
     if (status == TN_OK)
-        status = text[0] == '#' ? tally_plan(n, trays, length, tally, error)
-                                : tally_plan(n, plan.trays, (uint32_t)plan.length, tally, error);
-    mpz_clear(rank);
+        status = tally_plan(n, plan.trays, (uint32_t)plan.length, tally, error);
     free(plan.trays);
-    free(trays);
     return status;
 }
 
@@ -224,7 +255,8 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const c
     }
     tn_status status = tally_new(&n, &tally) ? TN_OK : tn_fail_memory(&error);
     if (status == TN_OK)
-        status = plan ? tally_text(&n, plan, settings->max_length, &tally, &error) : tally_all(&n, &tally, &error);
+        status = plan ? tally_text(&n, plan, settings->max_length, &tally, &error)
+                      : tn_numbered_plans(&n, tally_next, &tally, &error);
     if (status != TN_OK) {
         tn_numbered_bad_text(job, &error, "PLAN", plan ? plan : "");
     } else if (tn_job_output(job, output, &out)) {
@@ -277,34 +309,39 @@ bool tn_is_house_number(const char *text)
     return text[0] == '#' || (digits > 0 && text[digits] == ':');
 }
 
-/* The house that `rank` others come before: plan by plan, the houses before it are counted. */
-static tn_status house_of_rank(tn_numbered *n, mpz_t rank, tn_house *house, tn_error *error)
+typedef struct tn_house_search {
+    mpz_t left; /* houses before the wanted one, on the plans to come */
+    tn_house *house;
+    bool found;
+} tn_house_search;
+
+static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                             tn_error *error)
 {
-    tn_cursor *cursor = NULL;
-    const tn_tray *trays;
-    uint32_t length;
+    tn_house_search *s = context;
     tn_house_counts counts;
-    mpz_t from, to;
-    bool found = false;
-    mpz_inits(from, to, NULL);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, to);
-    tn_status status = tn_cursor_new(n->plans, from, to, &cursor, error);
-    while (status == TN_OK && !found && tn_cursor_next(cursor, &trays, &length)) {
-        tn_house_counts_init(&counts);
-        status = tn_house_variants_count(n->variants, trays, length, &counts, error);
-        found = status == TN_OK && mpz_cmp(rank, counts.houses) < 0;
-        if (found)
-            status = tn_house_variants_at(n->variants, trays, length, rank, house, error);
-        else
-            mpz_sub(rank, rank, counts.houses);
-        tn_house_counts_clear(&counts);
-    }
-    if (status == TN_OK && !found) {
+    tn_house_counts_init(&counts);
+    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
+    *stop = s->found = status == TN_OK && mpz_cmp(s->left, counts.houses) < 0;
+    if (s->found)
+        status = tn_house_variants_at(n->variants, trays, length, s->left, s->house, error);
+    else
+        mpz_sub(s->left, s->left, counts.houses);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+/* The house that `rank` others come before: plan by plan, the houses before it are counted. */
+static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    tn_house_search s = {.house = house};
+    mpz_init_set(s.left, rank);
+    tn_status status = tn_numbered_plans(n, search_plan, &s, error);
+    if (status == TN_OK && !s.found) {
         status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has fewer houses than that");
         tn_error_help(error, "`tartan count` says how many; ranks count from 0");
     }
-    tn_cursor_free(cursor);
-    mpz_clears(from, to, NULL);
+    mpz_clear(s.left);
     return status;
 }
 

@@ -16,6 +16,11 @@ typedef struct tn_house_settings {
 void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const char *plan, bool json,
                          const char *output);
 
+/* Writes the lines of different houses of the library, or of those on one plan, in the order of their ranks: each is
+ * drawn with the same probability. */
+void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
+                          uint64_t seed, const char *output);
+
 /* Writes the name #P:V of a house. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line);
 

@@ -20,6 +20,15 @@ typedef struct tn_numbered {
 bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings);
 void tn_numbered_close(tn_numbered *n);
 
+/* A plan of the library: a plan line, or #P. The caller frees its trays, also after a failure. */
+tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error);
+
+/* Visits all plans of the library in order, until *stop. TN_LIMIT (E1617) where there are too many. */
+#define TN_HOUSE_PLANS_MAX 1000000u
+typedef tn_status tn_plan_visit(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                                tn_error *error);
+tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error);
+
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 

@@ -4,8 +4,10 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/house/numbered.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
+#include "driver/house/judge.h"
 
 #define PART "interrupted; %.400s holds only the first plans of the sample"
 
@@ -14,6 +16,7 @@ typedef struct sample_settings {
     tn_plan_settings plans;
     tn_sampled_settings sampled;
     tn_written_settings written;
+    const char *plan;
 } sample_settings;
 
 static const sample_settings *settings_of(const tn_job *job)
@@ -102,6 +105,27 @@ static bool read_wanted(tn_job *job, size_t *wanted)
     return true;
 }
 
+/* Is the library that is named one of houses, or a plan given whose houses are wanted? */
+static bool samples_houses(const tn_job *job, const sample_settings *settings)
+{
+    const char *name = settings->plans.library;
+    return settings->plan || (name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD);
+}
+
+/* Of the options, those about the length of plans and about formats are for plans alone. */
+static void sample_houses(tn_job *job, size_t wanted)
+{
+    const sample_settings *s = settings_of(job);
+    const tn_house_settings houses = tn_job_houses(&s->plans);
+    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse || s->written.format) {
+        tn_diagnostic *d = tn_job_usage(job, "houses are drawn among all, and written as lines");
+        tn_help(tn_job_diagnostics(job), d,
+                "leave out --length, --per-length, --diverse and --format; --plan takes one plan");
+        return;
+    }
+    tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, s->written.output);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -110,7 +134,10 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_ready_library ready = {0};
     size_t wanted;
     tn_job_begin(&job, common);
-    if (read_wanted(&job, &wanted) && tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
+    bool open = read_wanted(&job, &wanted) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
+    if (open && samples_houses(&job, settings))
+        sample_houses(&job, wanted);
+    else if (open && tn_job_opened_library(&job, &settings->plans, &ready))
         sample(&job, &ready, wanted);
     tn_library_close(&ready);
     return tn_job_end(&job);
@@ -124,6 +151,7 @@ static const tn_option options[] = {
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
            "N plans of each number of trays, instead of N in all"),
     OPTION_DIVERSE,
+    TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan line, or # and its rank"),
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,
@@ -134,13 +162,15 @@ static const tn_option options[] = {
 const tn_command tn_command_sample = {
     .name = "sample",
     .summary = "choose random plans of a library",
-    .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]",
+    .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]\nFILE N --library HOUSES "
+             "[--plan PLAN] [--seed S]",
     .description =
         "Draws N different plans of the library at random, each with the same probability, and writes them in the "
         "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
         "plan is the one of 1,000 fresh draws that is "
-        "farthest from those before. A changed field counts 1, a tray more or less counts as many as it has fields. "
+        "farthest from those before. With --library HOUSES, or --plan, houses are drawn and written as house lines. A "
+        "changed field counts 1, a tray more or less counts as many as it has fields. "
         "The same file, seed and options "
         "give the same plans on every machine.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",

@@ -57,6 +57,16 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
     is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.pdf house.ply house.png house.svg'
 fi
 
+# Houses drawn at random, from all plans and from one; libraries of too many plans.
+golden sample "tartan sample cottage 3 --library cottages --seed 3"
+golden sample_plan "tartan sample cottage 2 --plan '#10' --library cottages"
+golden sample_diverse "tartan sample cottage 2 --library cottages --diverse"
+golden sample_no_plan "tartan sample cottage 2 --library cottages --plan '#14'"
+golden too_many_plans "tartan count lahave-complete --library lahave-complete"
+plan="10' room:14' none | 14' room:14' none"
+is 'all houses on a plan, each once' "$("$TARTAN" sample "$files/huts.plan" 100000 --library huts --plan "$plan" | sort -u | wc -l)" \
+    "$("$TARTAN" count "$files/huts.plan" --library huts --plan "$plan" --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/')"
+
 # What else a house could be.
 golden vary "tartan vary cottage '#10:77'"
 golden vary_cell "tartan vary cottage '#10:77' --at 3.body.ground --json"

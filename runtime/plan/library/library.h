@@ -83,6 +83,11 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
 /* The plan of a rank: fills trays (room for tn_library_max) and its length. false where rank >= the number kept. */
 bool tn_library_unrank(const tn_library *library, const mpz_t rank, tn_tray *trays, uint32_t *length);
 
+/* Draws `count` different numbers below `bound`, or all of them, each with the same probability: *found of them,
+ * ascending. A function of seed and stream. `ranks` are initialised. */
+tn_status tn_ranks_sample(uint64_t seed, uint64_t stream, const mpz_t bound, size_t count, mpz_t *ranks, size_t *found,
+                          tn_error *error);
+
 /* `count` distinct ranks, ascending, uniform over the plans of one length (or TN_ALL_LENGTHS): depends on (seed,
  * arguments) alone. ranks: an initialised array of `count`; *found < count where the library has fewer. */
 tn_status tn_library_sample(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,

@@ -91,10 +91,9 @@ static bool give_others(const tn_drawn *drawn, uint64_t bound, mpz_t *ranks)
     return true;
 }
 
-/* Distinct numbers below `bound`, ascending; found of them. Where more than half are wanted, those left out are drawn.
- */
-static tn_status sample_below(uint64_t seed, uint64_t stream, const mpz_t bound, size_t count, mpz_t *ranks,
-                              size_t *found, tn_error *error)
+/* Where more than half are wanted, those left out are drawn. */
+tn_status tn_ranks_sample(uint64_t seed, uint64_t stream, const mpz_t bound, size_t count, mpz_t *ranks, size_t *found,
+                          tn_error *error)
 {
     uint64_t all = mpz_fits_ulong_p(bound) ? mpz_get_ui(bound) : UINT64_MAX;
     *found = count < all ? count : (size_t)all;
@@ -121,7 +120,7 @@ tn_status tn_library_sample(const tn_library *library, uint64_t seed, uint32_t l
     mpz_init(bound);
     tn_library_kept(library, length, bound);
     /* Each length has a stream of its own, so that samples by length do not resemble one another. */
-    tn_status status = sample_below(seed, length, bound, count, ranks, found, error);
+    tn_status status = tn_ranks_sample(seed, length, bound, count, ranks, found, error);
     bool shift = status == TN_OK && length != TN_ALL_LENGTHS && length <= library->max;
     for (size_t i = 0; shift && i < *found; i++)
         mpz_add(ranks[i], ranks[i], library->before[length]);

@@ -1,0 +1,125 @@
+/* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/numbered_parts.h"
+
+/* The ranks that are drawn, ascending, and how far the plans have come. */
+typedef struct tn_house_sample {
+    mpz_t *ranks;
+    size_t room, count, next;
+    mpz_t before; /* houses on the plans before */
+    FILE *out;
+} tn_house_sample;
+
+static void sample_clear(tn_house_sample *s)
+{
+    for (size_t i = 0; s->ranks && i < s->room; i++)
+        mpz_clear(s->ranks[i]);
+    free(s->ranks);
+    mpz_clear(s->before);
+}
+
+static tn_status sample_draw(tn_house_sample *s, uint64_t seed, const mpz_t bound, size_t wanted, tn_error *error)
+{
+    s->ranks = malloc((wanted + 1) * sizeof *s->ranks);
+    if (!s->ranks)
+        return tn_fail_memory(error);
+    for (s->room = 0; s->room < wanted; s->room++)
+        mpz_init(s->ranks[s->room]);
+    return tn_ranks_sample(seed, 0, bound, wanted, s->ranks, &s->count, error);
+}
+
+/* Adds the houses of a plan to the number of all. */
+static tn_status add_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                          tn_error *error)
+{
+    (void)stop;
+    return tn_house_variants_count(n->variants, trays, length, context, error);
+}
+
+static tn_status write_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
+                             const mpz_t variant, tn_error *error)
+{
+    tn_house house;
+    tn_buffer line = {0};
+    tn_status status = tn_house_variants_at(n->variants, trays, length, variant, &house, error);
+    if (status == TN_OK)
+        status = tn_house_write(&house, &line, error);
+    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        fwrite(line.data, 1, line.size, s->out);
+    tn_house_clear(&house);
+    free(line.data);
+    return status;
+}
+
+/* Writes the houses on a plan that are drawn. */
+static tn_status write_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                            tn_error *error)
+{
+    tn_house_sample *s = context;
+    tn_house_counts counts;
+    mpz_t variant;
+    mpz_init(variant);
+    tn_house_counts_init(&counts);
+    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
+    mpz_add(counts.houses, counts.houses, s->before);
+    while (status == TN_OK && s->next < s->count && mpz_cmp(s->ranks[s->next], counts.houses) < 0) {
+        mpz_sub(variant, s->ranks[s->next++], s->before);
+        status = write_house(n, s, trays, length, variant, error);
+    }
+    mpz_set(s->before, counts.houses);
+    *stop = s->next == s->count;
+    tn_house_counts_clear(&counts);
+    mpz_clear(variant);
+    return status;
+}
+
+/* Calls `visit` for the one plan, or for all. */
+static tn_status visit_plans(tn_numbered *n, const tn_plan *plan, tn_plan_visit *visit, void *context, tn_error *error)
+{
+    bool stop = false;
+    return plan ? visit(n, context, plan->trays, (uint32_t)plan->length, &stop, error)
+                : tn_numbered_plans(n, visit, context, error);
+}
+
+static tn_status sample_houses(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, FILE *out,
+                               tn_error *error)
+{
+    tn_house_sample s = {.out = out};
+    tn_house_counts all;
+    mpz_init(s.before);
+    tn_house_counts_init(&all);
+    tn_status status = visit_plans(n, plan, add_plan, &all, error);
+    if (status == TN_OK)
+        status = sample_draw(&s, seed, all.houses, wanted, error);
+    if (status == TN_OK && s.count > 0)
+        status = visit_plans(n, plan, write_plan, &s, error);
+    tn_house_counts_clear(&all);
+    sample_clear(&s);
+    return status;
+}
+
+void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
+                          uint64_t seed, const char *output)
+{
+    tn_numbered n;
+    tn_error error = {0};
+    tn_output out;
+    tn_plan on = {0};
+    if (tn_numbered_open(&n, job, settings)) {
+        tn_status status = plan ? tn_numbered_plan(&n, plan, settings->max_length, &on, &error) : TN_OK;
+        if (status != TN_OK) {
+            tn_numbered_bad_text(job, &error, "PLAN", plan);
+        } else if (tn_job_output(job, output, &out)) {
+            status = sample_houses(&n, plan ? &on : NULL, wanted, seed, out.stream, &error);
+            if (status != TN_OK)
+                tn_job_fail(job, &error);
+            tn_job_close(job, &out, status == TN_OK);
+        }
+    }
+    free(on.trays);
+    tn_numbered_close(&n);
+}
