@@ -1,24 +1,10 @@
 /* Counts the houses of a library, and names them: plan by plan, each plan's houses one after another. */
-#include "cli/house/numbered.h"
+#include "cli/house/numbered_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/house/judge.h"
-#include "runtime/house/variant/variant.h"
-#include "runtime/plan/library/library.h"
-
-/* A library of houses, made ready with the library of its plans. */
-typedef struct numbered {
-    tn_job *job;
-    const tn_house_library_record *record;
-    tn_schema *schema;
-    tn_house_form form;
-    tn_library *plans;
-    tn_house_variants *variants;
-} numbered;
-
-static bool choose(numbered *n, const char *name)
+static bool choose(tn_numbered *n, const char *name)
 {
     const tn_module *module = n->job->opened.module;
     uint32_t found = tn_house_library_find(module, name);
@@ -36,10 +22,10 @@ static bool choose(numbered *n, const char *name)
     return false;
 }
 
-static bool open_numbered(numbered *n, tn_job *job, const tn_house_settings *settings)
+bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings)
 {
     tn_error error;
-    *n = (numbered){.job = job};
+    *n = (tn_numbered){.job = job};
     if (!choose(n, settings->library))
         return false;
     const tn_module *module = job->opened.module;
@@ -57,14 +43,14 @@ static bool open_numbered(numbered *n, tn_job *job, const tn_house_settings *set
     return status == TN_OK;
 }
 
-static void close_numbered(numbered *n)
+void tn_numbered_close(tn_numbered *n)
 {
     tn_house_variants_free(n->variants);
     tn_library_free(n->plans);
     tn_schema_free(n->schema);
 }
 
-static void bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
+void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
 {
     if (error->status != TN_INVALID) {
         tn_job_fail(job, error);
@@ -78,7 +64,7 @@ static void bad_text(tn_job *job, tn_error *error, const char *name, const char 
 /* ---- plans by rank */
 
 /* The plan of a rank, whose digits end at `end`; trays: room for the longest. */
-static tn_status plan_of_rank(const numbered *n, const char *digits, size_t size, tn_tray *trays, uint32_t *length,
+static tn_status plan_of_rank(const tn_numbered *n, const char *digits, size_t size, tn_tray *trays, uint32_t *length,
                               tn_error *error)
 {
     mpz_t rank;
@@ -102,7 +88,7 @@ static tn_status plan_of_rank(const numbered *n, const char *digits, size_t size
     return status;
 }
 
-static tn_tray *tray_room(const numbered *n, tn_error *error)
+static tn_tray *tray_room(const tn_numbered *n, tn_error *error)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(n->plans) + 1));
     if (!trays)
@@ -119,7 +105,7 @@ typedef struct house_tally {
     uint32_t low, high;
 } house_tally;
 
-static tn_status tally_plan(numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally, tn_error *error)
+static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally, tn_error *error)
 {
     mpz_t before;
     mpz_init_set(before, tally->counts.houses);
@@ -133,7 +119,7 @@ static tn_status tally_plan(numbered *n, const tn_tray *trays, uint32_t length, 
     return status;
 }
 
-static tn_status tally_all(numbered *n, house_tally *tally, tn_error *error)
+static tn_status tally_all(tn_numbered *n, house_tally *tally, tn_error *error)
 {
     tn_cursor *cursor;
     const tn_tray *trays;
@@ -150,7 +136,7 @@ static tn_status tally_all(numbered *n, house_tally *tally, tn_error *error)
 }
 
 /* The houses on the plan of a line or of #P. */
-static tn_status tally_text(numbered *n, const char *text, size_t max_length, house_tally *tally, tn_error *error)
+static tn_status tally_text(tn_numbered *n, const char *text, size_t max_length, house_tally *tally, tn_error *error)
 {
     tn_plan plan = {0};
     uint32_t length = 0;
@@ -174,7 +160,7 @@ static tn_status tally_text(numbered *n, const char *text, size_t max_length, ho
     return status;
 }
 
-static void write_tally(const numbered *n, const house_tally *tally, bool json, FILE *out)
+static void write_tally(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
     static const char *const names[] = {"plans", "plans_with_houses", "zoned", "faced"};
     static const char *const words[] = {"plans", "with a house", "sections and functions", "with openings"};
@@ -206,7 +192,7 @@ static void write_tally(const numbered *n, const house_tally *tally, bool json, 
     fputs(json ? "}}\n" : "", out);
 }
 
-static bool tally_new(const numbered *n, house_tally *tally)
+static bool tally_new(const tn_numbered *n, house_tally *tally)
 {
     *tally = (house_tally){.low = tn_library_min(n->plans), .high = tn_library_max(n->plans)};
     size_t count = (size_t)tally->high - tally->low + 1;
@@ -228,30 +214,30 @@ static void tally_free(house_tally *tally)
 void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const char *plan, bool json,
                          const char *output)
 {
-    numbered n;
+    tn_numbered n;
     house_tally tally = {0};
     tn_error error = {0};
     tn_output out;
-    if (!open_numbered(&n, job, settings)) {
-        close_numbered(&n);
+    if (!tn_numbered_open(&n, job, settings)) {
+        tn_numbered_close(&n);
         return;
     }
     tn_status status = tally_new(&n, &tally) ? TN_OK : tn_fail_memory(&error);
     if (status == TN_OK)
         status = plan ? tally_text(&n, plan, settings->max_length, &tally, &error) : tally_all(&n, &tally, &error);
     if (status != TN_OK) {
-        bad_text(job, &error, "PLAN", plan ? plan : "");
+        tn_numbered_bad_text(job, &error, "PLAN", plan ? plan : "");
     } else if (tn_job_output(job, output, &out)) {
         write_tally(&n, &tally, json, out.stream);
         tn_job_commit(job, &out);
     }
     tally_free(&tally);
-    close_numbered(&n);
+    tn_numbered_close(&n);
 }
 
 /* ---- names */
 
-static tn_status name_house(numbered *n, const char *line, size_t max_length, mpz_t plan, mpz_t variant,
+static tn_status name_house(tn_numbered *n, const char *line, size_t max_length, mpz_t plan, mpz_t variant,
                             tn_error *error)
 {
     tn_house house;
@@ -268,20 +254,20 @@ static tn_status name_house(numbered *n, const char *line, size_t max_length, mp
 
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line)
 {
-    numbered n;
+    tn_numbered n;
     tn_error error = {0};
     tn_output out;
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
-    if (open_numbered(&n, job, settings)) {
+    if (tn_numbered_open(&n, job, settings)) {
         if (name_house(&n, line, settings->max_length, plan, variant, &error) != TN_OK) {
-            bad_text(job, &error, "HOUSE", line);
+            tn_numbered_bad_text(job, &error, "HOUSE", line);
         } else if (tn_job_output(job, NULL, &out)) {
             gmp_fprintf(out.stream, "#%Zd:%Zd\n", plan, variant);
             tn_job_commit(job, &out);
         }
     }
-    close_numbered(&n);
+    tn_numbered_close(&n);
     mpz_clears(plan, variant, NULL);
 }
 
@@ -292,7 +278,7 @@ bool tn_is_house_number(const char *text)
 }
 
 /* The house that `rank` others come before: plan by plan, the houses before it are counted. */
-static tn_status house_of_rank(numbered *n, mpz_t rank, tn_house *house, tn_error *error)
+static tn_status house_of_rank(tn_numbered *n, mpz_t rank, tn_house *house, tn_error *error)
 {
     tn_cursor *cursor = NULL;
     const tn_tray *trays;
@@ -322,7 +308,7 @@ static tn_status house_of_rank(numbered *n, mpz_t rank, tn_house *house, tn_erro
     return status;
 }
 
-static tn_status house_of_digits(numbered *n, const char *digits, tn_house *house, tn_error *error)
+static tn_status house_of_digits(tn_numbered *n, const char *digits, tn_house *house, tn_error *error)
 {
     mpz_t rank;
     if (!*digits || digits[strspn(digits, "0123456789")]) {
@@ -337,7 +323,7 @@ static tn_status house_of_digits(numbered *n, const char *digits, tn_house *hous
     return status;
 }
 
-static tn_status house_of(numbered *n, const char *number, tn_house *house, tn_error *error)
+tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error)
 {
     number += number[0] == '#';
     const char *colon = strchr(number, ':');
@@ -365,17 +351,17 @@ static tn_status house_of(numbered *n, const char *number, tn_house *house, tn_e
 
 void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use)
 {
-    numbered n;
+    tn_numbered n;
     tn_error error = {0};
-    if (open_numbered(&n, job, settings)) {
+    if (tn_numbered_open(&n, job, settings)) {
         tn_house house;
-        if (house_of(&n, number, &house, &error) == TN_OK)
+        if (tn_numbered_house(&n, number, &house, &error) == TN_OK)
             use(job, &house);
         else
             tn_job_fail(job, &error);
         tn_house_clear(&house);
     }
-    close_numbered(&n);
+    tn_numbered_close(&n);
 }
 
 static void write_line(tn_job *job, const tn_house *house)

@@ -26,7 +26,7 @@ bool tn_area_compares(tn_int128 area, int64_t test, int64_t square_micrometres)
 }
 
 /* Is the section's value of some choice this SHAPE record? */
-static bool chosen(const tn_house *house, int64_t shape)
+bool tn_house_chosen(const tn_house *house, int64_t shape)
 {
     const tn_house_form *form = house->form;
     for (uint32_t i = 0; i < form->record->choice_count; i++)
@@ -50,7 +50,7 @@ static bool ask_cell(const void *context, const tn_instruction *instruction)
     if (instruction->opcode == TN_OP_EVERY)
         return true;
     if (instruction->opcode == TN_OP_CHOSEN)
-        return chosen(house, instruction->first);
+        return tn_house_chosen(house, instruction->first);
     if (!cell)
         return false;
     switch (instruction->opcode) {

@@ -80,6 +80,9 @@ static inline tn_int128 tn_cell_area(const tn_cell *cell)
     return (tn_int128)(cell->at.x1 - cell->at.x0) * (cell->at.y1 - cell->at.y0);
 }
 
+/* Does the section have this value (a SHAPE record)? */
+bool tn_house_chosen(const tn_house *house, int64_t shape);
+
 /* Is the section one that the form does not forbid? */
 bool tn_house_section_stands(const tn_house *house);
 

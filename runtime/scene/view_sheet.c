@@ -170,6 +170,15 @@ static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
     }
 }
 
+/* As wide as a seam can be seen: a pixel at least where there are pixels. */
+static double seam_width(cairo_t *cr, const tn_view_place *place)
+{
+    double pixel[2] = {1, 0};
+    cairo_device_to_user_distance(cr, &pixel[0], &pixel[1]);
+    bool has_pixels = cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+    return fmax(HAIRLINE / place->scale, has_pixels ? hypot(pixel[0], pixel[1]) : 0);
+}
+
 void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_place *place)
 {
     cairo_t *cr = tn_canvas_context(canvas);
@@ -178,8 +187,9 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
     cairo_scale(cr, place->scale, -place->scale);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    double seam = seam_width(cr, place);
     for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
-        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, HAIRLINE / place->scale);
+        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, seam);
     cairo_restore(cr);
 }
 

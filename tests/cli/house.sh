@@ -57,6 +57,13 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
     is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.pdf house.ply house.png house.svg'
 fi
 
+# What else a house could be.
+golden vary "tartan vary cottage '#10:77'"
+golden vary_cell "tartan vary cottage '#10:77' --at 3.body.ground --json"
+golden vary_storeys "tartan vary cottage \"\$(tartan unrank cottage '#2:0')\" --at 2.body.ground"
+golden vary_no_cell "tartan vary cottage '#10:77' --at 9.body.ground"
+golden vary_dropped "tartan vary cottage \"$bedrooms ; bed.back bed.back\""
+
 # The house is one closed mesh: each edge is there twice, once in each direction.
 "$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o "$scratch/h.obj" \
     -o "$scratch/h.json" -o "$scratch/h.ply" -o "$scratch/h.glb"

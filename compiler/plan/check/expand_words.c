@@ -10,7 +10,7 @@ static void report_not_values(tn_rule_expansion *expansion, const tn_ast_expr *v
     tn_diagnostics *diagnostics = expansion->check->diagnostics;
     tn_diagnostic *d = tn_report(diagnostics, E_BAD_ARGUMENT, value->node.span, "values of a field are needed here");
     tn_note(diagnostics, d, &use->node.span, "`%s` is used in a specifier here", use->text);
-    tn_help(diagnostics, d, "give a value such as `dense`, `4'`, `4' or 8'` or `not great`");
+    tn_help(diagnostics, d, "give a value of a field, several with `or` between, or `not` and a value");
 }
 
 static tn_ast_word *copy_word(tn_rule_expansion *expansion, const tn_ast_word *word)

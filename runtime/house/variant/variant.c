@@ -1,70 +1,42 @@
 /* Goes through the houses on one plan: sections, functions, faces, each like the wheels of a counter. */
-#include "runtime/house/variant/variant.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/variant/stage.h"
+#include "runtime/house/variant/memo.h"
+#include "runtime/house/variant/section.h"
 
-/* A wheel of the counter: a cell's functions or a face's kinds, and which of them is set. */
-typedef struct wheel {
-    uint32_t of; /* a cell or a face */
-    uint32_t first, count, at;
-} wheel;
-
-typedef struct wheels {
-    wheel *items;
-    uint32_t *choices; /* of all wheels, one after another */
-    size_t count, room, choice_count, choice_room;
-} wheels;
-
-struct tn_house_variants {
-    const tn_house_form *form;
-    const tn_house_library_record *library;
-    tn_house_rules *rules;
-    tn_clause_stage *stages; /* of each clause: when it can be asked */
-    uint64_t work_limit, work;
-    tn_house house;
-    wheels functions, faces;
-    size_t *tiles; /* how many fit in each cell; 1 where it has none */
-    size_t tile_room;
-};
-
-/* Who looks at each house without tiles. *stop ends the going through. */
+/* Who looks at the houses. `count` is shown how many there are of a section, and then of functions; it takes them all
+ * at once (*taken), or is shown fewer at a time. `visit` is shown houses one by one, without tiles. *stop ends the
+ * going through. */
+typedef enum tn_house_part { PART_SECTION, PART_FUNCTIONS } tn_house_part;
 typedef struct visitor {
+    void (*count)(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts, bool *taken);
     tn_status (*visit)(tn_house_variants *v, void *context, bool *stop, tn_error *error);
     void *context;
-    bool *zoned; /* set where the functions at hand have a house: for counting */
 } visitor;
 
 /* ---- wheels */
 
-static void clear_wheels(wheels *w)
+void tn_wheels_clear(tn_wheels *w)
 {
     w->count = w->choice_count = 0;
 }
 
-static tn_status add_wheel(wheels *w, uint32_t of, const uint32_t *choices, uint32_t count, tn_error *error)
+tn_status tn_wheels_add(tn_wheels *w, uint32_t of, const uint32_t *choices, uint32_t count, tn_error *error)
 {
     if (!tn_array_reserve(&w->items, &w->room, w->count, 1, sizeof *w->items) ||
         !tn_array_reserve(&w->choices, &w->choice_room, w->choice_count, count, sizeof *w->choices))
         return tn_fail_memory(error);
-    w->items[w->count++] = (wheel){.of = of, .first = (uint32_t)w->choice_count, .count = count};
+    w->items[w->count++] = (tn_wheel){.of = of, .first = (uint32_t)w->choice_count, .count = count};
     memcpy(w->choices + w->choice_count, choices, count * sizeof *choices);
     w->choice_count += count;
     return TN_OK;
 }
 
-static uint32_t chosen(const wheels *w, size_t i)
+bool tn_wheels_turn(tn_wheels *w, size_t first, size_t end)
 {
-    return w->choices[w->items[i].first + w->items[i].at];
-}
-
-/* The last wheel turns first. False: all have come round. */
-static bool turn(wheels *w)
-{
-    for (size_t i = w->count; i-- > 0;) {
+    for (size_t i = end; i-- > first;) {
         if (++w->items[i].at < w->items[i].count)
             return true;
         w->items[i].at = 0;
@@ -74,32 +46,67 @@ static bool turn(wheels *w)
 
 /* ---- clauses */
 
-static tn_status spend(tn_house_variants *v, tn_error *error)
+/* The clause that was run most often; NULL where none was. */
+static const tn_house_clause_record *dearest(const tn_house_variants *v)
+{
+    const tn_house_clause_record *clauses = v->form->module->HOUSE_CLAUSE_records + v->library->clause_first;
+    uint64_t most = 0;
+    const tn_house_clause_record *found = NULL;
+    for (uint32_t i = 0; i < v->library->clause_count; i++) {
+        if (v->runs[i] > most)
+            found = &clauses[i];
+        most = v->runs[i] > most ? v->runs[i] : most;
+    }
+    return found;
+}
+
+tn_status tn_variants_spend(tn_house_variants *v, tn_error *error)
 {
     if (v->work-- > 0)
         return TN_OK;
     v->work = 0;
     tn_fail(error, TN_LIMIT, E_VARIANTS, "the houses on this plan take more than %llu steps to go through",
             (unsigned long long)v->work_limit);
-    tn_error_help(error, "leave fewer choices: require more of cells and sections, or take a shorter plan");
+    const tn_house_clause_record *clause = dearest(v);
+    if (clause)
+        tn_error_help(
+            error,
+            "most of them ask `%.60s`: leave fewer choices (--where), or let it ask for cells instead of rooms "
+            "and walks",
+            tn_text(v->form->module, clause->name));
+    else
+        tn_error_help(error,
+                      "leave fewer choices: require more of cells and sections (--where), or take a shorter plan");
     return TN_LIMIT;
 }
 
-/* Do all clauses that can be asked at this stage, and not before, keep the house? */
-static tn_status keeps(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error)
+/* Runs a clause, on a house that the rules have started on or, the first time, start on now. */
+static tn_status run_clause(tn_house_variants *v, uint32_t clause, bool *started, bool *drops, tn_error *error)
 {
-    tn_status status = spend(v, error);
-    bool asked = false;
+    tn_status status = *started ? TN_OK : tn_house_rules_start(v->rules, &v->house, error);
+    *started = true;
+    v->runs[clause]++;
+    return status == TN_OK ? tn_house_rules_drop(v->rules, v->library, clause, drops, error) : status;
+}
+
+tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error)
+{
+    tn_status status = tn_variants_spend(v, error);
+    bool started = false;
     *kept = true;
     for (uint32_t i = 0; status == TN_OK && *kept && i < v->library->clause_count; i++) {
         bool drops = false;
         if (v->stages[i] != stage)
             continue;
-        if (!asked)
-            status = tn_house_rules_start(v->rules, &v->house, error);
-        asked = true;
-        if (status == TN_OK)
-            status = tn_house_rules_drop(v->rules, v->library, i, &drops, error);
+        uint8_t *answer = stage == TN_STAGE_FUNCTIONS ? tn_memo_answer(v, i) : NULL;
+        if (answer && *answer != TN_MEMO_UNKNOWN)
+            drops = *answer == TN_MEMO_DROPS;
+        else
+            status = run_clause(v, i, &started, &drops, error);
+        if (answer && status == TN_OK)
+            *answer = drops ? TN_MEMO_DROPS : TN_MEMO_KEEPS;
+        if (answer && drops)
+            v->turn_end = tn_memo_last(v, i) + 1;
         *kept = !drops;
     }
     return status;
@@ -123,16 +130,16 @@ static tn_status count_tiles(tn_house_variants *v, bool *fit, tn_error *error)
 
 /* ---- stages */
 
-static tn_status set_faces(tn_house_variants *v, tn_error *error)
+tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
 {
     uint32_t kinds[TN_FACE_KINDS_MAX];
     tn_status status = TN_OK;
-    clear_wheels(&v->faces);
+    tn_wheels_clear(&v->faces);
     for (uint32_t i = 0; status == TN_OK && i < v->house.face_count; i++) {
         size_t count = tn_face_options(&v->house, &v->house.faces[i], kinds);
         v->house.faces[i].kind = kinds[0];
         if (count > 1)
-            status = add_wheel(&v->faces, i, kinds, (uint32_t)count, error);
+            status = tn_wheels_add(&v->faces, i, kinds, (uint32_t)count, error);
     }
     return status;
 }
@@ -140,20 +147,20 @@ static tn_status set_faces(tn_house_variants *v, tn_error *error)
 static tn_status go_through_faces(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
 {
     bool kept = false, fit = false;
-    tn_status status = keeps(v, TN_STAGE_FUNCTIONS, &kept, error);
+    tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
     if (status == TN_OK && kept)
-        status = set_faces(v, error);
+        status = tn_variants_set_faces(v, error);
     if (status != TN_OK || !kept)
         return status;
     do {
         for (size_t i = 0; i < v->faces.count; i++)
-            v->house.faces[v->faces.items[i].of].kind = chosen(&v->faces, i);
-        status = keeps(v, TN_STAGE_FACES, &kept, error);
+            v->house.faces[v->faces.items[i].of].kind = tn_wheel_chosen(&v->faces, i);
+        status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
         if (status == TN_OK && kept)
             status = count_tiles(v, &fit, error);
         if (status == TN_OK && kept && fit)
             status = seen_by->visit(v, seen_by->context, stop, error);
-    } while (status == TN_OK && !*stop && turn(&v->faces));
+    } while (status == TN_OK && !*stop && tn_wheels_turn(&v->faces, 0, v->faces.count));
     return status;
 }
 
@@ -162,7 +169,7 @@ static tn_status set_functions(tn_house_variants *v, bool *possible, tn_error *e
 {
     uint32_t functions[TN_CELL_RULES_MAX];
     tn_status status = TN_OK;
-    clear_wheels(&v->functions);
+    tn_wheels_clear(&v->functions);
     *possible = true;
     for (uint32_t i = 0; status == TN_OK && *possible && i < v->house.cell_count; i++) {
         uint32_t count = 0;
@@ -171,9 +178,18 @@ static tn_status set_functions(tn_house_variants *v, bool *possible, tn_error *e
                 functions[count++] = f;
         *possible = count > 0 || v->house.cells[i].open;
         if (count > 0)
-            status = add_wheel(&v->functions, i, functions, count, error);
+            status = tn_wheels_add(&v->functions, i, functions, count, error);
     }
     return status;
+}
+
+/* The wheels after those that a clause looked at, which dropped the house, are turned back: their other choices are
+ * dropped too. Returns where turning starts. */
+static size_t skip_rest(tn_house_variants *v)
+{
+    for (size_t i = v->turn_end; i < v->functions.count; i++)
+        v->functions.items[i].at = 0;
+    return v->turn_end;
 }
 
 static tn_status go_through_functions(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
@@ -181,18 +197,27 @@ static tn_status go_through_functions(tn_house_variants *v, const visitor *seen_
     bool kept = false, possible = false;
     if (!tn_array_resize(&v->tiles, v->house.cell_count + 1, sizeof *v->tiles))
         return tn_fail_memory(error);
-    tn_status status = keeps(v, TN_STAGE_SECTION, &kept, error);
+    tn_status status = tn_variants_keep(v, TN_STAGE_SECTION, &kept, error);
     if (status == TN_OK && kept)
         status = set_functions(v, &possible, error);
+    if (status == TN_OK && kept && possible)
+        status = tn_memos_make(v, error);
     if (status != TN_OK || !kept || !possible)
         return status;
     do {
         for (size_t i = 0; i < v->functions.count; i++)
-            v->house.cells[v->functions.items[i].of].function = chosen(&v->functions, i);
-        if (seen_by->zoned)
-            *seen_by->zoned = false;
-        status = go_through_faces(v, seen_by, stop, error);
-    } while (status == TN_OK && !*stop && turn(&v->functions));
+            v->house.cells[v->functions.items[i].of].function = tn_wheel_chosen(&v->functions, i);
+        v->turn_end = v->functions.count;
+        bool taken = false;
+        tn_house_counts counts;
+        tn_house_counts_init(&counts);
+        status = tn_variants_count_faces(v, &counts, error);
+        if (status == TN_OK)
+            seen_by->count(v, seen_by->context, PART_FUNCTIONS, &counts, &taken);
+        tn_house_counts_clear(&counts);
+        if (status == TN_OK && !taken)
+            status = go_through_faces(v, seen_by, stop, error);
+    } while (status == TN_OK && !*stop && tn_wheels_turn(&v->functions, 0, skip_rest(v)));
     return status;
 }
 
@@ -206,6 +231,59 @@ static bool next_section(const tn_house_form *form, uint32_t *shapes)
     return false;
 }
 
+static void add_counts(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
+                       bool *taken)
+{
+    tn_house_counts *sum = context;
+    (void)v;
+    (void)part;
+    sum->zoned += counts->zoned;
+    sum->faced += counts->faced;
+    mpz_add(sum->houses, sum->houses, counts->houses);
+    *taken = true;
+}
+
+/* The houses of the section at hand: as many as with others that nothing tells apart from it. */
+static tn_status count_section(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
+{
+    const tn_section_count *known = tn_sections_find(v->sections, &v->house);
+    bool stop = false;
+    if (known) {
+        counts->zoned = known->zoned;
+        counts->faced = known->faced;
+        mpz_set(counts->houses, known->houses);
+        return TN_OK;
+    }
+    tn_status status = go_through_functions(v, &(visitor){.count = add_counts, .context = counts}, &stop, error);
+    return status == TN_OK ? tn_sections_keep(v->sections, &v->house, counts, error) : status;
+}
+
+static tn_status go_through_section(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
+{
+    tn_house_counts counts;
+    bool taken = false;
+    tn_house_counts_init(&counts);
+    tn_status status = count_section(v, &counts, error);
+    if (status == TN_OK)
+        seen_by->count(v, seen_by->context, PART_SECTION, &counts, &taken);
+    tn_house_counts_clear(&counts);
+    return status == TN_OK && !taken ? go_through_functions(v, seen_by, stop, error) : status;
+}
+
+/* What was counted of the sections of the plan before is of no use, unless this is the same. */
+static tn_status begin_plan(tn_house_variants *v, const tn_tray *trays, size_t length, tn_error *error)
+{
+    if (v->counted && v->counted_length == length && memcmp(v->counted, trays, length * sizeof *trays) == 0)
+        return TN_OK;
+    tn_sections_forget(v->sections);
+    v->counted_length = 0;
+    if (!tn_array_resize((void **)&v->counted, length + 1, sizeof *v->counted))
+        return tn_fail_memory(error);
+    memcpy(v->counted, trays, length * sizeof *trays);
+    v->counted_length = length;
+    return TN_OK;
+}
+
 static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t length, const visitor *seen_by,
                             tn_error *error)
 {
@@ -213,12 +291,14 @@ static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t l
     bool stop = false;
     tn_status status;
     v->work = v->work_limit;
-    do {
+    memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
+    status = begin_plan(v, trays, length, error);
+    for (bool more = true; status == TN_OK && !stop && more; more = next_section(v->form, shapes)) {
         tn_house_clear(&v->house);
         status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
         if (status == TN_OK && tn_house_section_stands(&v->house))
-            status = go_through_functions(v, seen_by, &stop, error);
-    } while (status == TN_OK && !stop && next_section(v->form, shapes));
+            status = go_through_section(v, seen_by, &stop, error);
+    }
     return status;
 }
 
@@ -231,34 +311,10 @@ static void multiply_tiles(const tn_house_variants *v, mpz_t product)
         mpz_mul_ui(product, product, v->tiles[i]);
 }
 
-typedef struct counting {
-    tn_house_counts *counts;
-    mpz_t here;
-    bool zoned; /* are the functions at hand counted? */
-} counting;
-
-static tn_status count_one(tn_house_variants *v, void *context, bool *stop, tn_error *error)
-{
-    counting *c = context;
-    (void)stop;
-    (void)error;
-    c->counts->zoned += !c->zoned;
-    c->counts->faced++;
-    c->zoned = true;
-    multiply_tiles(v, c->here);
-    mpz_add(c->counts->houses, c->counts->houses, c->here);
-    return TN_OK;
-}
-
 tn_status tn_house_variants_count(tn_house_variants *v, const tn_tray *trays, size_t length, tn_house_counts *counts,
                                   tn_error *error)
 {
-    counting c = {.counts = counts};
-    mpz_init(c.here);
-    tn_status status =
-        go_through(v, trays, length, &(visitor){.visit = count_one, .context = &c, .zoned = &c.zoned}, error);
-    mpz_clear(c.here);
-    return status;
+    return go_through(v, trays, length, &(visitor){.count = add_counts, .context = counts}, error);
 }
 
 typedef struct seeking {
@@ -266,6 +322,36 @@ typedef struct seeking {
     const tn_house *wanted; /* for a rank; NULL: the house at `left` */
     bool found;
 } seeking;
+
+static bool same_section(const tn_house *a, const tn_house *b)
+{
+    return memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0 && a->cell_count == b->cell_count &&
+           a->face_count == b->face_count;
+}
+
+static bool same_functions(const tn_house *a, const tn_house *b)
+{
+    bool same = true;
+    for (size_t i = 0; same && i < a->cell_count; i++)
+        same = a->cells[i].function == b->cells[i].function;
+    return same;
+}
+
+/* Passes over a part of the houses, if the wanted one is not among them. */
+static void pass_over(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
+                      bool *taken)
+{
+    seeking *s = context;
+    if (!s->wanted) {
+        *taken = mpz_cmp(s->left, counts->houses) >= 0;
+        if (*taken)
+            mpz_sub(s->left, s->left, counts->houses);
+        return;
+    }
+    *taken = part == PART_SECTION ? !same_section(&v->house, s->wanted) : !same_functions(&v->house, s->wanted);
+    if (*taken)
+        mpz_add(s->left, s->left, counts->houses);
+}
 
 /* Which tile each cell has, of the `left`-th combination: the last cell's changes first. */
 static tn_status stop_at(tn_house_variants *v, void *context, bool *stop, tn_error *error)
@@ -283,12 +369,9 @@ static tn_status stop_at(tn_house_variants *v, void *context, bool *stop, tn_err
     return TN_OK;
 }
 
-static bool same_choices(const tn_house *a, const tn_house *b)
+static bool same_faces(const tn_house *a, const tn_house *b)
 {
-    bool same = memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0 && a->cell_count == b->cell_count &&
-                a->face_count == b->face_count;
-    for (size_t i = 0; same && i < a->cell_count; i++)
-        same = a->cells[i].function == b->cells[i].function;
+    bool same = true;
     for (size_t i = 0; same && i < a->face_count; i++)
         same = a->faces[i].kind == b->faces[i].kind;
     return same;
@@ -299,7 +382,7 @@ static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_e
     seeking *s = context;
     (void)error;
     multiply_tiles(v, s->here);
-    if (!same_choices(&v->house, s->wanted)) {
+    if (!same_faces(&v->house, s->wanted)) {
         mpz_add(s->left, s->left, s->here);
         return TN_OK;
     }
@@ -320,7 +403,8 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
     *house = (tn_house){0};
     mpz_init_set(s.left, variant);
     mpz_init(s.here);
-    tn_status status = go_through(v, trays, length, &(visitor){.visit = stop_at, .context = &s}, error);
+    tn_status status =
+        go_through(v, trays, length, &(visitor){.count = pass_over, .visit = stop_at, .context = &s}, error);
     if (status == TN_OK && s.found) {
         *house = v->house;
         v->house = (tn_house){0};
@@ -339,7 +423,8 @@ tn_status tn_house_variants_rank(tn_house_variants *v, const tn_house *house, mp
 {
     seeking s = {.wanted = house};
     mpz_inits(s.left, s.here, NULL);
-    tn_status status = go_through(v, house->trays, house->length, &(visitor){.visit = stop_here, .context = &s}, error);
+    tn_status status = go_through(v, house->trays, house->length,
+                                  &(visitor){.count = pass_over, .visit = stop_here, .context = &s}, error);
     mpz_set(variant, s.left);
     if (status == TN_OK && !s.found) {
         status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
@@ -359,7 +444,13 @@ tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_librar
         return tn_fail_memory(error);
     *v = (tn_house_variants){.form = form, .library = library, .work_limit = work > 0 ? work : TN_VARIANT_WORK_DEFAULT};
     v->stages = calloc((size_t)library->clause_count + 1, sizeof *v->stages);
-    tn_status status = v->stages ? tn_clause_stages(form, library, v->stages, error) : tn_fail_memory(error);
+    v->runs = calloc((size_t)library->clause_count + 1, sizeof *v->runs);
+    tn_status status = v->stages && v->runs ? tn_clause_stages(form, library, v->stages, error) : tn_fail_memory(error);
+    v->sections = calloc(1, sizeof *v->sections);
+    if (status == TN_OK)
+        status = v->sections ? tn_sections_begin(form, v->sections, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_room_questions_find(form->module, &v->questions, error);
     if (status == TN_OK)
         status = tn_house_rules_new(form, 0, &v->rules, error);
     if (status != TN_OK) {
@@ -375,11 +466,19 @@ void tn_house_variants_free(tn_house_variants *v)
         return;
     tn_house_rules_free(v->rules);
     tn_house_clear(&v->house);
-    free(v->functions.items);
-    free(v->functions.choices);
-    free(v->faces.items);
-    free(v->faces.choices);
+    tn_room_questions_clear(&v->questions);
+    tn_wheels *const wheels[] = {&v->functions, &v->faces, &v->shared, &v->own};
+    for (size_t i = 0; i < sizeof wheels / sizeof *wheels; i++) {
+        free(wheels[i]->items);
+        free(wheels[i]->choices);
+    }
+    if (v->sections)
+        tn_sections_free(v->sections);
+    free(v->sections);
+    free(v->counted);
+    tn_memos_free(v);
     free(v->stages);
+    free(v->runs);
     free(v->tiles);
     free(v);
 }

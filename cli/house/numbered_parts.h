@@ -1,0 +1,29 @@
+/* A library of houses, made ready with the library of its plans. Internal to cli/house. */
+#ifndef TARTAN_CLI_HOUSE_NUMBERED_PARTS_H
+#define TARTAN_CLI_HOUSE_NUMBERED_PARTS_H
+
+#include "cli/house/numbered.h"
+#include "driver/house/judge.h"
+#include "runtime/house/variant/variant.h"
+#include "runtime/plan/library/library.h"
+
+typedef struct tn_numbered {
+    tn_job *job;
+    const tn_house_library_record *record;
+    tn_schema *schema;
+    tn_house_form form;
+    tn_library *plans;
+    tn_house_variants *variants;
+} tn_numbered;
+
+/* Close it in any case. False: what was wrong is recorded. */
+bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings);
+void tn_numbered_close(tn_numbered *n);
+
+/* The house of #P:V or #R. Clear *house in any case. */
+tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
+
+/* Records an error about a text of the command line. */
+void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
+
+#endif

@@ -1,0 +1,277 @@
+/* tartan vary: what else a house could be: each other value of one choice with which it stays in its library. */
+#include <gmp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "cli/house/numbered_parts.h"
+#include "runtime/house/variant/change.h"
+
+typedef struct vary_settings {
+    tn_settings common;
+    const char *library, *at, *output;
+    tn_option_number max_length, max_states;
+    bool json;
+} vary_settings;
+
+/* The house at hand, and where its changes go. */
+typedef struct varying {
+    tn_numbered *n;
+    const tn_house *house;
+    FILE *out;
+    bool json;
+    mpz_t plan, variant;
+    size_t count;
+} varying;
+
+static const char *text_of(const varying *v, uint32_t string)
+{
+    return tn_text(v->n->form.module, string);
+}
+
+/* ---- words */
+
+typedef struct change_words {
+    char where[160], from[TN_VARIANT_TEXT], to[TN_VARIANT_TEXT];
+} change_words;
+
+static void name_cell(const varying *v, uint32_t index, char *text, size_t size)
+{
+    const tn_cell *cell = &v->house->cells[index];
+    const tn_house_form *form = &v->n->form;
+    snprintf(text, size, "%u.%s.%s", cell->tray + 1, text_of(v, form->schema->fields[cell->zone].name),
+             text_of(v, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
+}
+
+static void name_face(const varying *v, uint32_t index, char *text, size_t size)
+{
+    static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "above",
+                                        [TN_HOUSE_BACK] = "back",
+                                        [TN_HOUSE_FRONT] = "front",
+                                        [TN_HOUSE_LEFT] = "left",
+                                        [TN_HOUSE_RIGHT] = "right"};
+    const tn_face *face = &v->house->faces[index];
+    char cell[96], other[96];
+    name_cell(v, face->first, cell, sizeof cell);
+    if (face->second == TN_NO_CELL) {
+        snprintf(text, size, "%s, %s", cell, sides[face->side]);
+        return;
+    }
+    name_cell(v, face->second, other, sizeof other);
+    snprintf(text, size, "%s to %s", cell, other);
+}
+
+static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char *text, size_t size)
+{
+    tn_variants tiles;
+    tn_error error;
+    text[0] = '\0';
+    if (tn_tile_variants(house, cell, &tiles, &error) == TN_OK && variant < tiles.count && size >= TN_VARIANT_TEXT)
+        tn_variant_text(house->form, &tiles.variants[variant], text);
+    tn_variants_clear(&tiles);
+}
+
+static void find_words(const varying *v, const tn_house_change *c, change_words *w)
+{
+    const tn_house_form *form = &v->n->form;
+    const tn_choice_record *choice;
+    switch (c->kind) {
+    case TN_CHANGE_SECTION:
+        choice = tn_form_choice(form, c->of);
+        snprintf(w->where, sizeof w->where, "section %s", text_of(v, choice->name));
+        snprintf(w->from, sizeof w->from, "%s",
+                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->from].spelling));
+        snprintf(w->to, sizeof w->to, "%s",
+                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->to].spelling));
+        return;
+    case TN_CHANGE_FUNCTION:
+        name_cell(v, c->of, w->where, sizeof w->where);
+        snprintf(w->from, sizeof w->from, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->from)->name));
+        snprintf(w->to, sizeof w->to, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->to)->name));
+        return;
+    case TN_CHANGE_FACE:
+        name_face(v, c->of, w->where, sizeof w->where);
+        snprintf(w->from, sizeof w->from, "%s", tn_form_kind_text(form, (uint32_t)c->from));
+        snprintf(w->to, sizeof w->to, "%s", tn_form_kind_text(form, (uint32_t)c->to));
+        return;
+    default:
+        name_cell(v, c->of, w->where, sizeof w->where);
+        name_tile(v->house, c->of, c->from, w->from, sizeof w->from);
+        name_tile(v->house, c->of, c->to, w->to, sizeof w->to);
+    }
+}
+
+/* ---- changes */
+
+/* Between the planes of walls; voids have none. */
+static tn_int128 floor_area(const tn_house *house)
+{
+    tn_int128 area = 0;
+    for (size_t i = 0; i < house->cell_count; i++)
+        area += house->cells[i].open ? 0 : tn_cell_area(&house->cells[i]);
+    return area;
+}
+
+static double square_metres(tn_int128 square_nanometres)
+{
+    return (double)square_nanometres / 1e18;
+}
+
+/* A JSON object; false where out of memory. */
+static bool write_json(const varying *v, const tn_house_change *change, const change_words *w, double more)
+{
+    static const char *const kinds[] = {"section", "function", "face", "tile"};
+    tn_buffer text = {0};
+    tn_buffer_printf(&text, "\"kind\":\"%s\",\"where\":", kinds[change->kind]);
+    tn_buffer_append_json(&text, w->where);
+    tn_buffer_printf(&text, ",\"from\":");
+    tn_buffer_append_json(&text, w->from);
+    tn_buffer_printf(&text, ",\"to\":");
+    tn_buffer_append_json(&text, w->to);
+    tn_buffer_printf(&text, ",\"area_m2\":%.6f}\n", more);
+    gmp_fprintf(v->out, "{\"house\":\"#%Zd:%Zd\",", v->plan, v->variant);
+    fwrite(text.data, 1, text.size, v->out);
+    bool fine = !text.failed;
+    free(text.data);
+    return fine;
+}
+
+static void write_line(const varying *v, const change_words *w, double more)
+{
+    gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
+    if (more != 0)
+        fprintf(v->out, ", %+.2f m2", more);
+    fputc('\n', v->out);
+}
+
+static tn_status write_change(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+{
+    varying *v = context;
+    change_words w;
+    mpz_set_ui(v->variant, 0);
+    tn_status status = tn_house_variants_rank(v->n->variants, changed, v->variant, error);
+    if (status != TN_OK)
+        return status;
+    find_words(v, change, &w);
+    double more = square_metres(floor_area(changed) - floor_area(v->house));
+    v->count++;
+    if (v->json)
+        return write_json(v, change, &w, more) ? TN_OK : tn_fail_memory(error);
+    write_line(v, &w, more);
+    return TN_OK;
+}
+
+/* TRAY.ZONE.STOREY, trays from 1. TN_INVALID where the house has no such cell. */
+static tn_status find_cell(const varying *v, const char *at, uint32_t *cell, tn_error *error)
+{
+    char text[96];
+    *cell = TN_NO_CELL;
+    for (uint32_t i = 0; at && i < v->house->cell_count; i++) {
+        name_cell(v, i, text, sizeof text);
+        if (strcmp(text, at) == 0)
+            *cell = i;
+    }
+    if (!at || *cell != TN_NO_CELL)
+        return TN_OK;
+    tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--at: the house has no cell `%.60s`", at);
+    name_cell(v, 0, text, sizeof text);
+    tn_error_help(error, "a cell is TRAY.ZONE.STOREY, such as %s; trays count from 1",
+                  v->house->cell_count ? text : "1.body.ground");
+    return status;
+}
+
+static tn_status vary(varying *v, const char *at, tn_error *error)
+{
+    tn_house_rules *rules = NULL;
+    uint32_t cell;
+    tn_status status = find_cell(v, at, &cell, error);
+    if (status == TN_OK && !tn_library_rank(v->n->plans, v->house->trays, v->house->length, v->plan)) {
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
+        tn_error_help(error, "`tartan explain` says which clauses drop it");
+    }
+    if (status == TN_OK) /* is it a house of the library? */
+        status = tn_house_variants_rank(v->n->variants, v->house, v->variant, error);
+    if (status == TN_OK)
+        status = tn_house_rules_new(&v->n->form, 0, &rules, error);
+    if (status == TN_OK)
+        status = tn_house_changes(v->house, rules, v->n->record, cell, write_change, v, error);
+    tn_house_rules_free(rules);
+    return status;
+}
+
+static tn_status read_house(tn_numbered *n, const char *text, size_t max_trays, tn_house *house, tn_error *error)
+{
+    return tn_is_house_number(text) ? tn_numbered_house(n, text, house, error)
+                                    : tn_house_read(&n->form, text, strlen(text), max_trays, house, error);
+}
+
+static void vary_house(tn_job *job, tn_numbered *n, const vary_settings *settings, size_t max_trays)
+{
+    const char *text = job->settings->operands.items[1];
+    tn_house house = {0};
+    tn_error error = {0};
+    tn_output out;
+    tn_status status = read_house(n, text, max_trays, &house, &error);
+    if (status != TN_OK) {
+        tn_numbered_bad_text(job, &error, "HOUSE", text);
+    } else if (tn_job_output(job, settings->output, &out)) {
+        varying v = {.n = n, .house = &house, .out = out.stream, .json = settings->json};
+        mpz_inits(v.plan, v.variant, NULL);
+        status = vary(&v, settings->at, &error);
+        if (status != TN_OK)
+            tn_job_fail(job, &error);
+        else if (v.count == 0)
+            tn_job_note(job, "nothing can be changed by itself: each other value takes the house out of the library");
+        tn_job_close(job, &out, status == TN_OK);
+        mpz_clears(v.plan, v.variant, NULL);
+    }
+    tn_house_clear(&house);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    const vary_settings *settings = (const vary_settings *)common;
+    size_t max_trays = settings->max_length.given ? (size_t)settings->max_length.value : TN_HOUSE_TRAYS_DEFAULT;
+    const tn_house_settings houses = {settings->library, (uint32_t)settings->max_states.value, max_trays};
+    tn_job job;
+    tn_numbered n;
+    tn_job_begin(&job, common);
+    if (tn_job_open(&job, common->operands.items[0])) {
+        if (tn_numbered_open(&n, &job, &houses))
+            vary_house(&job, &n, settings, max_trays);
+        tn_numbered_close(&n);
+    }
+    return tn_job_end(&job);
+}
+
+#define SETTINGS vary_settings
+static const tn_option options[] = {
+    TEXT("at", 0, "CELL", at, "only what is about one cell: TRAY.ZONE.STOREY, trays from 1, such as 2.body.ground"),
+    TEXT("library", 0, "NAME", library, "the library of houses; may be left out where the file has only one"),
+    FLAG("json", 0, json, "write each change as a JSON object"),
+    TEXT("output", 'o', "FILE", output, "write to FILE"),
+    NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
+    NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
+};
+
+const tn_command tn_command_vary = {
+    .name = "vary",
+    .summary = "list what else a house could be",
+    .usage = "FILE HOUSE [--at TRAY.ZONE.STOREY] [--library NAME] [--json]\nFILE '#P:V' [--at TRAY.ZONE.STOREY]",
+    .description =
+        "Lists each other value of one choice with which the house stays in its library: of the section, of the "
+        "function of a cell, of what is in a face, of a tile. Each line has the number of the house that this makes, "
+        "what changes, "
+        "and the difference in floor area, if there is one. All other choices stay as they are where they can; where a "
+        "change takes away a "
+        "tile or what is in a face, the first that fits takes its place.",
+    .example = "$ tartan vary cottage '#10:77' --at 1.body.ground",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .operands = "a FILE and a HOUSE",
+    .operands_min = 2,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,106 @@
+/* Counts the houses with the functions at hand. Faces that clauses can depend on are turned together; those that only
+ * matter to the tiles of one cell are summed up cell by cell, and the cells multiplied. */
+#include "runtime/house/variant/parts.h"
+
+/* What is outside of a cell comes after what is outside of the cells before it: faces are in that order. */
+static tn_status split_faces(tn_house_variants *v, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_wheels_clear(&v->shared);
+    tn_wheels_clear(&v->own);
+    for (size_t i = 0; status == TN_OK && i < v->faces.count; i++) {
+        const tn_wheel *w = &v->faces.items[i];
+        bool relevant = tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]);
+        status = tn_wheels_add(relevant ? &v->shared : &v->own, w->of, v->faces.choices + w->first, w->count, error);
+    }
+    return status;
+}
+
+static void set_kinds(tn_house_variants *v, const tn_wheels *wheels, size_t first, size_t end)
+{
+    for (size_t i = first; i < end; i++)
+        v->house.faces[wheels->items[i].of].kind = tn_wheel_chosen(wheels, i);
+}
+
+/* The houses that differ in one cell only: in the tiles that fit it, and in what is in its own faces. */
+typedef struct tn_cell_count {
+    uint64_t houses, faced; /* tiles of all kinds of its faces; kinds that leave a tile */
+} tn_cell_count;
+
+/* A cell without tiles takes whatever is in its faces. */
+static tn_cell_count take_any(const tn_wheels *wheels, size_t first, size_t end)
+{
+    tn_cell_count count = {1, 1};
+    for (size_t i = first; i < end; i++)
+        count.houses *= wheels->items[i].count;
+    count.faced = count.houses;
+    return count;
+}
+
+static tn_status count_cell(tn_house_variants *v, uint32_t cell, size_t first, size_t end, tn_cell_count *count,
+                            tn_error *error)
+{
+    tn_status status = TN_OK;
+    bool wanted = true;
+    *count = (tn_cell_count){0};
+    do {
+        tn_variants tiles = {0};
+        set_kinds(v, &v->own, first, end);
+        status = tn_variants_spend(v, error);
+        if (status == TN_OK)
+            status = tn_tile_variants(&v->house, cell, &tiles, error);
+        wanted = tiles.wanted;
+        count->houses += tiles.count;
+        count->faced += tiles.count > 0;
+        tn_variants_clear(&tiles);
+    } while (status == TN_OK && wanted && tn_wheels_turn(&v->own, first, end));
+    if (status == TN_OK && !wanted)
+        *count = take_any(&v->own, first, end);
+    return status;
+}
+
+static tn_status count_cells(tn_house_variants *v, mpz_t houses, mpz_t faced, tn_error *error)
+{
+    tn_status status = TN_OK;
+    size_t first = 0;
+    mpz_set_ui(houses, 1);
+    mpz_set_ui(faced, 1);
+    for (uint32_t i = 0; status == TN_OK && i < v->house.cell_count && mpz_sgn(houses) > 0; i++) {
+        tn_cell_count count;
+        size_t end = first;
+        while (end < v->own.count && v->house.faces[v->own.items[end].of].first == i)
+            end++;
+        status = count_cell(v, i, first, end, &count, error);
+        mpz_mul_ui(houses, houses, count.houses);
+        mpz_mul_ui(faced, faced, count.faced);
+        first = end;
+    }
+    return status;
+}
+
+tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
+{
+    bool kept = false, zoned = false;
+    mpz_t houses, faced;
+    tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
+    if (status != TN_OK || !kept)
+        return status;
+    mpz_inits(houses, faced, NULL);
+    status = tn_variants_set_faces(v, error);
+    if (status == TN_OK)
+        status = split_faces(v, error);
+    do {
+        set_kinds(v, &v->shared, 0, v->shared.count);
+        if (status == TN_OK)
+            status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
+        if (status != TN_OK || !kept)
+            continue;
+        status = count_cells(v, houses, faced, error);
+        mpz_add(counts->houses, counts->houses, houses);
+        counts->faced += mpz_sgn(houses) > 0 ? mpz_get_ui(faced) : 0;
+        zoned |= mpz_sgn(houses) > 0;
+    } while (status == TN_OK && tn_wheels_turn(&v->shared, 0, v->shared.count));
+    counts->zoned += zoned;
+    mpz_clears(houses, faced, NULL);
+    return status;
+}

@@ -1,0 +1,157 @@
+/* Keeps the answers of clauses by the classes of functions that they can tell apart. */
+#include "runtime/house/variant/memo.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+
+enum { QUESTIONS_MAX = 64 }; /* the bits of what they say of a function */
+
+struct tn_clause_memo {
+    uint32_t *weights; /* [choice of a wheel] its class, times the number of combinations of the wheels before */
+    uint8_t *answers;
+    size_t last;
+};
+
+void tn_memos_free(tn_house_variants *v)
+{
+    for (uint32_t i = 0; v->memos && i < v->library->clause_count; i++) {
+        free(v->memos[i].weights);
+        free(v->memos[i].answers);
+    }
+    free(v->memos);
+    v->memos = NULL;
+}
+
+/* ---- what a clause asks */
+
+void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *reached)
+{
+    switch (tn_code_operands((uint8_t)op->opcode)) {
+    case TN_OPERANDS_FUNC:
+    case TN_OPERANDS_DECISION:
+    case TN_OPERANDS_DECISION_COND:
+        reached[op->first] = true;
+        return;
+    case TN_OPERANDS_SUMMED: {
+        const tn_sum_record *sum = &module->SUM_records[op->first];
+        for (uint32_t i = 0; i < sum->term_count; i++)
+            reached[module->TERM_records[sum->term_first + i].part] = true;
+        return;
+    }
+    default:
+        return;
+    }
+}
+
+/* The functions of kind CELL that a clause reaches: those that its code names, all of them lower. False: too many. */
+static bool find_questions(const tn_module *module, uint32_t holds, bool *reached, uint32_t questions[QUESTIONS_MAX],
+                           size_t *count)
+{
+    memset(reached, 0, module->FUNCTION_count * sizeof *reached);
+    reached[holds] = true;
+    *count = 0;
+    for (uint32_t f = holds + 1; f-- > 0;) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        if (!reached[f])
+            continue;
+        if (function->kind == TN_FUNCTION_CELL) {
+            if (*count == QUESTIONS_MAX)
+                return false;
+            questions[(*count)++] = f;
+        }
+        for (uint32_t at = function->code_begin; at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            tn_mark_operands(module, &op, reached);
+            at += op.length;
+        }
+    }
+    return true;
+}
+
+/* ---- classes */
+
+static uint64_t seen_by(tn_house_variants *v, const uint32_t *questions, size_t count, uint32_t cell, uint32_t function)
+{
+    uint64_t bits = 0;
+    v->house.cells[cell].function = function;
+    for (size_t q = 0; q < count; q++)
+        bits |= (uint64_t)tn_house_decide(&v->house, questions[q], &v->house.cells[cell]) << q;
+    return bits;
+}
+
+/* The classes of a wheel's functions, in the order in which they come. Returns how many. */
+static uint32_t classify(tn_house_variants *v, const uint32_t *questions, size_t count, const tn_wheel *w,
+                         uint32_t *classes)
+{
+    uint64_t known[TN_CELL_RULES_MAX];
+    uint32_t found = 0;
+    for (uint32_t k = 0; k < w->count; k++) {
+        uint64_t bits = seen_by(v, questions, count, w->of, v->functions.choices[w->first + k]);
+        uint32_t class = 0;
+        while (class < found && known[class] != bits)
+            class ++;
+        known[class] = bits;
+        found += class == found;
+        classes[w->first + k] = class;
+    }
+    return found;
+}
+
+static tn_status make_memo(tn_house_variants *v, const uint32_t *questions, size_t count, struct tn_clause_memo *memo,
+                           tn_error *error)
+{
+    size_t size = 1;
+    memo->weights = malloc((v->functions.choice_count + 1) * sizeof *memo->weights);
+    if (!memo->weights)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < v->functions.count && size <= TN_MEMO_ANSWERS_MAX; i++) {
+        const tn_wheel *w = &v->functions.items[i];
+        uint32_t classes = classify(v, questions, count, w, memo->weights);
+        for (uint32_t k = 0; k < w->count; k++)
+            memo->weights[w->first + k] *= (uint32_t)size;
+        size *= classes;
+        memo->last = classes > 1 ? i : memo->last;
+    }
+    if (size > TN_MEMO_ANSWERS_MAX)
+        return TN_OK;
+    memo->answers = calloc(size, sizeof *memo->answers);
+    return memo->answers ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_memos_make(tn_house_variants *v, tn_error *error)
+{
+    const tn_module *module = v->form->module;
+    uint32_t questions[QUESTIONS_MAX];
+    size_t count;
+    tn_memos_free(v);
+    bool *reached = malloc(module->FUNCTION_count + 1);
+    v->memos = calloc((size_t)v->library->clause_count + 1, sizeof *v->memos);
+    tn_status status = reached && v->memos ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < v->library->clause_count; i++) {
+        uint32_t holds = module->HOUSE_CLAUSE_records[v->library->clause_first + i].holds;
+        if (v->stages[i] == TN_STAGE_FUNCTIONS && find_questions(module, holds, reached, questions, &count))
+            status = make_memo(v, questions, count, &v->memos[i], error);
+    }
+    free(reached);
+    return status;
+}
+
+/* ---- answers */
+
+uint8_t *tn_memo_answer(const tn_house_variants *v, uint32_t clause)
+{
+    const struct tn_clause_memo *memo = v->memos ? &v->memos[clause] : NULL;
+    if (!memo || !memo->answers)
+        return NULL;
+    size_t at = 0;
+    for (size_t i = 0; i < v->functions.count; i++)
+        at += memo->weights[v->functions.items[i].first + v->functions.items[i].at];
+    return &memo->answers[at];
+}
+
+size_t tn_memo_last(const tn_house_variants *v, uint32_t clause)
+{
+    return v->memos[clause].last;
+}

@@ -1,0 +1,70 @@
+/* What a tn_house_variants is made of, for the files that implement variant.h. */
+#ifndef TARTAN_HOUSE_VARIANT_PARTS_H
+#define TARTAN_HOUSE_VARIANT_PARTS_H
+
+#include "runtime/house/variant/relevant.h"
+#include "runtime/house/variant/stage.h"
+#include "runtime/house/variant/variant.h"
+
+/* A wheel of the counter: a cell's functions or a face's kinds, and which of them is set. */
+typedef struct tn_wheel {
+    uint32_t of; /* a cell or a face */
+    uint32_t first, count, at;
+} tn_wheel;
+
+typedef struct tn_wheels {
+    tn_wheel *items;
+    uint32_t *choices; /* of all wheels, one after another */
+    size_t count, room, choice_count, choice_room;
+} tn_wheels;
+
+struct tn_house_variants {
+    const tn_house_form *form;
+    const tn_house_library_record *library;
+    tn_house_rules *rules;
+    tn_clause_stage *stages;      /* of each clause: when it can be asked */
+    struct tn_clause_memo *memos; /* of each clause: memo.h */
+    size_t turn_end; /* the wheels of functions from here on change nothing: a clause dropped all their houses */
+    uint64_t work_limit, work;
+    uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
+    tn_house house;
+    tn_wheels functions, faces;
+    tn_wheels shared, own; /* those of `faces` that clauses can depend on, and the others, by their cell: count.c */
+    tn_room_questions questions;
+    struct tn_sections *sections; /* what was counted on the plan at hand: section.h */
+    tn_tray *counted;             /* that plan */
+    size_t counted_length;
+    size_t *tiles; /* how many fit in each cell; 1 where it has none */
+    size_t tile_room;
+};
+
+/* ---- wheels */
+
+void tn_wheels_clear(tn_wheels *wheels);
+tn_status tn_wheels_add(tn_wheels *wheels, uint32_t of, const uint32_t *choices, uint32_t count, tn_error *error);
+
+static inline uint32_t tn_wheel_chosen(const tn_wheels *wheels, size_t i)
+{
+    return wheels->choices[wheels->items[i].first + wheels->items[i].at];
+}
+
+/* The last of the wheels [first, end) turns first. False: all have come round. */
+bool tn_wheels_turn(tn_wheels *wheels, size_t first, size_t end);
+
+/* ---- stages */
+
+/* A step of the work on a plan; TN_LIMIT (E1617) past the limit. */
+tn_status tn_variants_spend(tn_house_variants *v, tn_error *error);
+
+/* Do all clauses that can be asked at this stage, and not before, keep the house? */
+tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error);
+
+/* The wheels of the faces, all at their first kind. */
+tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);
+
+/* ---- count.c */
+
+/* Adds the houses with the functions at hand: faces that clauses cannot tell apart are multiplied cell by cell. */
+tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error);
+
+#endif

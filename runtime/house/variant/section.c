@@ -1,0 +1,112 @@
+/* Keeps the counts of sections that nothing tells apart. */
+#include "runtime/house/variant/section.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/variant/memo.h"
+
+void tn_sections_forget(tn_sections *sections)
+{
+    for (size_t i = 0; i < sections->count; i++)
+        mpz_clear(sections->counts[i].houses);
+    sections->count = 0;
+}
+
+void tn_sections_free(tn_sections *sections)
+{
+    tn_sections_forget(sections);
+    free(sections->counts);
+    *sections = (tn_sections){0};
+}
+
+static void add_question(tn_sections *sections, int64_t question)
+{
+    for (size_t i = 0; i < sections->question_count; i++)
+        if (sections->questions[i] == question)
+            return;
+    if (sections->question_count == TN_SECTION_QUESTIONS_MAX)
+        sections->apart = true;
+    else
+        sections->questions[sections->question_count++] = question;
+}
+
+static void add_questions(const tn_module *module, uint32_t function, tn_sections *sections)
+{
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    if (tn_function_kinds[f->kind].code != TN_CODE_HOUSE)
+        return;
+    for (uint32_t at = f->code_begin; at < f->code_end;) {
+        tn_instruction op = tn_code_read(module->code, at);
+        if (op.opcode == TN_OP_CHOSEN)
+            add_question(sections, op.first);
+        at += op.length;
+    }
+}
+
+/* What only `forbid` asks: sections that stand all answer it alike. */
+static void mark_forbids(const tn_house_form *form, bool *forbids, bool *named)
+{
+    const tn_module *module = form->module;
+    for (uint32_t i = 0; i < form->kinds_end[TN_CELL_FORBID]; i++)
+        (i < form->kinds_end[TN_CELL_NO] ? named : forbids)[tn_form_rule(form, i)->decides] = true;
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        tn_code_kind code = tn_function_kinds[function->kind].code;
+        for (uint32_t at = function->code_begin;
+             (code == TN_CODE_RULE || code == TN_CODE_HOUSE) && at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            tn_mark_operands(module, &op, named);
+            at += op.length;
+        }
+    }
+}
+
+tn_status tn_sections_begin(const tn_house_form *form, tn_sections *sections, tn_error *error)
+{
+    const tn_module *module = form->module;
+    bool *forbids = calloc(2 * module->FUNCTION_count + 1, sizeof *forbids), *named = forbids + module->FUNCTION_count;
+    *sections = (tn_sections){0};
+    if (!forbids)
+        return tn_fail_memory(error);
+    mark_forbids(form, forbids, named);
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++)
+        if (!forbids[f] || named[f])
+            add_questions(module, f, sections);
+    free(forbids);
+    return TN_OK;
+}
+
+static tn_section_key key_of(const tn_sections *sections, const tn_house *house)
+{
+    tn_section_key key;
+    memset(&key, 0, sizeof key);
+    for (uint32_t i = 0; i < house->form->record->choice_count; i++)
+        if (sections->apart || tn_form_choice(house->form, i)->kind == TN_CHOICE_STOREYS)
+            key.storeys[i] = house->shapes[i];
+    for (size_t i = 0; i < sections->question_count; i++)
+        key.answers |= (uint64_t)tn_house_chosen(house, sections->questions[i]) << i;
+    return key;
+}
+
+const tn_section_count *tn_sections_find(const tn_sections *sections, const tn_house *house)
+{
+    tn_section_key key = key_of(sections, house);
+    for (size_t i = 0; i < sections->count; i++)
+        if (memcmp(&sections->counts[i].key, &key, sizeof key) == 0)
+            return &sections->counts[i];
+    return NULL;
+}
+
+tn_status tn_sections_keep(tn_sections *sections, const tn_house *house, const tn_house_counts *counts, tn_error *error)
+{
+    if (!tn_array_reserve_from(&sections->counts, &sections->room, 16, sections->count, 1, sizeof *sections->counts))
+        return tn_fail_memory(error);
+    tn_section_count *kept = &sections->counts[sections->count++];
+    kept->key = key_of(sections, house);
+    kept->zoned = counts->zoned;
+    kept->faced = counts->faced;
+    mpz_init_set(kept->houses, counts->houses);
+    return TN_OK;
+}

@@ -1,0 +1,141 @@
+/* Houses where memory runs out at each allocation in turn: counting, building, drawings and files say so, and nothing
+ * is lost. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/house/export/export.h"
+#include "runtime/house/variant/change.h"
+#include "runtime/house/variant/variant.h"
+#include "tests/support/failing_memory.h"
+#include "tests/support/test_house.h"
+
+static test_house made;
+static tn_plan plan;
+static tn_house house;
+static tn_solids solids;
+static FILE *sink;
+
+typedef tn_status operation(tn_error *error);
+
+static void expect_robust(operation *operate)
+{
+    for (size_t number = 0;; number++) {
+        tn_error error = {0};
+        fail_allocation(number, 0);
+        tn_status status = operate(&error);
+        if (stop_failing() <= number) {
+            assert_int_equal(status, TN_OK);
+            assert_true(number > 0);
+            return;
+        }
+        assert_int_equal(status, TN_MEMORY);
+        assert_int_equal(error.status, TN_MEMORY);
+    }
+}
+
+static tn_status count(tn_error *error)
+{
+    tn_house_variants *variants;
+    tn_house_counts counts;
+    tn_status status = tn_house_variants_new(&made.form, made.some, 0, &variants, error);
+    tn_house_counts_init(&counts);
+    if (status == TN_OK)
+        status = tn_house_variants_count(variants, plan.trays, plan.length, &counts, error);
+    tn_house_counts_clear(&counts);
+    tn_house_variants_free(variants);
+    return status;
+}
+
+static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
+{
+    (void)context, (void)one, (void)changed, (void)error;
+    return TN_OK;
+}
+
+static tn_status change(tn_error *error)
+{
+    tn_house_rules *rules;
+    tn_status status = tn_house_rules_new(&made.form, 0, &rules, error);
+    if (status == TN_OK)
+        status = tn_house_changes(&house, rules, made.all, TN_NO_CELL, seen, NULL, error);
+    tn_house_rules_free(rules);
+    return status;
+}
+
+static tn_status build(tn_error *error)
+{
+    tn_solids built;
+    tn_status status = tn_house_solids(&house, &built, error);
+    tn_solids_clear(&built);
+    return status;
+}
+
+static tn_status mesh(tn_error *error)
+{
+    tn_blocks blocks;
+    tn_mesh of = {0};
+    tn_status status = tn_blocks_of(&house, &solids, &blocks, error);
+    if (status == TN_OK)
+        status = tn_blocks_mesh(&blocks, NULL, &of, error);
+    tn_mesh_clear(&of);
+    tn_blocks_clear(&blocks);
+    return status;
+}
+
+static tn_status write_ifc(tn_error *error)
+{
+    return tn_house_write_ifc(&house, &solids, "a hut", sink, error);
+}
+
+static tn_status write_dxf(tn_error *error)
+{
+    static const tn_aspect aspects[] = {{.kind = TN_ASPECT_PLAN},
+                                        {.kind = TN_ASPECT_SECTION_X, .at = INT64_C(1200000000)},
+                                        {.kind = TN_ASPECT_ELEVATION, .side = TN_HOUSE_FRONT}};
+    return tn_house_write_dxf(&house, &solids, aspects, sizeof aspects / sizeof *aspects, sink, error);
+}
+
+static void test_failing(void **state)
+{
+    (void)state;
+    expect_robust(count);
+    expect_robust(change);
+    expect_robust(build);
+    expect_robust(mesh);
+    expect_robust(write_ifc);
+    expect_robust(write_dxf);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_failing)};
+    tn_house_variants *variants = NULL;
+    tn_error error = {0};
+    mpz_t variant;
+    mpz_init_set_ui(variant, 300);
+    test_house_make(&made);
+    plan = test_house_plan(&made, "8' room:12' open:4' | 10' room:10' empty");
+    tn_status status = tn_house_variants_new(&made.form, made.all, 0, &variants, &error);
+    if (status == TN_OK)
+        status = tn_house_variants_at(variants, plan.trays, plan.length, variant, &house, &error);
+    if (status == TN_OK)
+        status = tn_house_solids(&house, &solids, &error);
+    tn_house_variants_free(variants);
+    mpz_clear(variant);
+    sink = fopen("/dev/null", "w");
+    int failed = status == TN_OK && sink ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+    if (sink)
+        fclose(sink);
+    tn_solids_clear(&solids);
+    tn_house_clear(&house);
+    free(plan.trays);
+    test_house_clear(&made);
+    return failed;
+}
