@@ -32,6 +32,7 @@ static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind
                                  tn_solid_part *parts);
 static tn_solid_item *goal(tn_growth_parse *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts);
 static tn_solid_item *goal_part(tn_growth_parse *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number);
+static void missing_end(tn_growth_parse *parse, tn_span place);
 static tn_solid_part *part(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before, tn_solid_vector a,
                            tn_solid_vector b);
 static tn_solid_entry *entry_of(tn_growth_parse *parse, tn_span span, tn_expression *expression);
@@ -105,8 +106,14 @@ base
 
 statements
     : %empty                                { $$ = tn_solid_design_new(parse); if (!$$) YYNOMEM; }
-    | statements statement END              { $$ = $1; tn_solid_add_item($$, $2); }
+    | statements statement end              { $$ = $1; tn_solid_add_item($$, $2); }
     | statements error END                  { $$ = $1; yyerrok; tn_solid_lost(parse); }
+    ;
+
+/* A forgotten `;` is said where it belongs, and the next statement is read as one. */
+end
+    : END
+    | %empty                                { missing_end(parse, @$); }
     ;
 
 statement
@@ -273,6 +280,13 @@ static tn_solid_part *part(tn_growth_parse *parse, tn_solid_part_kind kind, tn_s
     return made;
 }
 
+static void missing_end(tn_growth_parse *parse, tn_span place)
+{
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, place, "`;` is missing here");
+    tn_help(parse->diagnostics, d, "each statement ends with `;`");
+    tn_replace_with(parse->diagnostics, d, ";");
+}
+
 static tn_solid_entry *entry_of(tn_growth_parse *parse, tn_span span, tn_expression *expression)
 {
     tn_solid_entry *entry = tn_solid_entry_new(parse, span);
@@ -356,6 +370,26 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     return "a statement starts with a word such as `box`, `symmetry`, `measure` or `require`, and ends with `;`";
 }
 
+/* After a statement others may begin, as far as the grammar knows: only so that a missing `;` can be said. */
+static bool begins_statement(yysymbol_kind_t kind)
+{
+    switch (kind) {
+    case YYSYMBOL_SYMMETRY:
+    case YYSYMBOL_FLAT:
+    case YYSYMBOL_NOCLIP:
+    case YYSYMBOL_CORRECT:
+    case YYSYMBOL_UNIT:
+    case YYSYMBOL_MODEL:
+    case YYSYMBOL_BOX:
+    case YYSYMBOL_GENES:
+    case YYSYMBOL_MEASURE:
+    case YYSYMBOL_REQUIRE:
+    case YYSYMBOL_FITNESS:
+    case YYSYMBOL_CLOSE_BRACE: return true;
+    default: return false;
+    }
+}
+
 static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
 {
     (void)scanner;
@@ -365,10 +399,15 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     int count = yypcontext_expected_tokens(context, kinds, MOST);
     if (count < 0)
         return count;
+    bool ends = false;
+    int taken = 0;
     for (int i = 0; i < count; i++)
-        expected[i] = yysymbol_name(kinds[i]);
+        ends |= kinds[i] == YYSYMBOL_END;
+    for (int i = 0; i < count; i++)
+        if (!ends || !begins_statement(kinds[i]))
+            expected[taken++] = yysymbol_name(kinds[i]);
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before)));
+                           (size_t)taken, likely_fix(found, YYTRANSLATE(parse->token_before)));
     return 0;
 }
 

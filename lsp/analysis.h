@@ -19,7 +19,7 @@ typedef struct tn_file_analysis {
 /* Compiles a text; `path` is where it is or would be, a real one that ends as files of its notation do. What `overlay`
  * gives stands in for files (driver/open/files.h); it is not asked afterwards. NULL where out of memory. */
 tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
-                             tn_overlay *overlay, void *context);
+                                  tn_overlay *overlay, void *context);
 void tn_analysis_free(tn_file_analysis *analysis);
 
 /* The lines of a source; NULL where out of memory. */

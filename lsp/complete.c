@@ -170,11 +170,12 @@ static void offer_fields(cursor *c, const char *group)
 
 static void complete_expression(cursor *c)
 {
-    static const char *const words[] = {"tray",        "cell",      "room",      "section",  "touch", "apart",
-                                        "any",         "neighbour", "symmetric", "quantity", "sum",   "many",
-                                        "occurrences", "distance",  "and",       "or",       "not",   "optional",
-                                        "beginning",   "end",       "using",     "allow",    NULL};
+    static const char *const words[] = {
+        "tray",  "cell",  "room",        "section",  "touch", "apart", "any",     "neighbour", "symmetric", "quantity",
+        "sum",   "many",  "occurrences", "distance", "and",   "or",    "not",     "optional",  "beginning", "end",
+        "using", "allow", "implies",     "every",    "some",  "plan",  "matches", "trays",     NULL};
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
+    offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
     offer_words(c, words);
 }
 
@@ -226,6 +227,7 @@ static void complete_clause_names(cursor *c)
     static const char *const words[] = {"total", "trays", NULL};
     offer_symbols(c, TN_SYMBOL_CLAUSE, KIND_VALUE);
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
+    offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
     offer_words(c, words);
 }
 
@@ -246,7 +248,7 @@ static void complete_library(cursor *c)
 
 static void complete_schema(cursor *c)
 {
-    static const char *const words[] = {"zone", "forbid", "flag", "role", NULL};
+    static const char *const words[] = {"zone", "forbid", "flag", "role", "number", "where", NULL};
     static const char *const roles[] = {"length", "level", "public-end", "great-hall", "band",   "text",
                                         "tone",   "hatch", "solid",      "void",       "absent", NULL};
     offer_words(c, c->count > 0 && is(c, c->count - 1, "role") ? roles : words);
@@ -269,7 +271,7 @@ static void complete_test(cursor *c)
 
 static void complete_top(cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "library", "test", NULL};
+    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "test", NULL};
     static const char *const head[] = {"using", "from", "allow", NULL};
     size_t last = c->count - 1;
     if (c->count > 0 && is(c, last, "using")) {
@@ -278,6 +280,7 @@ static void complete_top(cursor *c)
         offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
     } else if (c->count > 0 && is(c, last, "test") && last == c->item) {
         offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
+        offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
         offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
     } else if (c->count > 0 && is(c, last, "allow")) {
         complete_codes(c);
@@ -285,7 +288,7 @@ static void complete_top(cursor *c)
         bool body = false;
         for (size_t i = c->item; i < c->count; i++)
             body |= is(c, i, "=");
-        if (is(c, c->item, "rule") && body)
+        if ((is(c, c->item, "rule") || is(c, c->item, "measure")) && body)
             complete_expression(c);
         else if (c->item + 1 < c->count)
             offer_words(c, head);
@@ -336,7 +339,7 @@ static bool find_tokens(cursor *c, size_t offset, bool *quoted)
 
 static void find_context(cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "library", "test", NULL};
+    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "test", NULL};
     static const char *const clauses[] = {"trays",  "total", "require", "prune", "allow",  "match",
                                           "reject", "keep",  "drop",    "zone",  "forbid", NULL};
     c->item = c->clause = c->count;

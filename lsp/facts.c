@@ -13,7 +13,8 @@ enum {
     STATES_MAX = 50000, /* larger libraries are not counted */
     TABLE_MAX = 64 << 20,
     ITEMS_MAX = 100000,
-    NAMES_SHOWN = 8, /* of the rules that one lies so to; the others are counted */
+    LENGTHS_MAX = 24, /* numbers of trays that are told apart */
+    NAMES_SHOWN = 8,  /* of the rules that one lies so to; the others are counted */
 };
 
 /* ---- counts */
@@ -59,6 +60,35 @@ static void count_library(tn_facts *facts, const tn_module *module, const tn_lib
     mpz_clears(out, only, NULL);
 }
 
+/* "its distribution": how many of its plans have how many trays. */
+static void share_lengths(tn_facts *facts, const tn_library *library, const char *name)
+{
+    uint32_t low = tn_library_min(library), high = tn_library_max(library);
+    mpz_t all, some;
+    mpq_t share;
+    mpz_inits(all, some, NULL);
+    mpq_init(share);
+    tn_library_kept(library, TN_ALL_LENGTHS, all);
+    for (uint32_t n = low; mpz_sgn(all) > 0 && n <= high && low < high && high - low < LENGTHS_MAX; n++) {
+        tn_library_kept(library, n, some);
+        mpq_set_num(share, some);
+        mpq_set_den(share, all);
+        mpq_canonicalize(share);
+        if (!tn_array_reserve(&facts->lengths, &facts->length_capacity, facts->length_count, 1, sizeof *facts->lengths))
+            break;
+        facts->lengths[facts->length_count++] = (tn_length_count){strdup(name), n, mpq_get_d(share)};
+    }
+    mpq_clear(share);
+    mpz_clears(all, some, NULL);
+}
+
+static void describe_library(tn_facts *facts, const tn_module *module, const tn_library *library, uint32_t index)
+{
+    count_library(facts, module, library, index);
+    share_lengths(facts, library, tn_text(module, module->LIBRARY_records[index].name));
+    tn_measure_facts_add(&facts->measures, module, library, index);
+}
+
 static void count_module(tn_facts *facts, const tn_module *module, tn_plan_memory *memory)
 {
     for (size_t i = 0; i < module->LIBRARY_count; i++) {
@@ -69,7 +99,7 @@ static void count_module(tn_facts *facts, const tn_module *module, tn_plan_memor
         tn_error error;
         if (tn_schema_new(module, record->schema, 0, &schema, &error) == TN_OK &&
             tn_library_new(schema, (uint32_t)i, &options, &library, &error) == TN_OK)
-            count_library(facts, module, library, (uint32_t)i);
+            describe_library(facts, module, library, (uint32_t)i);
         tn_library_free(library);
         tn_schema_free(schema);
     }
@@ -128,6 +158,10 @@ void tn_facts_free(tn_facts *facts)
         free(facts->matrices[i].names);
         free(facts->matrices[i].relations);
     }
+    for (size_t i = 0; i < facts->length_count; i++)
+        free(facts->lengths[i].library);
+    tn_measure_facts_clear(&facts->measures);
+    free(facts->lengths);
     free(facts->matrices);
     free(facts->counts);
     free(facts);
@@ -186,6 +220,18 @@ static void write_counts(FILE *out, const tn_facts *facts, const tn_symbol *symb
             write_count(out, &facts->counts[i], symbol->kind == TN_SYMBOL_LIBRARY);
 }
 
+static void write_lengths(FILE *out, const tn_facts *facts, const tn_symbol *symbol)
+{
+    bool any = false;
+    for (size_t i = 0; i < facts->length_count; i++) {
+        const tn_length_count *item = &facts->lengths[i];
+        if (!item->library || strcmp(item->library, symbol->name) != 0)
+            continue;
+        fprintf(out, any ? ", %u: %.3g %%" : "\n- by trays: %u: %.3g %%", item->length, 100 * item->share);
+        any = true;
+    }
+}
+
 static void write_relation(FILE *out, const tn_rule_matrix *matrix, size_t rule, tn_rule_relation relation,
                            const char *words)
 {
@@ -217,11 +263,17 @@ char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol)
 {
     char *text = NULL;
     size_t size = 0;
-    bool rule = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_CLAUSE;
-    FILE *out = facts && (rule || symbol->kind == TN_SYMBOL_LIBRARY) ? open_memstream(&text, &size) : NULL;
+    bool rule = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_CLAUSE,
+         library = symbol->kind == TN_SYMBOL_LIBRARY, measure = symbol->kind == TN_SYMBOL_MEASURE;
+    FILE *out = facts && (rule || library || measure) ? open_memstream(&text, &size) : NULL;
     if (!out)
         return NULL;
-    write_counts(out, facts, symbol);
+    if (!measure)
+        write_counts(out, facts, symbol);
+    if (library)
+        write_lengths(out, facts, symbol);
+    if (library || measure)
+        tn_measure_facts_write(&facts->measures, symbol, out);
     for (size_t i = 0; i < facts->matrix_count && symbol->kind == TN_SYMBOL_RULE; i++)
         write_relations(out, &facts->matrices[i], symbol);
     fclose(out);

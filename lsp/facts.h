@@ -4,7 +4,7 @@
 #define TARTAN_LSP_FACTS_H
 
 #include "driver/plan/analysis.h"
-#include "lsp/index.h"
+#include "lsp/measures.h"
 
 typedef struct tn_rule_count {
     char *library, *rule;
@@ -19,11 +19,21 @@ typedef struct tn_rule_matrix {
     size_t count;
 } tn_rule_matrix;
 
+/* How many plans of a library have so many trays. */
+typedef struct tn_length_count {
+    char *library;
+    uint32_t length;
+    double share; /* of those kept */
+} tn_length_count;
+
 typedef struct tn_facts {
     tn_rule_count *counts;
     size_t count, capacity;
     tn_rule_matrix *matrices;
     size_t matrix_count;
+    tn_measure_facts measures;
+    tn_length_count *lengths; /* of libraries that have more than one */
+    size_t length_count, length_capacity;
 } tn_facts;
 
 /* Counts the libraries of a module, and takes over the relations that were found. What does not fit into the limits is
@@ -31,7 +41,8 @@ typedef struct tn_facts {
 tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses, tn_plan_memory *memory);
 void tn_facts_free(tn_facts *facts);
 
-/* What there is to say about a rule, clause or library, as Markdown; NULL where there is nothing. The caller frees it.
+/* What there is to say about a rule, measure, clause or library, as Markdown; NULL where there is nothing. The caller
+ * frees it.
  */
 char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol);
 

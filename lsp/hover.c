@@ -12,8 +12,9 @@ enum { SHOWN_MAX = 4096 }; /* bytes of a definition that are shown */
 static const char *kind_name(const tn_symbol *symbol)
 {
     static const char *const names[] = {
-        [TN_SYMBOL_SCHEMA] = "schema", [TN_SYMBOL_FIELD] = "field",     [TN_SYMBOL_VALUE] = "value",
-        [TN_SYMBOL_RULE] = "rule",     [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause"};
+        [TN_SYMBOL_SCHEMA] = "schema",  [TN_SYMBOL_FIELD] = "field",     [TN_SYMBOL_VALUE] = "value",
+        [TN_SYMBOL_RULE] = "rule",      [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause",
+        [TN_SYMBOL_MEASURE] = "measure"};
     return names[symbol->kind];
 }
 

@@ -114,9 +114,10 @@ static void define_items(tn_index *index, const tn_ast_file *file)
     for (TN_EACH(const tn_ast_top, item, file->items)) {
         if (item->kind == TN_ITEM_SCHEMA)
             define_schema(index, (const tn_ast_schema *)item);
-        if (item->kind == TN_ITEM_RULE) {
+        if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {
             const tn_ast_rule *rule = (const tn_ast_rule *)item;
-            define_named(index, TN_SYMBOL_RULE, rule->name, rule->doc, &item->node);
+            define_named(index, item->kind == TN_ITEM_RULE ? TN_SYMBOL_RULE : TN_SYMBOL_MEASURE, rule->name, rule->doc,
+                         &item->node);
         }
         if (item->kind == TN_ITEM_LIBRARY) {
             const tn_ast_library *library = (const tn_ast_library *)item;
@@ -228,7 +229,7 @@ static void use_item(tn_index *index, const tn_ast_top *item)
         use_name(index, &index->schemas, schema->from);
         for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
             use_specifier(index, own_symbol(index, &item->node), forbid->tray);
-    } else if (item->kind == TN_ITEM_RULE) {
+    } else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {
         const tn_ast_rule *rule = (const tn_ast_rule *)item;
         use_name(index, &index->schemas, rule->using);
         use_expression(index, tn_index_schema(index, rule->name->text), rule->body);

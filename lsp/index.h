@@ -13,6 +13,7 @@ typedef enum tn_symbol_kind {
     TN_SYMBOL_RULE,
     TN_SYMBOL_LIBRARY,
     TN_SYMBOL_CLAUSE, /* `prune ... as NAME` */
+    TN_SYMBOL_MEASURE,
 } tn_symbol_kind;
 
 typedef struct tn_symbol {
@@ -21,7 +22,8 @@ typedef struct tn_symbol {
     const char *name, *doc; /* doc may be NULL */
     tn_span name_span, span;
     const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library */
-    const struct tn_symbol *schema; /* of a rule or library, or what a schema is made from; NULL: none, or not known */
+    const struct tn_symbol
+        *schema; /* of a rule, measure or library, or what a schema is made from; NULL: none, or not known */
     const tn_ast_node *ast;
 } tn_symbol;
 
@@ -36,7 +38,7 @@ typedef struct tn_index {
     const tn_symbol *last_schema; /* of those, or NULL */
     tn_occurrence *occurrences;
     size_t count, capacity;
-    tn_names schemas, names, clauses; /* names: rules and libraries */
+    tn_names schemas, names, clauses; /* names: rules, measures and libraries */
 } tn_index;
 
 /* Does nothing where there is nothing to index. False where out of memory. */

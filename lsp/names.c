@@ -114,11 +114,17 @@ static bool is_name(const char *text)
     return good;
 }
 
+/* Rules, measures and libraries share their names. */
+static bool is_named(const tn_symbol *symbol)
+{
+    return symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_MEASURE || symbol->kind == TN_SYMBOL_LIBRARY;
+}
+
 /* Another one than `but`. */
-static bool is_rule_or_library(const tn_index *index, const tn_symbol *but, const char *name)
+static bool is_name_of_another(const tn_index *index, const tn_symbol *but, const char *name)
 {
     for (const tn_symbol *s = index->first; s; s = s->next)
-        if ((s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY) && s != but && strcmp(s->name, name) == 0)
+        if (is_named(s) && s != but && strcmp(s->name, name) == 0)
             return true;
     return false;
 }
@@ -126,8 +132,8 @@ static bool is_rule_or_library(const tn_index *index, const tn_symbol *but, cons
 /* Has something of the same kind that name already? */
 static bool is_taken(const tn_index *index, const tn_symbol *symbol, const char *name)
 {
-    if (symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_LIBRARY)
-        return is_rule_or_library(index, symbol, name);
+    if (is_named(symbol))
+        return is_name_of_another(index, symbol, name);
     for (const tn_symbol *s = index->first; s; s = s->next)
         if (s->kind == symbol->kind && s->parent == symbol->parent && s != symbol && strcmp(s->name, name) == 0)
             return true;
@@ -144,9 +150,9 @@ typedef struct renaming {
 static bool add_edit(void *context, tn_document *document, tn_span span)
 {
     renaming *r = context;
-    bool named = r->symbol->kind == TN_SYMBOL_RULE || r->symbol->kind == TN_SYMBOL_LIBRARY;
+    bool named = is_named(r->symbol);
     if (named && strcmp(r->name, r->symbol->name) != 0 &&
-        is_rule_or_library(&document->analysis->index, NULL, r->name)) {
+        is_name_of_another(&document->analysis->index, NULL, r->name)) {
         r->reason = "a file that uses this one has something else of this name";
         return false;
     }

@@ -19,8 +19,9 @@ enum {
 static int outline_kind(tn_symbol_kind kind)
 {
     static const int kinds[] = {
-        [TN_SYMBOL_SCHEMA] = KIND_STRUCT, [TN_SYMBOL_FIELD] = KIND_FIELD,    [TN_SYMBOL_VALUE] = KIND_MEMBER,
-        [TN_SYMBOL_RULE] = KIND_FUNCTION, [TN_SYMBOL_LIBRARY] = KIND_MODULE, [TN_SYMBOL_CLAUSE] = KIND_KEY};
+        [TN_SYMBOL_SCHEMA] = KIND_STRUCT,   [TN_SYMBOL_FIELD] = KIND_FIELD,    [TN_SYMBOL_VALUE] = KIND_MEMBER,
+        [TN_SYMBOL_RULE] = KIND_FUNCTION,   [TN_SYMBOL_LIBRARY] = KIND_MODULE, [TN_SYMBOL_CLAUSE] = KIND_KEY,
+        [TN_SYMBOL_MEASURE] = KIND_CONSTANT};
     return kinds[kind];
 }
 
@@ -32,7 +33,8 @@ static json_t *outline_item(tn_file_analysis *analysis, const tn_symbol *symbol)
     if (symbol->doc)
         json_object_set_new(item, "detail", json_string(symbol->doc));
     json_t *children = json_array();
-    for (const tn_symbol *s = symbol->next; s && symbol->kind != TN_SYMBOL_RULE; s = s->next) {
+    for (const tn_symbol *s = symbol->next; s && symbol->kind != TN_SYMBOL_RULE && symbol->kind != TN_SYMBOL_MEASURE;
+         s = s->next) {
         if (s->parent == symbol)
             json_array_append_new(children, outline_item(analysis, s));
         else if (s->kind != TN_SYMBOL_VALUE && symbol->kind != TN_SYMBOL_LIBRARY && s->parent != symbol)

@@ -8,6 +8,7 @@
 #include "runtime/genome/picture/tree_draw.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/plan/picture/draw.h"
+#include "runtime/plan/picture/draw_rule.h"
 
 /* Where a picture of this format goes. */
 static tartan_status begin(tartan_picture_format format, uint32_t dpi, const tartan_watch *given, tn_watch *watch,
@@ -85,6 +86,31 @@ tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *tra
     tn_status drawn = tn_plans_draw(tn_api_schema(schema), plans, count, &options, &to, &found);
     free(plans);
     return finish(drawn, &found, &to, bytes, size, error);
+}
+
+/* ---- rules */
+
+tartan_status tartan_rules_draw(const tartan_rules *rules, tartan_picture_format format, const tartan_watch *waiting,
+                                void **bytes, size_t *size, tartan_error *error)
+{
+    tn_watch watch;
+    tn_picture to;
+    tn_error found;
+    if (!rules)
+        return tn_api_missing(error, "rules");
+    tartan_status status = begin(format, 0, waiting, &watch, &to, bytes, size, error);
+    if (status != TARTAN_OK)
+        return status;
+    size_t count = tartan_rules_count(rules);
+    const tn_schema *schema = tn_api_rules_schema(rules);
+    tn_drawn_rule *drawn = calloc(count + 1, sizeof *drawn);
+    if (!drawn)
+        return tn_api_memory(error);
+    for (size_t i = 0; i < count; i++)
+        drawn[i] = tn_drawn_rule_of(schema->module, tn_api_rules_record(rules, i));
+    tn_status made = tn_rules_draw(schema, drawn, count, &to, &found);
+    free(drawn);
+    return finish(made, &found, &to, bytes, size, error);
 }
 
 /* ---- surfaces */

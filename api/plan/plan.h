@@ -35,6 +35,10 @@ struct tartan_library {
 /* The index of the LIBRARY record named so; NULL: the only one of the compiled file itself. */
 tartan_status tn_api_library_find(const tn_module *module, const char *name, uint32_t *index, tartan_error *error);
 
+/* The i-th of ready rules: its RULE record; their schema. */
+uint32_t tn_api_rules_record(const tartan_rules *rules, size_t i);
+const tn_schema *tn_api_rules_schema(const tartan_rules *rules);
+
 /* The RULE records named, or with count 0 all of the compiled file itself, which must be of one schema: *records is the
  * caller's. */
 tartan_status tn_api_rules_find(const tn_module *module, const char *const *names, size_t count, uint32_t **records,

@@ -116,6 +116,16 @@ tartan_status tartan_rules_new(const tartan_module *module, const char *const *n
     return TARTAN_OK;
 }
 
+uint32_t tn_api_rules_record(const tartan_rules *rules, size_t i)
+{
+    return rules->records[i];
+}
+
+const tn_schema *tn_api_rules_schema(const tartan_rules *rules)
+{
+    return rules->plans.schema;
+}
+
 void tartan_rules_free(tartan_rules *rules)
 {
     if (!rules)

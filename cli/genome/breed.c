@@ -21,9 +21,10 @@ static bool read_choice(const char *line, size_t members, tn_choices *choices)
             status = TN_INVALID;
         }
     if (status != TN_OK)
-        printf("`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it, "
-               "and #41 is the individual with that id\n",
-               wrong, members);
+        printf(
+            "`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it, "
+            "and #41 is the individual with that id\n",
+            wrong, members);
     return status == TN_OK;
 }
 
@@ -94,12 +95,13 @@ static const tn_option options[] = {
 
 const tn_command tn_command_breed = {
     .name = "breed",
-    .summary = "breed sentences or fields, choosing the parents yourself",
+    .summary = "breed sentences, fields or designs, choosing the parents yourself",
     .usage = "STUDY.study [-o DIR] [--resume]",
     .description =
         "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
         "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3, and #41 "
-        "is the individual with the id 41, of any generation. Fields can be weighed: 3@0.4 gives the children less "
+        "is the individual with the id 41, of any generation. Fields and designs can be weighed: 3@0.4 gives the "
+        "children less "
         "of 3. Your "
         "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "
         "sheet.",

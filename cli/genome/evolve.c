@@ -107,12 +107,12 @@ static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, 
 
 const tn_command tn_command_evolve = {
     .name = "evolve",
-    .summary = "breed sentences of a grammar, or fields, towards a goal",
+    .summary = "breed sentences, fields or designs towards a goal",
     .usage = "STUDY.study [-o DIR] [--resume] [--generations N]",
     .description =
         "Makes a population of genomes, maps them through the study's grammar, scores the sentences, and breeds "
-        "the next generation from the best, as often as the study says. Fields are bred from parents instead, "
-        "without a grammar. The same study and seed give the same run "
+        "the next generation from the best, as often as the study says. Fields and "
+        "designs of boxes are bred as what they are, without a grammar. The same study and seed give the same run "
         "on every machine and with any number of threads.\n\n"
         "The folder DIR gets run.sqlite (the whole run), best/ (the best sentences as files, with pictures of "
         "their surfaces, rules or derivations), stats.csv and fitness.svg. Each generation is stored when it is "

@@ -8,6 +8,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
 #include "runtime/field/normals.h"
+#include "runtime/field/volume.h"
 
 /* ---- writing */
 
@@ -29,6 +30,11 @@ static bool check_format(tn_job *job, tn_out_format *format)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
     *format = TN_OUT_NONE;
+    if (s->thickness && (s->open || s->jumps == 1)) {
+        tn_diagnostic *d = tn_job_usage(job, "--thickness is of a closed mesh");
+        tn_help(tn_job_diagnostics(job), d, "leave out --%s", s->open ? "open" : "jumps open");
+        return false;
+    }
     if (!s->output)
         return true;
     *format = format_of(s);
@@ -53,7 +59,7 @@ static bool check_format(tn_job *job, tn_out_format *format)
         tn_help(tn_job_diagnostics(job), d, "only an .stl tells vertices by their places");
         return false;
     }
-    if (strcmp(s->output, "-") == 0 && s->stats) {
+    if (strcmp(s->output, "-") == 0 && (s->stats || s->bounds || s->thickness)) {
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
         return false;
     }
@@ -69,6 +75,8 @@ static bool check_use(tn_job *job)
         {s->grid.given, TN_OF_FIELDS, "grid"},
         {s->points != NULL, TN_OF_FIELDS, "points"},
         {s->open, TN_OF_FIELDS, "open"},
+        {s->bounds, TN_OF_FIELDS, "bounds"},
+        {s->thickness, TN_OF_FIELDS, "thickness"},
         {s->jumps != 0, TN_OF_FIELDS, "jumps"},
         {s->engine != 0, TN_OF_FIELDS, "engine"},
         {s->max_samples.given, TN_OF_FIELDS, "max-samples"},
@@ -114,7 +122,13 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
     free(normals);
 }
 
-static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m)
+/* What is worked out only where it is asked for. */
+typedef struct asked_stats {
+    double proven[2], thickness[2];
+} asked_stats;
+
+static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m,
+                        const asked_stats *asked)
 {
     static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
@@ -126,7 +140,9 @@ static void write_stats(const tn_job *job, const tn_open_field *open, const tn_c
         .measures = m,
         .closed = !s->open && s->jumps != 1,
         .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
-        .count_count = 3};
+        .count_count = 3,
+        .proven = s->bounds ? asked->proven : NULL,
+        .thickness = s->thickness ? asked->thickness : NULL};
     tn_mesh_stats_write(stdout, s->stats == 2, &stats);
 }
 
@@ -136,6 +152,24 @@ static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
         tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
                     "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
                     m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
+}
+
+static tn_status prove_volume(const tn_open_field *open, const tn_field_grid *grid, double proven[2], tn_error *error)
+{
+    tn_field_volume volume;
+    tn_status status = tn_field_volume_bounds(&open->field, grid, &volume, error);
+    proven[0] = status == TN_OK ? volume.low : 0;
+    proven[1] = status == TN_OK ? volume.high : 0;
+    return status;
+}
+
+static tn_status measure_walls(const tn_mesh *mesh, double thickness[2], tn_error *error)
+{
+    tn_thickness walls;
+    tn_status status = tn_mesh_thickness(mesh, &walls, error);
+    thickness[0] = walls.least;
+    thickness[1] = walls.hundredth;
+    return status;
 }
 
 static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_format format, tn_error *error)
@@ -150,15 +184,20 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     tn_field_grid grid = tn_field_grid_of(&open->field, (uint32_t)s->grid.value);
     tn_contour contour;
     tn_mesh_measures measures;
+    asked_stats asked;
     options.every_sample = options.interpret;
     tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
     if (status == TN_OK)
         status = tn_mesh_measure(&contour.mesh, 2 * contour.spacing, &measures, error);
+    if (status == TN_OK && s->bounds)
+        status = prove_volume(open, &grid, asked.proven, error);
+    if (status == TN_OK && s->thickness)
+        status = measure_walls(&contour.mesh, asked.thickness, error);
     if (status == TN_OK) {
         tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
         warn_of_specks(job, &measures);
-        if (s->stats || !s->output)
-            write_stats(job, open, &contour, &measures);
+        if (s->stats || s->bounds || s->thickness || !s->output)
+            write_stats(job, open, &contour, &measures, &asked);
         if (s->output) {
             char note[240];
             tn_mesh_note(job, open->field.record->name, note, sizeof note);
@@ -218,6 +257,10 @@ static const tn_option options[] = {
     MAYBE("stats", 0, "[table|json]", stats, "table|json", "write what the mesh measures to standard output"),
     TEXT("points", 0, "FILE", points,
          "instead of meshing, write for each line x y z of FILE: the field, its gradient, and whether it is inside"),
+    FLAG("thickness", 0, thickness,
+         "print how thick the walls are, straight inward: the least, and that of which a hundredth of the surface is "
+         "thinner"),
+    FLAG("bounds", 0, bounds, "print two numbers that the volume of the form is proven to lie between"),
     FLAG("open", 0, open, "end the mesh at the box instead of closing it there"),
     CHOICE("jumps", 0, "KIND", jumps, "closed|open",
            "where the field jumps: closed (the default) makes a wall, open leaves it out"),

@@ -11,6 +11,10 @@ static void write_json(FILE *out, const tn_mesh_stats *s)
             s->mesh->vertex_count, s->mesh->face_count, m->parts);
     if (s->closed)
         fprintf(out, "\"euler\": %" PRId64 ", \"volume\": %.17g, ", m->euler, m->volume);
+    if (s->proven)
+        fprintf(out, "\"volume_bounds\": [%.17g, %.17g], ", s->proven[0], s->proven[1]);
+    if (s->thickness)
+        fprintf(out, "\"thickness\": [%.17g, %.17g], ", s->thickness[0], s->thickness[1]);
     fprintf(out, "\"area\": %.17g, ", m->area);
     if (s->closed) {
         fprintf(out, "\"centroid\": [%.17g, %.17g, %.17g], \"inertia\": [", m->centroid[0], m->centroid[1],
@@ -52,6 +56,11 @@ static void write_table(FILE *out, const tn_mesh_stats *s)
             m->parts);
     if (s->closed)
         fprintf(out, "Euler      %" PRId64 "\nvolume     %.12g%s%s%s\n", m->euler, m->volume, space, s->unit, cube);
+    if (s->proven)
+        fprintf(out, "proven     %.12g to %.12g%s%s%s\n", s->proven[0], s->proven[1], space, s->unit, cube);
+    if (s->thickness)
+        fprintf(out, "thickness  %.6g at least, %.6g but for a hundredth%s%s\n", s->thickness[0], s->thickness[1],
+                *s->unit ? ", in " : "", s->unit);
     fprintf(out, "area       %.12g%s%s%s\n", m->area, space, s->unit, square);
     if (s->closed) {
         write_triple(out, "centroid  ", m->centroid, largest(m->low, largest(m->high, 0)));

@@ -2,12 +2,15 @@
 #include "cli/place/place.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "cli/common/interrupt.h"
+#include "cli/common/mesh_output.h"
 #include "cli/common/option_rows.h"
 #include "driver/place/kit.h"
+#include "driver/place/shape.h"
 
 typedef struct place_settings {
     tn_settings common;
@@ -18,7 +21,7 @@ typedef struct place_settings {
     bool trace, header, keep_partial;
 } place_settings;
 
-typedef enum out_format { OUT_LDRAW, OUT_LIST, OUT_NONE } out_format;
+typedef enum out_format { OUT_LDRAW, OUT_LIST, OUT_PICTURE, OUT_MESH, OUT_NONE } out_format;
 
 typedef struct placing {
     tn_job *job;
@@ -33,7 +36,11 @@ static out_format format_of(const char *path)
     const char *dot = strrchr(path, '.');
     if (strcmp(path, "-") == 0 || (dot && strcasecmp(dot, ".ldr") == 0))
         return OUT_LDRAW;
-    return dot && strcasecmp(dot, ".csv") == 0 ? OUT_LIST : OUT_NONE;
+    if (dot && strcasecmp(dot, ".csv") == 0)
+        return OUT_LIST;
+    tn_out_format format = tn_out_format_of(path);
+    bool picture = format == TN_OUT_SVG || format == TN_OUT_PNG || format == TN_OUT_PDF;
+    return format == TN_OUT_NONE ? OUT_NONE : picture ? OUT_PICTURE : OUT_MESH;
 }
 
 static bool check_options(tn_job *job)
@@ -48,7 +55,9 @@ static bool check_options(tn_job *job)
         if (format_of(path) != OUT_NONE)
             continue;
         tn_diagnostic *d = tn_job_usage(job, "the name %.200s does not say which format to write", path);
-        tn_help(tn_job_diagnostics(job), d, "end its name in .ldr (a model) or .csv (a list of its parts)");
+        tn_help(tn_job_diagnostics(job), d,
+                "end its name in .ldr (a model), .csv (a list of its parts), .svg, .png or .pdf (a picture), "
+                "or .obj, .ply, .stl or .glb (a mesh)");
         return false;
     }
     if (standard + (s->trace || s->stats) > 1)
@@ -74,11 +83,64 @@ static void write_header(const placing *p, FILE *out)
             producer ? tn_text(module, producer->version) : "tartan");
 }
 
+/* Pictures and meshes show the parts of a kit. */
+static bool has_shapes(placing *p)
+{
+    tn_error error;
+    if (p->rules.space)
+        return true;
+    tn_fail(&error, TN_INVALID, E_PLACE_NO_SHAPE, "a connection grammar does not say what its parts look like");
+    tn_error_help(&error, "write an .ldr file, and draw it by `tartan inspect FILE.ldr --kit bricks -o FILE.svg`");
+    tn_job_fail(p->job, &error);
+    return false;
+}
+
+static void write_picture(placing *p, const char *path)
+{
+    tn_placed_measures measures;
+    tn_error error;
+    if (!has_shapes(p))
+        return;
+    tn_status status = tn_placed_measure(p->rules.module, NULL, &p->model, tn_interrupt_waiting(), &measures, &error);
+    if (status == TN_OK)
+        status = tn_placed_draw(p->rules.module, &p->model, &measures, NULL, NULL, &(tn_picture){.path = path}, &error);
+    if (status != TN_OK)
+        tn_job_fail(p->job, &error);
+    tn_placed_measures_clear(&measures);
+}
+
+static void write_mesh(placing *p, const char *path)
+{
+    static const tn_out_changes none = {.triangulate = false};
+    tn_out_format format = tn_out_format_of(path);
+    unsigned char(*palette)[3] = NULL;
+    tn_mesh mesh = {0};
+    tn_output output;
+    tn_error error;
+    if (!has_shapes(p) || !tn_job_output(p->job, path, &output))
+        return;
+    tn_status status = tn_placed_mesh(p->rules.module, &p->model, &mesh, &palette, &error);
+    if (status == TN_OK)
+        status = tn_out_rework(&none, format, &mesh, &error);
+    const tn_mesh_style style = {.unit = TN_MESH_UNIT_MM, .colours = (const unsigned char(*)[3])palette};
+    if (status == TN_OK)
+        status = tn_out_mesh(&mesh, format, &style, output.stream, &error);
+    if (status != TN_OK)
+        tn_job_fail(p->job, &error);
+    tn_job_close(p->job, &output, status == TN_OK);
+    tn_mesh_clear(&mesh);
+    free(palette);
+}
+
 static void write_output(placing *p, const char *path)
 {
     tn_output output;
     tn_error error;
     tn_status status = TN_OK;
+    if (format_of(path) == OUT_PICTURE || format_of(path) == OUT_MESH) {
+        (format_of(path) == OUT_PICTURE ? write_picture : write_mesh)(p, path);
+        return;
+    }
     if (!tn_job_output(p->job, path, &output))
         return;
     if (format_of(path) == OUT_LIST) {
@@ -180,7 +242,7 @@ static tn_status check_conditions(placing *p)
     tn_status status =
         tn_placed_measure(p->rules.module, p->rules.space, &p->model, tn_interrupt_waiting(), &measured, &error);
     if (status == TN_OK)
-        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, &tally);
+        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, TN_KIT_HELP, &tally);
     else
         tn_job_fail(p->job, &error);
     tn_placed_measures_clear(&measured);
@@ -230,7 +292,8 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     LIST("output", 'o', "FILE", outputs,
          "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
-         "a model on standard output"),
+         "a model on standard output; of a kit also a picture (.svg, .png, .pdf) or a mesh (.obj, .ply, .stl, .glb "
+         "...)"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
     TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),

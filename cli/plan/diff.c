@@ -127,7 +127,14 @@ void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_o
                              .paths = {compared->paths[0], compared->paths[1]},
                              .modules = {before->schema->module, after->schema->module},
                              .records = {before->record, after->record}};
-    deliver(job, &report, options);
+    tn_measure_changes *measures = NULL;
+    if (tn_measure_changes_find(job, compared, &measures, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+    } else {
+        report.measures = measures;
+        deliver(job, &report, options);
+    }
+    tn_measure_changes_free(measures);
     tn_diff_samples_clear(&report);
     tn_library_diff_free(diff);
 }
@@ -186,7 +193,8 @@ const tn_command tn_command_diff = {
         "some at random, and the clauses that are responsible. Clauses are compared by their names. For each "
         "clause that is not the same, `removes` counts the removed plans that it keeps out now, and `adds` counts "
         "the added plans that it kept out before. Several clauses may keep out the same plan. Both libraries must "
-        "have the same trays.",
+        "have the same trays.\n\n"
+        "Of each measure that both files have, it shows the least, the mean and the most before and after.",
     .example = "$ tartan diff before.plan after.plan\n$ tartan diff before.plan after.plan --sample 12 -o edit.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -219,6 +219,8 @@ tn_status tn_diff_write_text(const tn_diff_report *report, FILE *out, tn_error *
     tn_status status = write_counts(report, out, error);
     if (status == TN_OK)
         status = write_clauses(report, out, error);
+    if (status == TN_OK && !tn_measure_changes_write(report->measures, out))
+        status = tn_fail_memory(error);
     for (int part = 0; status == TN_OK && part < TN_DIFF_PARTS; part++)
         status = write_plans(report, (tn_diff_part)part, out, error);
     return status;
@@ -302,6 +304,7 @@ tn_status tn_diff_write_json(const tn_diff_report *report, FILE *out, tn_error *
     json_object_set_new(root, "total", counts_json(report, TN_ALL_LENGTHS));
     json_object_set_new(root, "by_length", lengths);
     json_object_set_new(root, "clauses", clauses_json(report));
+    json_object_set_new(root, "measures", tn_measure_changes_json(report->measures));
     json_object_set_new(root, "plans", plans);
     if (status == TN_OK && json_dumpf(root, out, JSON_INDENT(2)) != 0)
         status = ferror(out) ? TN_OK : tn_fail_memory(error); /* a failed stream is found when it is closed */

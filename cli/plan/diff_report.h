@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "cli/plan/diff_measures.h"
 #include "runtime/plan/library/diff.h"
 
 /* Plans of one part to be shown: the first, then some drawn at random. */
@@ -18,6 +19,7 @@ typedef struct tn_diff_report {
     const tn_module *modules[2];
     const tn_library_record *records[2];
     tn_diff_sample samples[TN_DIFF_PARTS];
+    const tn_measure_changes *measures;
 } tn_diff_report;
 
 extern const char *const tn_diff_part_names[TN_DIFF_PARTS]; /* "removed", "added", "kept" */

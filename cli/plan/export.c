@@ -4,6 +4,8 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
+#include "driver/place/export.h"
+#include "driver/place/kit.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/parts.h"
 #include "runtime/plan/text/export_prolog.h"
@@ -12,9 +14,9 @@
 typedef struct export_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool prolog, regex;
+    bool prolog, regex, pcfg;
     tn_option_list rules;
-    const char *output;
+    const char *output, *model;
 } export_settings;
 
 static const export_settings *settings_of(const tn_job *job)
@@ -116,21 +118,64 @@ static void export(tn_job *job)
     tn_schema_free(e.schema);
 }
 
+/* ---- kits */
+
+static tn_status write_kit(const tn_module *module, uint32_t model, tn_buffer *text, tn_error *error)
+{
+    tn_place_rules rules;
+    tn_status status = tn_place_rules_of_model(module, model, &rules, error);
+    FILE *out = status == TN_OK ? open_memstream(&text->data, &text->size) : NULL;
+    if (status == TN_OK)
+        status = out ? tn_kit_export(&rules, out, error) : tn_fail_memory(error);
+    if (out && fclose(out) != 0 && status == TN_OK)
+        status = tn_fail_memory(error);
+    tn_place_rules_clear(&rules);
+    return status;
+}
+
+static void export_kit(tn_job *job)
+{
+    tn_buffer text = {0};
+    tn_error error;
+    tn_output output;
+    uint32_t model;
+    if (job->opened.module->KIT_count == 0) {
+        tn_job_usage(job, "--pcfg is of a kit: %.200s is none", job->settings->operands.items[0]);
+        return;
+    }
+    tn_status status = tn_kit_choose(&job->opened, settings_of(job)->model, &model);
+    tn_job_status(job, status);
+    if (status != TN_OK)
+        return;
+    status = write_kit(job->opened.module, model, &text, &error);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
+        fwrite(text.data, 1, text.size, output.stream);
+        tn_job_commit(job, &output);
+    }
+    free(text.data);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const export_settings *settings = (const export_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    if (settings->prolog == settings->regex)
-        tn_job_usage(&job, settings->prolog ? "--prolog and --regex are one or the other: leave one out"
-                                            : "say what to write: --prolog or --regex");
+    int kinds = settings->prolog + settings->regex + settings->pcfg;
+    if (kinds != 1)
+        tn_job_usage(&job, kinds ? "--prolog, --regex and --pcfg are one or the other: leave one out"
+                                 : "say what to write: --prolog, --regex or --pcfg");
+    else if (settings->model && !settings->pcfg)
+        tn_job_usage(&job, "--model is for --pcfg");
     else if (settings->regex && settings->rules.count != 1)
         tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
     else if (settings->prolog && settings->rules.count)
         tn_job_usage(&job, "--prolog writes all rules; --rule is for --regex");
-    else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
-        export(&job);
+    else if (settings->pcfg ? tn_job_open(&job, common->operands.items[0])
+                            : tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
+        (settings->pcfg ? export_kit : export)(&job);
     return tn_job_end(&job);
 }
 
@@ -138,7 +183,9 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
+    FLAG("pcfg", 0, pcfg, "write a model of a kit as a connection grammar, which places the same parts"),
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
+    TEXT("model", 'm', "NAME", model, "the model of --pcfg; may be left out where the kit has only one"),
     OPTIONS_LIBRARY,
     OPTION_OUTPUT,
     OPTION_MAX_STATES,
@@ -147,13 +194,14 @@ static const tn_option options[] = {
 const tn_command tn_command_export = {
     .name = "export",
     .summary = "write rules in other notations",
-    .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME",
+    .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME\nKIT --pcfg [--model NAME] [-o MODEL.pcfg]",
     .description =
         "Writes rules for other programs. --prolog writes a complete program in ISO Prolog, in which a plan is a "
         "list of terms tray(V1, ..., Vn) with the values of a plan line. --regex writes a regular expression with "
         "a letter for each tray, which matches exactly the plans that the rule matches; a legend says which "
         "letter is which. It is made from the minimal automaton, and refused if it would need more than 2,000 "
-        "characters or 62 letters.",
+        "characters or 62 letters. --pcfg writes the rules of a kit with its space, for programs that read connection "
+        "grammars; draws among parts that fit cannot be said there.",
     .example =
         "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
     .options = options,

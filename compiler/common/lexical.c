@@ -95,7 +95,7 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
     } table[] = {
         {"\xe2\x80\x98", "feet are written with a straight mark: `12'`"},
         {"&", "write `and`"},
-        {"^", "a power is written as a product: `width * width`"},
+        {"^", "a power is written as a product: `a * a`"},
         {"$", "leave it out: money is a plain number, and the text after the name can say its unit"},
         {"\xe2\x82\xac",
          "leave it out: money is a plain number, and the text after the name can say its unit"}, /* the euro sign */
@@ -105,7 +105,7 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
         {"%", "a remainder is written `n mod 3 = 1`; a comment starts with `#`"},
         {".", "a range is written with two dots: `4..9`"},
         {"'", "feet are written directly after a number: `12'`; texts stand in double quotes"},
-        {":", "write a zone's fill and depth with a blank between them: `dense 4'`"},
+        {":", "a value follows its field, and a depth its fill, after a blank"},
     };
     const char *text = diagnostics->sources->files[span.file].text + span.begin;
     size_t size = span.end - span.begin;

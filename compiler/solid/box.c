@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "compiler/solid/solid.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/geometry/union/box_genes.h"
 
 static tn_diagnostic *report(tn_solid_check *check, tn_code code, tn_span span, const char *message)
 {
@@ -144,9 +144,11 @@ static void plane_through(tn_solid_check *check, tn_box_record *box, const tn_so
 
 static void plane_of_angles(tn_box_record *box, double planedist, double a, double b)
 {
-    box->normal_x = tn_cos_degrees(b) * tn_sin_degrees(a);
-    box->normal_y = tn_sin_degrees(b);
-    box->normal_z = tn_cos_degrees(b) * tn_cos_degrees(a);
+    double normal[3];
+    tn_normal_of_angles(a, b, normal);
+    box->normal_x = normal[0];
+    box->normal_y = normal[1];
+    box->normal_z = normal[2];
     box->planedist = planedist;
 }
 

@@ -1,20 +1,13 @@
-/* Files that a study names. */
+/* What texts of a study's settings mean: files beside it, and boxes. */
 #ifndef TARTAN_DRIVER_BREED_BESIDE_H
 #define TARTAN_DRIVER_BREED_BESIDE_H
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdbool.h>
 
 /* A path that a study names lies relative to the study. The caller frees it; NULL where out of memory. */
-static inline char *tn_study_beside(const char *study, const char *path)
-{
-    const char *slash = path[0] == '/' ? NULL : strrchr(study, '/');
-    size_t folder = slash ? (size_t)(slash - study) + 1 : 0, size = folder + strlen(path) + 1;
-    char *joined = malloc(size);
-    if (joined)
-        snprintf(joined, size, "%.*s%s", (int)folder, study, path);
-    return joined;
-}
+char *tn_study_beside(const char *study, const char *path);
+
+/* Reads "(-7, -7, -7)..(7, 7, 7)": the low corner and the high one, each coordinate larger. */
+bool tn_study_box(const char *text, double low[3], double high[3]);
 
 #endif

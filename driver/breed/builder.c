@@ -6,9 +6,13 @@
 #include <string.h>
 #include <strings.h>
 
+#include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
 #include "runtime/number/run.h"
+#include "runtime/solid/genes.h"
+
+#define BATCH 32u /* designs that a thread scores at once */
 
 typedef struct wish {
     const char *name; /* of the module */
@@ -21,8 +25,11 @@ struct tn_design_scorer {
     const tn_solid_record *record;
     wish *wishes; /* owned */
     size_t wish_count;
+    tn_goals more;  /* of the study */
     uint64_t asked; /* measures that goals and requirements speak of */
-    bool separately;
+    bool separately, may_want_nothing;
+    const tn_box_breeding *breeding; /* of genomes that are lists of boxes, or NULL */
+    tn_design skeleton;              /* the rigid boxes, then */
 };
 
 void tn_design_scorer_free(tn_design_scorer *s)
@@ -30,6 +37,8 @@ void tn_design_scorer_free(tn_design_scorer *s)
     if (!s)
         return;
     free(s->wishes);
+    tn_goals_clear(&s->more);
+    tn_design_clear(&s->skeleton);
     tn_close(&s->opened);
     free(s);
 }
@@ -69,7 +78,7 @@ static tn_status open_goals(tn_design_scorer *s, const char *goals, tn_error *er
         return refuse(error, goals, "it has no design, or more than one",
                       "write a file with one design, and its `fitness` lines");
     s->record = &s->opened.module->SOLID_records[solid];
-    if (s->record->goal_count == 0)
+    if (s->record->goal_count == 0 && !s->may_want_nothing)
         return refuse(error, goals, "it wants nothing", "add lines such as `fitness lightness = mass target 0;`");
     if (s->separately && s->record->goal_count > TN_OBJECTIVES_MAX)
         return refuse(error, goals, "it has more goals than `selection nsga2` weighs, which is 8",
@@ -77,19 +86,55 @@ static tn_status open_goals(tn_design_scorer *s, const char *goals, tn_error *er
     return take_goals(s, error);
 }
 
-tn_status tn_design_scorer_new(const char *goals, bool separately, tn_design_scorer **scorer, tn_error *error)
+tn_status tn_design_scorer_new(const char *goals, bool separately, bool may_want_nothing, tn_design_scorer **scorer,
+                               tn_error *error)
 {
     tn_design_scorer *s = calloc(1, sizeof *s);
     *scorer = NULL;
     if (!s)
         return tn_fail_memory(error);
     s->separately = separately;
+    s->may_want_nothing = may_want_nothing;
     tn_status status = open_goals(s, goals, error);
     if (status == TN_OK)
         *scorer = s;
     else
         tn_design_scorer_free(s);
     return status;
+}
+
+tn_status tn_design_scorer_add(tn_design_scorer *s, const tn_evolution_study *study, uint32_t *blamed, tn_error *error)
+{
+    tn_status status = tn_goals_read(study, tn_solid_measured_names, TN_SOLID_MEASURED_COUNT, &s->more, blamed, error);
+    if (status != TN_OK)
+        return status;
+    size_t count = s->wish_count + s->more.count;
+    s->asked |= tn_goals_ask(&s->more);
+    s->separately = s->separately && count > 1;
+    if (!s->separately || count <= TN_OBJECTIVES_MAX)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_FIELD_GOAL, "`selection nsga2` weighs at most %u goals, and here are %zu",
+            TN_OBJECTIVES_MAX, count);
+    tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
+    return TN_INVALID;
+}
+
+tn_status tn_design_scorer_take_genes(tn_design_scorer *s, const tn_box_breeding *breeding, tn_error *error)
+{
+    uint32_t rigid = 0;
+    tn_status status =
+        tn_design_read(s->opened.module, (uint32_t)(s->record - s->opened.module->SOLID_records), &s->skeleton, error);
+    for (uint32_t i = 0; status == TN_OK && i < s->skeleton.box_count; i++)
+        if (s->skeleton.boxes[i].rigid)
+            s->skeleton.boxes[rigid++] = s->skeleton.boxes[i];
+    s->skeleton.box_count = rigid;
+    s->breeding = breeding;
+    return status;
+}
+
+bool tn_design_scorer_wants(const tn_design_scorer *s)
+{
+    return s->wish_count || s->more.count || s->record->requirement_count;
 }
 
 tn_status tn_design_scorer_inputs(const tn_design_scorer *s, char **inputs, tn_error *error)
@@ -136,10 +181,16 @@ static void score_goals(const tn_design_scorer *s, const double *values, tn_scor
     double lacks = lacking(s, values), total = lacks;
     for (size_t i = 0; i < s->wish_count; i++) {
         const wish *w = &s->wishes[i];
-        double part = w->weight * fabs(value_of(s, w->function, values) - w->target) / fmax(fabs(w->target), 1);
+        double part = tn_goal_share(value_of(s, w->function, values), w->target, w->weight);
         total += part;
         if (s->separately)
             score->objectives[i] = part + lacks;
+    }
+    for (size_t i = 0; i < s->more.count; i++) {
+        double part = tn_goal_part(&s->more.items[i], values);
+        total += part;
+        if (s->separately)
+            score->objectives[s->wish_count + i] = part + lacks;
     }
     if (!s->separately)
         score->objectives[0] = total;
@@ -168,6 +219,56 @@ static tn_status score_design(void *context, unsigned thread, const char *senten
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
 }
 
+/* ---- genes */
+
+/* Builds the design of a genome: the rigid boxes, then its own. */
+static tn_status build_genes(const tn_design_scorer *s, const tn_genome *genome, tn_design *written, tn_built *built,
+                             tn_error *error)
+{
+    uint32_t rigid = s->skeleton.box_count, own = (uint32_t)(genome->count / TN_BOX_GENES);
+    tn_design counted = {.flags = s->skeleton.flags};
+    if ((uint64_t)(rigid + own) * tn_design_images(&counted) > TN_BRED_BOXES)
+        return tn_fail(error, TN_LIMIT, TN_CODE_NONE, "it has more than %u boxes, images counted", TN_BRED_BOXES);
+    *written = (tn_design){.box_count = rigid + own, .flags = s->skeleton.flags};
+    written->boxes = malloc((rigid + own + 1u) * sizeof *written->boxes);
+    if (!written->boxes)
+        return tn_fail_memory(error);
+    if (rigid)
+        memcpy(written->boxes, s->skeleton.boxes, rigid * sizeof *written->boxes);
+    for (uint32_t i = 0; i < own; i++) {
+        double genes[TN_BOX_GENES];
+        memcpy(genes, genome->codons + i * TN_BOX_GENES, sizeof genes);
+        tn_box_of_genes(genes, s->breeding->flags, s->breeding->depth, &written->boxes[rigid + i]);
+    }
+    return tn_built_make_of(written, built, error);
+}
+
+static tn_status score_genes(const tn_design_scorer *s, tn_individual *individual, tn_error *error)
+{
+    double values[TN_SOLID_MEASURED_COUNT] = {0};
+    tn_design written = {0};
+    tn_built built = {0};
+    tn_error own = {0};
+    tn_status status = build_genes(s, &individual->genome, &written, &built, &own);
+    if (status == TN_OK)
+        status = tn_built_measure(&built, s->asked, values, &own);
+    if (status == TN_OK)
+        score_goals(s, values, &individual->score, individual->message);
+    tn_built_clear(&built);
+    tn_design_clear(&written);
+    return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, &individual->score, individual->message, error);
+}
+
+static tn_status score_many(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
+                            tn_error *error)
+{
+    (void)thread;
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        status = score_genes(context, individuals[i], error);
+    return status;
+}
+
 /* "lightness target 3 weight 2" */
 static tn_status adjust(void *context, const char *change, tn_error *error)
 {
@@ -183,20 +284,28 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
         w->weight = weight;
         return TN_OK;
     }
+    if (tn_goals_adjust(&s->more, change))
+        return TN_OK;
     tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
-    tn_error_help(error, "name a goal of the design, as \"%.60s target 3 weight 2\"", s->wishes[0].name);
+    tn_error_help(error, "name a goal of the design, as \"%.60s target 3 weight 2\"",
+                  s->wish_count ? s->wishes[0].name : "volume");
     return TN_INVALID;
 }
 
 tn_evaluator tn_design_scorer_evaluator(tn_design_scorer *s)
 {
-    return (tn_evaluator){
-        .context = s, .objectives = s->separately ? s->wish_count : 1, .evaluate = score_design, .adjust = adjust};
+    return (tn_evaluator){.context = s,
+                          .objectives = s->separately ? s->wish_count + s->more.count : 1,
+                          .evaluate = score_design,
+                          .adjust = adjust,
+                          .evaluate_many = s->breeding ? score_many : NULL,
+                          .batch = BATCH};
 }
 
 const char *tn_design_scorer_objective(const void *scorer, size_t i)
 {
-    return ((const tn_design_scorer *)scorer)->wishes[i].name;
+    const tn_design_scorer *s = scorer;
+    return i < s->wish_count ? s->wishes[i].name : s->more.items[i - s->wish_count].text;
 }
 
 /* ---- pictures */

@@ -2,7 +2,9 @@
 #ifndef TARTAN_DRIVER_BREED_BUILDER_H
 #define TARTAN_DRIVER_BREED_BUILDER_H
 
+#include "runtime/genome/boxes/box_kind.h"
 #include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/settings.h"
 
 typedef struct tn_design_scorer tn_design_scorer;
 
@@ -11,8 +13,22 @@ typedef struct tn_design_scorer tn_design_scorer;
 /* `goals` is the path of a .solid with one design, whose `fitness` lines are the goals; its requirements count too, by
  * how far they are from holding. Its boxes are not built. With `separately`, each goal is an objective; else their sum
  * is the one. TN_INVALID (E1246) where it cannot be used. */
-tn_status tn_design_scorer_new(const char *goals, bool separately, tn_design_scorer **scorer, tn_error *error);
+tn_status tn_design_scorer_new(const char *goals, bool separately, bool may_want_nothing, tn_design_scorer **scorer,
+                               tn_error *error);
 void tn_design_scorer_free(tn_design_scorer *scorer);
+
+/* Adds the `fitness` lines of a study to the goals. With them, the design need have none of its own; where there are
+ * none at all, what can be built scores how far its requirements are from holding. TN_INVALID (E1248) where one is
+ * wrong: *blamed is its number among study->each. */
+tn_status tn_design_scorer_add(tn_design_scorer *scorer, const tn_evolution_study *study, uint32_t *blamed,
+                               tn_error *error);
+
+/* From here on genomes are lists of boxes around the rigid boxes of the design, and are built without compiling their
+ * sentences. The breeding is borrowed. */
+tn_status tn_design_scorer_take_genes(tn_design_scorer *scorer, const tn_box_breeding *breeding, tn_error *error);
+
+/* Is anything wanted of a design? */
+bool tn_design_scorer_wants(const tn_design_scorer *scorer);
 
 tn_evaluator tn_design_scorer_evaluator(tn_design_scorer *scorer);
 

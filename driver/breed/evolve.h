@@ -14,6 +14,7 @@
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
+#include "driver/breed/skeleton.h"
 #include "driver/open/open.h"
 #include "runtime/genome/breeding/problem.h"
 #include "runtime/genome/settings.h"
@@ -41,6 +42,7 @@ typedef struct tn_evolution_job {
     tn_genome_kind kind;      /* of forms */
     tn_field_parents *parents;
     tn_field_scorer *fields;
+    tn_skeleton *skeleton;
     tn_evolution_settings settings;
     tn_evaluator evaluator;
     tn_problem *problem;

@@ -1,9 +1,10 @@
-/* Puts a run of fields together from a study: parents, how they are crossed, and goals. */
+/* Puts a run of fields or of designs of boxes together from a study: what is bred, how it is varied, and goals. */
 #include "driver/breed/evolve_forms.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-#include "runtime/genome/tree/tree_kind.h"
+#include "driver/breed/beside.h"
 
 static tn_tree_variation tree_variation(const tn_evolution_study *s)
 {
@@ -67,13 +68,59 @@ static tn_status make_fields(tn_evolution_job *job, const char *path, tn_error *
     return TN_OK;
 }
 
+/* ---- designs of boxes */
+
+static tn_status take_skeleton(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
+{
+    size_t seeds;
+    tn_status status = TN_OK;
+    job->blamed = TN_SET_DESIGN;
+    job->seeds_text = stored ? strdup(stored) : NULL;
+    if (stored && !job->seeds_text)
+        return tn_fail_memory(error);
+    if (!stored)
+        status = tn_skeleton_read(&job->study, path, &job->seeds_text, &job->inputs, error);
+    if (status == TN_OK)
+        status = tn_skeleton_of(job->seeds_text, &job->study, &job->skeleton, &job->blamed, error);
+    if (status != TN_OK)
+        return status;
+    job->kind = tn_box_kind(tn_skeleton_breeding(job->skeleton));
+    job->settings.kind = &job->kind;
+    job->settings.seeds = tn_skeleton_seed(job->skeleton, &seeds);
+    job->settings.seed_count = seeds;
+    return TN_OK;
+}
+
+static tn_status make_boxes(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
+    char *design = tn_study_beside(path, job->study.of[TN_SET_DESIGN].text);
+    tn_status status =
+        design ? tn_design_scorer_new(design, separately, true, &job->designs, error) : tn_fail_memory(error);
+    free(design);
+    if (status == TN_OK) {
+        job->blamed = TN_SET_FITNESS;
+        status = tn_design_scorer_add(job->designs, &job->study, &job->blamed_each, error);
+    }
+    if (status == TN_OK)
+        status = tn_design_scorer_take_genes(job->designs, tn_skeleton_breeding(job->skeleton), error);
+    if (status != TN_OK)
+        return status;
+    job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
+    job->evaluator = tn_design_scorer_evaluator(job->designs);
+    job->scored = tn_design_scorer_wants(job->designs);
+    return TN_OK;
+}
+
 tn_status tn_evolution_forms(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
                              tn_error *error)
 {
-    job->extension = "field";
-    tn_status status = take_parents(job, path, options->stored_seeds, error);
-    if (status != TN_OK || !options->only_replay)
-        return status == TN_OK ? make_fields(job, path, error) : status;
+    bool fields = tn_evolution_study_use(&job->study) == TN_USE_TREES;
+    job->extension = fields ? "field" : "solid";
+    tn_status status = fields ? take_parents(job, path, options->stored_seeds, error)
+                              : take_skeleton(job, path, options->stored_seeds, error);
+    if (status == TN_OK && !options->only_replay)
+        return fields ? make_fields(job, path, error) : make_boxes(job, path, error);
     job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = tn_never_evaluate};
-    return TN_OK;
+    return status;
 }

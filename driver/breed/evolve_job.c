@@ -22,6 +22,7 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     tn_design_scorer_free(job->designs);
     tn_field_scorer_free(job->fields);
     tn_field_parents_free(job->parents);
+    tn_skeleton_free(job->skeleton);
     tn_grammar_free(job->grammar);
     for (size_t i = 0; i < job->seed_count; i++)
         tn_genome_clear(&job->seeds[i]);
@@ -192,7 +193,7 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
 {
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
-        status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), &job->designs, error);
+        status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), false, &job->designs, error);
     job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }

@@ -137,7 +137,7 @@ static tn_status write_individual(tn_run *run, const char *dir, size_t number, c
     const char *const text[] = {individual->sentence};
     const tn_bred_forms *forms = &run->job->forms;
     if (status == TN_OK && forms->context)
-        status = forms->draw(forms->context, text, NULL, 1, sentence, picture, error);
+        status = forms->draw(forms->context, text, NULL, 1, sentence + strlen(dir) + 1, picture, error); /* no folder */
     else if (status == TN_OK && run->job->learner)
         status = tn_learner_draw(run->job->learner, individual->sentence, picture, error);
     else if (status == TN_OK)

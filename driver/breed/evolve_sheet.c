@@ -10,16 +10,16 @@
 
 #define LABEL_BYTES 64u
 
-/* "3   #47 (score 1.5)": with its id where it can be named by that later on, and whether it is a parent. */
+/* "3  #47  1.5 parent": with its id where it can be named by that later on, and whether it is a parent. */
 static void write_label(const tn_run *run, size_t i, const tn_individual *member, char label[LABEL_BYTES])
 {
     if (!run->job->settings.kind) {
         snprintf(label, LABEL_BYTES, "%zu   (score %.5g)", i + 1, member->score.objectives[0]);
         return;
     }
-    int size = snprintf(label, LABEL_BYTES, "%zu   #%" PRIu64, i + 1, member->id);
+    int size = snprintf(label, LABEL_BYTES, "%zu  #%" PRIu64, i + 1, member->id);
     if (run->job->scored)
-        size += snprintf(label + size, LABEL_BYTES - (size_t)size, " (score %.5g)", member->score.objectives[0]);
+        size += snprintf(label + size, LABEL_BYTES - (size_t)size, "  %.4g", member->score.objectives[0]);
     bool parent = member->stayed || member->kind == TN_BIRTH_SEED;
     snprintf(label + size, LABEL_BYTES - (size_t)size, "%s", parent ? " parent" : "");
 }

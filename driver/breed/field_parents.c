@@ -165,22 +165,10 @@ static tn_status read_parent(reading *r, const tn_setting_value *value, tn_error
     return status;
 }
 
-/* "(-7, -7, -7)..(7, 7, 7)" */
-static bool read_box(const char *text, double low[3], double high[3])
-{
-    int end = 0;
-    int read = sscanf(text, " ( %lf , %lf , %lf ) .. ( %lf , %lf , %lf ) %n", &low[0], &low[1], &low[2], &high[0],
-                      &high[1], &high[2], &end);
-    bool well = read == 6 && end && !text[end];
-    for (int k = 0; k < 3 && well; k++)
-        well = fabs(low[k]) <= TN_COORDINATE_MAX && fabs(high[k]) <= TN_COORDINATE_MAX && low[k] < high[k];
-    return well;
-}
-
 static tn_status take_box(reading *r, tn_error *error)
 {
     const tn_setting_value *box = &r->study->of[TN_SET_BOX];
-    if (!box->written || read_box(box->text, r->low, r->high))
+    if (!box->written || tn_study_box(box->text, r->low, r->high))
         return TN_OK;
     tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.60s` is no box", box->text);
     tn_error_help(error, "write its low and its high corner: `box \"(-7, -7, -7)..(7, 7, 7)\"`");

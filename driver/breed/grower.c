@@ -46,8 +46,8 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
             g->goals[g->goal_count++] = goal;
     if (status == TN_OK && g->separately && g->goal_count > TN_OBJECTIVES_MAX) {
         status = tn_fail(error, TN_LIMIT, E_GROWTH_STUDY,
-                         "the growth study %.200s has %zu goals; `selection nsga2` takes at most %u", path, g->goal_count,
-                         TN_OBJECTIVES_MAX);
+                         "the growth study %.200s has %zu goals; `selection nsga2` takes at most %u", path,
+                         g->goal_count, TN_OBJECTIVES_MAX);
         tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
     }
     if (status == TN_OK && g->goal_count == 0) {

@@ -69,7 +69,7 @@ static void write_found(const tn_module *module, uint32_t function, const tn_pla
 }
 
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
-                            tn_kit_tally *tally)
+                            const char *help, tn_kit_tally *tally)
 {
     const tn_module *module = opened->module;
     const tn_kit_model_record *record = &module->KIT_MODEL_records[model];
@@ -90,7 +90,8 @@ tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_m
         tn_diagnostic *d =
             tn_report(list, E_PLACE_CONDITION, (tn_span){condition->file, condition->begin, condition->end},
                       "model %.100s does not meet this: %s", tn_text(module, record->name), found);
-        tn_help(list, d, "another --seed, another order of alternatives, or a larger space may help");
+        if (help)
+            tn_help(list, d, "%s", help);
     }
     return status;
 }
@@ -117,7 +118,7 @@ static tn_status test_model(tn_opened *opened, uint32_t model, tn_watch *watch, 
     if (status != TN_OK)
         tn_report_error(&opened->compilation.diagnostics, &error, opened->path, NULL, 0);
     else
-        status = tn_kit_conditions(opened, model, &measured, true, tally);
+        status = tn_kit_conditions(opened, model, &measured, true, TN_KIT_HELP, tally);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&placed);
     return status;

@@ -11,14 +11,17 @@
 /* The model of this name, or the kit's only one where that is NULL; what is wrong is reported (E1317). */
 tn_status tn_kit_choose(tn_opened *opened, const char *name, uint32_t *model);
 
+/* Where the model was placed by us. */
+#define TN_KIT_HELP "another --seed, another order of alternatives, or a larger space may help"
+
 typedef struct tn_kit_tally {
     size_t passed, failed;
 } tn_kit_tally;
 
 /* Reports the conditions of a model that do not hold (E1316), with what was found: its requirements, and where `tests`
- * the expectations of its tests too. TN_INVALID where one does not hold. */
+ * the expectations of its tests too. help: what may help, or NULL. TN_INVALID where one does not hold. */
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
-                            tn_kit_tally *tally);
+                            const char *help, tn_kit_tally *tally);
 
 /* Places every model of a kit, seed 0, and holds each to its requirements and tests. */
 tn_status tn_kit_tests_run(tn_opened *opened, tn_watch *watch, tn_kit_tally *tally);

@@ -5,6 +5,7 @@
 #include "analysis.h"
 #include "genome.h"
 #include "growth.h"
+#include "measure.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,6 +31,10 @@ TARTAN_API tartan_status tartan_plans_draw(const tartan_schema *schema, const ui
                                            size_t count, tartan_picture_format format,
                                            const tartan_plans_drawing *drawing, const tartan_watch *watch, void **bytes,
                                            size_t *size, tartan_error *error);
+
+/* Draws the rules one below the other, in the manner of the LaHave paper. `watch` may be NULL. */
+TARTAN_API tartan_status tartan_rules_draw(const tartan_rules *rules, tartan_picture_format format,
+                                           const tartan_watch *watch, void **bytes, size_t *size, tartan_error *error);
 
 typedef struct tartan_growth_drawing {
     size_t size;

@@ -6,6 +6,7 @@
  *   compile.h    rule files into modules, and their layout
  *   source.h     rule files with their source: tests, coverage, reports
  *   plan.h       plans, rules that match them, libraries of them
+ *   measure.h    measures of libraries: how plans are spread, the best of them, open plans
  *   analysis.h   why a rule matches, what rules mean, how libraries differ
  *   mesh.h       meshes as arrays and as files
  *   growth.h     surfaces that grow
@@ -19,7 +20,7 @@
  * Libraries. libtartan has all of this, and links the others. A program that only runs modules (.tnb), which
  * `tartan build` or libtartan made, links what it needs:
  *
- *   libtartan-runtime  base, module, plan, analysis, field, place, genome, evolution; mesh.h but files
+ *   libtartan-runtime  base, module, plan, measure, analysis, field, place, genome, evolution; mesh.h but files
  *   libtartan-growth   growth
  *   libtartan-mesh     mesh files, smoothing and so on
  *   libtartan-draw     draw
@@ -59,6 +60,7 @@
 #include "field.h"
 #include "genome.h"
 #include "growth.h"
+#include "measure.h"
 #include "mesh.h"
 #include "module.h"
 #include "place.h"

@@ -256,6 +256,7 @@ static void find_strangers(findings *f)
              : tn_setting_rows[i].use == TN_USE_BOXES ? "this is about designs of boxes"
                                                       : "this is about fields and designs of boxes",
              codons ? "leave it out; docs/evolution.md says which settings fields and designs have"
+             : named && use != TN_USE_CODONS          ? "a study breeds the one or the other: leave one of them out"
              : tn_setting_rows[i].use == TN_USE_BOXES ? "name the design that is bred, as `design \"table.solid\"`"
                                                       : "name a parent, as `parent \"sphere\"`");
     }

@@ -18,4 +18,14 @@ typedef struct tn_mesh_measures {
 /* Sums go in the order of the triangles. TN_OK or TN_MEMORY. */
 tn_status tn_mesh_measure(const tn_mesh *mesh, double small, tn_mesh_measures *measures, tn_error *error);
 
+/* How thick the form is: from the middle of each triangle straight inward to where the form ends. */
+typedef struct tn_thickness {
+    double least;
+    double hundredth; /* a hundredth of the surface, by area, is thinner */
+} tn_thickness;
+
+/* Of a closed mesh of triangles, counter-clockwise from outside. Both are 0 where it has no triangles. TN_OK or
+ * TN_MEMORY. */
+tn_status tn_mesh_thickness(const tn_mesh *mesh, tn_thickness *thickness, tn_error *error);
+
 #endif

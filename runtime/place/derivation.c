@@ -116,10 +116,11 @@ tn_status tn_no_end(derivation *d, uint32_t alternative, bool lookahead)
     tn_fail(d->error, TN_LIMIT, E_PLACE_LIMIT, "%s passes the limit of %llu steps%s%s",
             lookahead ? "a lookahead" : "expanding without taking a step",
             (unsigned long long)d->options.lookahead_limit, *text ? ": " : "", text);
-    tn_error_help(d->error, lookahead
-                                ? "a lookahead puts the last alternative for each symbol: give one of these a last "
-                                  "alternative that is empty; or raise the limit with --lookahead-limit"
-                                : "change the grammar so that it comes to an end, or raise the limit with --lookahead-limit");
+    tn_error_help(d->error,
+                  lookahead
+                      ? "a lookahead puts the last alternative for each symbol: give one of these a last "
+                        "alternative that is empty; or raise the limit with --lookahead-limit"
+                      : "change the grammar so that it comes to an end, or raise the limit with --lookahead-limit");
     return TN_LIMIT;
 }
 

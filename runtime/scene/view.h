@@ -62,7 +62,8 @@ typedef struct tn_view_options {
     uint32_t columns;          /* of a sheet; 0: about as many as rows */
     const char *const *labels; /* below each view; NULL: its step, if there are several */
     uint32_t dpi;
-    tn_legend legend; /* count 0: none */
+    tn_legend legend;           /* count 0: none */
+    const double (*palette)[3]; /* colours of groups, in sRGB; NULL: those of tn_group_colour */
 } tn_view_options;
 
 /* Paints a view on a canvas: model units times `scale` are points, and the eye's origin lies at (x, y). palette:

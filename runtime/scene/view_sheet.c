@@ -17,6 +17,8 @@
 #define LEGEND_ROWS_MAX 40u /* more labels than these tell nobody anything */
 #define HAIRLINE 0.5
 
+static const double given_ambient = 0.5; /* of views in colours that are given: dark sides keep theirs */
+
 typedef struct sheet {
     double scale;     /* points per model unit */
     uint32_t *legend; /* labels that are seen; owned */
@@ -25,6 +27,7 @@ typedef struct sheet {
     double cell[2];
     size_t columns, rows;
     double size[2];
+    const double (*palette)[3]; /* or NULL */
 } sheet;
 
 static void mark_seen(const tn_view *view, const tn_legend *legend, bool *seen)
@@ -67,7 +70,7 @@ static bool lay_out_legend(tn_view *const *views, size_t count, const tn_legend 
 
 static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
 {
-    sheet s = {.columns = options->columns};
+    sheet s = {.columns = options->columns, .palette = options->palette};
     double extent[2] = {1e-9, 1e-9};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++)
@@ -167,6 +170,15 @@ static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
     }
 }
 
+/* As wide as a seam can be seen: a pixel at least where there are pixels. */
+static double seam_width(cairo_t *cr, const tn_view_place *place)
+{
+    double pixel[2] = {1, 0};
+    cairo_device_to_user_distance(cr, &pixel[0], &pixel[1]);
+    bool has_pixels = cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+    return fmax(HAIRLINE / place->scale, has_pixels ? hypot(pixel[0], pixel[1]) : 0);
+}
+
 void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_place *place)
 {
     cairo_t *cr = tn_canvas_context(canvas);
@@ -175,8 +187,9 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
     cairo_scale(cr, place->scale, -place->scale);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    double seam = seam_width(cr, place);
     for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
-        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, HAIRLINE / place->scale);
+        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, seam);
     cairo_restore(cr);
 }
 
@@ -190,8 +203,12 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
     double line = 0.8;
     if (view->face_count > 300)
         line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
-    tn_view_place place = {
-        left - view->low[0] * s->scale, top + high + view->low[1] * s->scale, s->scale, line, 0, NULL};
+    tn_view_place place = {left - view->low[0] * s->scale,
+                           top + high + view->low[1] * s->scale,
+                           s->scale,
+                           line,
+                           s->palette ? given_ambient : 0,
+                           s->palette};
     tn_view_paint(canvas, view, &place);
     if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);

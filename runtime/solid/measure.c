@@ -65,6 +65,17 @@ tn_status tn_built_make(const tn_module *module, uint32_t solid, uint32_t most, 
     return status == TN_OK ? make_cells(built, error) : status;
 }
 
+tn_status tn_built_make_of(const tn_design *written, tn_built *built, tn_error *error)
+{
+    *built = (tn_built){0};
+    tn_status status = tn_design_copy(written, &built->written, error);
+    if (status == TN_OK)
+        status = tn_design_copy(written, &built->built, error);
+    if (status == TN_OK)
+        status = tn_design_correct(&built->built, NULL, error);
+    return status == TN_OK ? make_cells(built, error) : status;
+}
+
 uint64_t tn_solid_asked(const tn_module *module, uint32_t function)
 {
     const tn_function_record *record = &module->FUNCTION_records[function];

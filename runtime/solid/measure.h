@@ -23,6 +23,9 @@ typedef struct tn_built {
 tn_status tn_built_make(const tn_module *module, uint32_t solid, uint32_t most, tn_built *built, tn_error *error);
 void tn_built_clear(tn_built *built);
 
+/* The same of a design that is at hand, of which it keeps a copy; nothing is noted of how boxes were squashed. */
+tn_status tn_built_make_of(const tn_design *written, tn_built *built, tn_error *error);
+
 /* The measures that the mask names (1 << tn_solid_measured); others stay as they were. */
 tn_status tn_built_measure(const tn_built *built, uint64_t mask, double values[TN_SOLID_MEASURED_COUNT],
                            tn_error *error);

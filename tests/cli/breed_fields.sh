@@ -37,6 +37,7 @@ END
 "$TARTAN" evolve rings.study -o one --threads 1 > /dev/null 2>&1 || fail "cannot evolve"
 "$TARTAN" evolve rings.study -o four --threads 4 > /dev/null 2>&1
 cmp -s one/run.sqlite four/run.sqlite || fail "threads change a run"
+diff -r one/best four/best > /dev/null || fail "threads or folders change the results"
 "$TARTAN" evolve rings.study -o two -g 2 > /dev/null 2>&1
 "$TARTAN" evolve rings.study -o two --resume > /dev/null 2>&1 || fail "cannot resume"
 cmp -s one/run.sqlite two/run.sqlite || fail "a resumed run differs"

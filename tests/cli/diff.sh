@@ -13,6 +13,9 @@ sed '/^library any-sheds/,$d' "$files/sheds.plan" >"$scratch/alone.plan"
 golden other_schema "tartan diff $scratch/alone.plan rows.plan"
 golden picture_extension 'tartan diff sheds.plan sheds-edited.plan -l sheds -o sheet.gif'
 golden one_file 'tartan diff sheds.plan'
+sed 's/^  trays 2..4/  trays 2..3/' "$files/measures.plan" >"$scratch/shorter.plan"
+golden measures "tartan diff measures.plan $scratch/shorter.plan -l strips --sample 0"
+golden measures_json "tartan diff measures.plan $scratch/shorter.plan -l strips --sample 0 --json | sed -n '/\"measures\"/,/^  ]/p'"
 golden limit 'tartan diff sheds.plan sheds-edited.plan -l sheds --max-states 3'
 sed 's/6m/7m/g' "$files/sheds.plan" >"$scratch/wider.plan"
 golden other_value "tartan diff sheds.plan $scratch/wider.plan -l sheds"

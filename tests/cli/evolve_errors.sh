@@ -46,7 +46,14 @@ study like '  parent "sphere"; likeness "none.obj"'
 study box '  parent "sphere"; fitness volume target 3; box "(1, 2, 3)"'
 study goalless '  parent "sphere"'
 study many '  parent "sphere"; parent "torus"; parent "heart"; population 2'
-for wrong in stranger parent weight distance surface measure wish like box goalless many; do
+study nodesign '  design "none.solid"'
+study region '  design "top.solid"; region "(0, 0)"'
+study narrow '  design "top.solid"; sizes 3..4; region "(0, 0, 0)..(2, 9, 9)"'
+study boxes '  design "top.solid"; boxes 4..6'
+study sizes '  design "top.solid"; sizes 4..2'
+study both '  design "top.solid"; parent "sphere"'
+printf 'solid top { box top from (0, 7, 0) to (9, 8, 9) rigid; box leg from (0, 0, 0) to (1, 7, 1); fitness volume target 3; }\n' >top.solid
+for wrong in nodesign region narrow boxes sizes both stranger parent weight distance surface measure wish like box goalless many; do
     golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
 done
 for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing build goals designs; do

@@ -19,6 +19,8 @@ golden pareto 'tartan pareto measures.plan -l strips --least cost --most all-bed
 golden pareto_json 'tartan pareto measures.plan -l strips --least cost --most all-beds --json | head -20'
 golden complete 'tartan complete measures.plan -l strips "3m room | ? | ... | store"'
 golden complete_json 'tartan complete measures.plan -l strips "room | ?" --json'
+golden complete_none_later 'tartan complete measures.plan -l strips "room | 3m store | ... | store | ? | room"'
+golden complete_none_longer 'tartan complete measures.plan -l strips "room"'
 golden complete_none 'tartan complete measures.plan -l strips "store | ?"'
 golden where 'tartan count measures.plan -l strips --where "area <= 20m2" --where "plan [room | ... | store]"'
 golden prolog_left_out 'tartan export measures.plan --prolog -l strips'

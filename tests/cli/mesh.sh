@@ -38,6 +38,26 @@ printf 'abs(distance("hull.obj")) - 0.4\n' >shell.field
 printf 'fn f(a) = a\n' >library.field
 printf 'sqrt(x*x + y*y + z*z - 400) - 1\n' >none.field
 golden ball "tartan mesh $scratch/ball.field --grid 30 --stats"
+# ---- volumes that are known lie between what is proven, and the two come together
+python3 - "$TARTAN" <<'END' || failed=1
+import json, math, subprocess, sys
+for name, volume in (("sphere", 4 / 3 * math.pi * 5**3), ("torus", 2 * math.pi**2 * 4 * 1.6**2)):
+    widths = []
+    for grid in (10, 50, 120):
+        said = subprocess.run([sys.argv[1], "mesh", "primitives", "--surface", name, "--grid", str(grid), "--bounds", "--stats", "json"],
+                              capture_output=True, text=True, check=True).stdout
+        low, high = json.loads(said)["volume_bounds"]
+        if not low < volume < high:
+            sys.exit("mesh: %s has a volume of %.9g, not between %.9g and %.9g" % (name, volume, low, high))
+        widths.append(high - low)
+    if not widths[0] > 2 * widths[1] > 3 * widths[2]:
+        sys.exit("mesh: the bounds of %s do not come together: %s" % (name, widths))
+END
+printf 'surface shell = abs(sqrt(x*x + y*y + z*z) - 4) - 0.25\nsurface slab = max(abs(x) - 3, max(abs(y) - 3, abs(z) - 0.35))\n' > "$scratch/walls.field"
+golden thickness "tartan mesh $scratch/walls.field --surface shell --grid 61 --thickness"
+golden slab "tartan mesh $scratch/walls.field --surface slab --grid 60 --thickness --stats json"
+golden open_thickness "tartan mesh $scratch/walls.field --surface shell --thickness --open"
+golden bounds "tartan mesh $scratch/ball.field --grid 100 --bounds"
 golden cut "tartan mesh $scratch/odd.field --surface cut"
 golden wall "tartan mesh $scratch/odd.field --surface wall --stats json"
 golden none "tartan mesh $scratch/none.field --grid 20"

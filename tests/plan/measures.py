@@ -66,6 +66,12 @@ def check_distribution(seed, case, name, wanted):
     for key in ("mean", "variance"):
         same(seed, name + " " + key, found[key], wanted[key])
     same(seed, name + " dimension", found["dimension"], wanted["dimension"])
+    out = asked(seed, "diff", "diff", case, case, "--library", "kept", "--sample", "0", "--json")
+    changes = {m["name"]: m for m in json.loads(out)["measures"]} if out else {}
+    for side in ("before", "after"):
+        if name in changes and found["distribution"]:
+            same(seed, name + " " + side, [changes[name][side][k] for k in ("least", "mean", "most")],
+                 [found["distribution"][0]["value"], wanted["mean"], found["distribution"][-1]["value"]])
     if "quartiles" in wanted:
         same(seed, name + " quartiles", found["quartiles"], wanted["quartiles"])
 

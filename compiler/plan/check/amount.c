@@ -173,7 +173,8 @@ bool tn_same_power(tn_check *check, tn_sum_amount left, tn_span left_span, tn_su
                 "areas are written `120m2` or `96ft2`; divide by `1m2` or `1sf` for a plain number");
     else
         tn_help(check->diagnostics, d,
-                "lengths are written `3.6m` or `12'`; divide by `1m` or `1'` for a plain number");
+                left.power == 0 ? "write this without a unit; divided by `1m` or `1'` a length is a plain number"
+                                : "lengths have a unit: `12m`, `12'`; divided by `1m` or `1'` one is a plain number");
     return false;
 }
 

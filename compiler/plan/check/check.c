@@ -125,7 +125,7 @@ void tn_check_let(tn_check *check, const tn_ast_expr *value)
     tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span,
                                  "`let` names a constant or values of a field, and this is neither");
     tn_help(check->diagnostics, d,
-            "write `let wide = 4.8m` or `let rooms = single or double`; a rule is named by `rule NAME = ...`");
+            "write `let wide = 4.8m` or `let wet = bath or kitchen`; a rule is named by `rule NAME = ...`");
 }
 
 void tn_check_settle(tn_check *check)

@@ -221,13 +221,13 @@ typedef struct tn_check {
     const tn_imports *imports;
     const tn_asked_for *asked;
     tn_checked *result;
-    tn_names schemas;     /* name -> tn_checked_schema */
-    tn_names names;       /* name -> tn_checked_name */
-    tn_names specs;       /* key -> tn_checked_spec */
-    tn_names conditions;  /* key -> tn_checked_condition */
-    bool incomplete;      /* names may be missing because of errors already reported */
-    bool skipped;         /* clauses may be missing because of errors already reported */
-    bool *no_schema_said; /* per unit */
+    tn_names schemas;                    /* name -> tn_checked_schema */
+    tn_names names;                      /* name -> tn_checked_name */
+    tn_names specs;                      /* key -> tn_checked_spec */
+    tn_names conditions;                 /* key -> tn_checked_condition */
+    bool incomplete;                     /* names may be missing because of errors already reported */
+    bool skipped;                        /* clauses may be missing because of errors already reported */
+    bool *no_schema_said, *several_said; /* per unit */
     bool too_many_said;
     tn_names calls;  /* key -> tn_checked_rule made of a call */
     size_t expanded; /* calls and values of quantifiers written out so far */
@@ -292,6 +292,7 @@ bool tn_field_has(const tn_checked_field *field, const char *name); /* a choice'
 /* The one field that has the value; TN_NONE where none or several have: then reported, unless the schema is broken. */
 uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
 void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
+void tn_say_items(const tn_checked_schema *schema, char *text, size_t size); /* "`use room`, `width >= 4'`" */
 /* A value that the field does not have: E0303. */
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
 /* E0008; schema: the one whose lengths are meant, or NULL. */

@@ -67,7 +67,8 @@ static void report_constant(tn_check *check, const tn_ast_word *word, bool lengt
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_CONDITION_UNIT, word->node.span, "%s, and `%s` is not one",
                   lengths ? "a sum of one field is a length" : "trays are counted in whole numbers", word->text);
-    tn_help(check->diagnostics, d, "compare sums with sums: `sum(width * body) > 90m2`, `quantity(a) >= 25%% * trays`");
+    tn_help(check->diagnostics, d,
+            "compare sums with sums: `sum(FIELD * FIELD) > 90m2`, `quantity(a) >= 25%% * trays`");
 }
 
 /* A constant with a unit where lengths are added, a plain number where trays are counted. 0 has no need of a unit. */

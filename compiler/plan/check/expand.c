@@ -25,31 +25,6 @@ tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *wo
 
 /* ---- does anything have to be written out? */
 
-static bool words_bound(const tn_rule_expansion *expansion, const tn_ast_item *item)
-{
-    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
-        for (TN_EACH(const tn_ast_word, word, alternative->words))
-            if ((word->kind == TN_WORD_NAME && tn_bound(expansion, word).value) ||
-                (word->group && words_bound(expansion, word->group)))
-                return true;
-    return false;
-}
-
-static bool operand_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
-{
-    return word && word->kind == TN_WORD_NAME && tn_bound(expansion, word).value;
-}
-
-static bool condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *cond)
-{
-    bool bound = operand_bound(expansion, cond->left) || operand_bound(expansion, cond->right) ||
-                 operand_bound(expansion, cond->modulus) || operand_bound(expansion, cond->range.low) ||
-                 operand_bound(expansion, cond->range.high);
-    for (TN_EACH(const tn_ast_cond, part, cond->parts))
-        bound = bound || condition_bound(expansion, part);
-    return bound;
-}
-
 static tn_checked_rule *rule_named(const tn_rule_expansion *expansion, const tn_ast_word *word)
 {
     const tn_checked_name *name = tn_names_get(&expansion->check->names, word->text);
@@ -67,9 +42,9 @@ static bool needs_expansion(const tn_rule_expansion *expansion, const tn_ast_exp
             return true;
     }
     for (TN_EACH(const tn_ast_item, item, expr->items))
-        if (expansion->check->has_lets && words_bound(expansion, item))
+        if (expansion->check->has_lets && tn_words_bound(expansion, item))
             return true;
-    if (expr->condition && expansion->check->has_lets && condition_bound(expansion, expr->condition))
+    if (expr->condition && expansion->check->has_lets && tn_condition_bound(expansion, expr->condition))
         return true;
     if (expr->figure && needs_expansion(expansion, expr->figure))
         return true;

@@ -25,7 +25,9 @@ typedef struct tn_rule_expansion {
 /* What a word stands for where it is read; value NULL where it stands for itself. */
 tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *word);
 
-/* expand_words.c: copies with the words replaced. */
+/* expand_words.c: is a word bound there? And copies with the words replaced. */
+bool tn_words_bound(const tn_rule_expansion *expansion, const tn_ast_item *item);
+bool tn_condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *cond);
 tn_ast_list tn_expand_items(tn_rule_expansion *expansion, tn_ast_list items);
 tn_ast_cond *tn_expand_condition(tn_rule_expansion *expansion, const tn_ast_cond *cond);
 /* The one number or length that an expression of constants comes to, as a word; NULL: reported at `place`. */

@@ -5,12 +5,41 @@
 #include "compiler/plan/check/amount.h"
 #include "compiler/plan/check/expand.h"
 
+/* ---- does anything have to be written out? */
+
+bool tn_words_bound(const tn_rule_expansion *expansion, const tn_ast_item *item)
+{
+    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
+        for (TN_EACH(const tn_ast_word, word, alternative->words))
+            if ((word->kind == TN_WORD_NAME && tn_bound(expansion, word).value) ||
+                (word->group && tn_words_bound(expansion, word->group)))
+                return true;
+    return false;
+}
+
+static bool operand_bound(const tn_rule_expansion *expansion, const tn_ast_word *word)
+{
+    return word && word->kind == TN_WORD_NAME && tn_bound(expansion, word).value;
+}
+
+bool tn_condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *cond)
+{
+    bool bound = operand_bound(expansion, cond->left) || operand_bound(expansion, cond->right) ||
+                 operand_bound(expansion, cond->modulus) || operand_bound(expansion, cond->range.low) ||
+                 operand_bound(expansion, cond->range.high);
+    for (TN_EACH(const tn_ast_cond, part, cond->parts))
+        bound = bound || tn_condition_bound(expansion, part);
+    return bound;
+}
+
+/* ---- specifiers */
+
 static void report_not_values(tn_rule_expansion *expansion, const tn_ast_expr *value, const tn_ast_word *use)
 {
     tn_diagnostics *diagnostics = expansion->check->diagnostics;
     tn_diagnostic *d = tn_report(diagnostics, E_BAD_ARGUMENT, value->node.span, "values of a field are needed here");
     tn_note(diagnostics, d, &use->node.span, "`%s` is used in a specifier here", use->text);
-    tn_help(diagnostics, d, "give a value such as `dense`, `4'`, `4' or 8'` or `not great`");
+    tn_help(diagnostics, d, "give a value of a field, several with `or` between, or `not` and a value");
 }
 
 static tn_ast_word *copy_word(tn_rule_expansion *expansion, const tn_ast_word *word)

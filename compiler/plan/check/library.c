@@ -113,6 +113,21 @@ static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast
     }
 }
 
+/* The fields of lengths that there are, and a zone, whose depths are added. */
+static void help_total(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema)
+{
+    char names[300] = "";
+    size_t used = 0;
+    for (uint32_t f = 0; f < schema->field_count && used < sizeof names; f++)
+        if (schema->fields[f].kind == TN_FIELD_LENGTH || schema->fields[f].kind == TN_FIELD_ZONE)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s`total %s ...`", used ? ", " : "",
+                                     schema->fields[f].name);
+    if (used)
+        tn_help(check->diagnostics, d, "lengths are added up by %s", names);
+    else
+        tn_help(check->diagnostics, d, "give the schema a field of lengths, such as `width = 3m | 4m`");
+}
+
 static void add_total(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast, tn_checked_clause *clause)
 {
     const tn_checked_schema *schema = library->schema;
@@ -128,8 +143,7 @@ static void add_total(tn_check *check, tn_checked_library *library, const tn_ast
                                : tn_report(check->diagnostics, E_NO_LENGTH_FIELD, place,
                                            "schema `%s` has no field of lengths to add up", schema->name);
         tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
-        tn_help(check->diagnostics, d,
-                "name a field of lengths, or a zone, whose depths are added: `total width 40'..56'`");
+        help_total(check, d, schema);
         return;
     }
     if (!tn_check_detail(check, field, ast->detail))
@@ -227,12 +241,12 @@ static void stand_in_form(tn_check *check, tn_checked_library *library, tn_check
                                      "library `%s` has houses of form `%s`", from->name, other);
         tn_note(check->diagnostics, d, &from->ast->name->node.span, "library `%s` is here", from->name);
         tn_help(check->diagnostics, d, "write `in %s`, or begin with a library of plans", other);
-    } else if (form->schema && from->schema && form->schema != from->schema) {
+    } else if (form->schema && library->schema && form->schema != library->schema) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, word->node.span,
                                      "form `%s` is of schema `%s`, and the plans are of schema `%s`", form->name,
-                                     form->schema->name, from->schema->name);
+                                     form->schema->name, library->schema->name);
         tn_note(check->diagnostics, d, &form->ast->name->node.span, "form `%s` is here", form->name);
-        tn_help(check->diagnostics, d, "name a form of schema `%s`", from->schema->name);
+        tn_help(check->diagnostics, d, "name a form of schema `%s`", library->schema->name);
     } else if (!from->form) {
         library->form = form;
         library->plans = from;

@@ -117,9 +117,13 @@ static bool read_named(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
     if (kind == TN_FIELD_FLAG)
         return set(tray, field, 1, name);
     const tn_ast_word *word = next_word(tray);
-    if (!word)
-        return misread(tray, name, "this field has no value here",
-                       "write its value after its name, such as `width 8'`");
+    if (!word) {
+        const tn_checked_value *value = &tray->schema->fields[field].values[0];
+        char help[400];
+        snprintf(help, sizeof help, "write its value after its name, such as `%s %s%s%s`", name->text, value->name,
+                 value->has_depth ? " " : "", value->has_depth ? value->measure : "");
+        return misread(tray, name, "this field has no value here", help);
+    }
     if (word->kind == TN_WORD_NUMBER) {
         tn_report_unit(tray->check, tray->schema, word);
         return false;
@@ -249,7 +253,8 @@ static bool read_tray(tn_check *check, const tn_checked_schema *schema, const tn
     if (!tray.word) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_EMPTY_TRAY, ast->node.span, "nothing is written between these bars");
-        tn_help(check->diagnostics, d, "write at least one value of the tray, such as its width");
+        tn_help(check->diagnostics, d, "write at least one value of the tray, such as its %s",
+                schema->field_count ? schema->fields[0].name : "first field");
         return false;
     }
     while (tray.word)

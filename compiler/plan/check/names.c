@@ -183,6 +183,7 @@ void tn_check_collect(tn_check *check)
     result->libraries = TN_NEW_ARRAY(check->arena, tn_checked_library *, n.libraries);
     result->program = TN_NEW(check->arena, tn_program);
     check->no_schema_said = TN_NEW_ARRAY(check->arena, bool, check->imports->count);
+    check->several_said = TN_NEW_ARRAY(check->arena, bool, check->imports->count);
     if (tn_arena_failed(check->arena))
         return;
     for (size_t u = 0; u < check->imports->count; u++) {
@@ -279,11 +280,15 @@ tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_as
         report_no_schema(check, unit, place);
     if (!other)
         return found;
+    if (check->several_said[unit])
+        return NULL;
+    check->several_said[unit] = true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_SEVERAL_SCHEMAS, place,
                                  "several schemas are in scope here, and it is not clear which one is meant");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "schema `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "schema `%s`", found->name);
-    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name", other->name, found->name);
+    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name, here and in each rule and library",
+            other->name, found->name);
     return NULL;
 }
 

@@ -39,6 +39,22 @@ static bool skip_nots(tn_item_reader *item)
     return negated;
 }
 
+/* `two floors`, `1.2m glazed`: what comes too late. */
+static bool help_order(const tn_item_reader *item, tn_diagnostic *d)
+{
+    const tn_checked_field *field = &item->schema->fields[item->field];
+    const char *word = item->word->kind == TN_WORD_NAME ? item->word->text : "", *value = NULL;
+    for (uint32_t v = 0; v < field->value_count && !value; v++)
+        value = item->found[v] ? field->values[v].name : NULL;
+    if (strcmp(word, field->name) == 0 && value && field->kind != TN_FIELD_FLAG)
+        tn_help(item->check->diagnostics, d, "a field comes before its value: `%s %s`", field->name, value);
+    else if (field->kind == TN_FIELD_ZONE && tn_field_has(field, word))
+        tn_help(item->check->diagnostics, d, "a fill comes before its depth: `%s %s ...`", field->name, word);
+    else
+        return false;
+    return true;
+}
+
 __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item, tn_span span, const char *format, ...)
 {
     char message[300];
@@ -56,13 +72,16 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item,
     if (item->word && flag && item->word->kind == TN_WORD_OPERATOR)
         tn_help(item->check->diagnostics, d, "a flag is written alone: `%s`, or `not %s`",
                 item->schema->fields[item->field].name, item->schema->fields[item->field].name);
+    else if (item->word && item->field != TN_NONE && help_order(item, d))
+        return false;
     else if (item->word && item->field != TN_NONE)
         tn_help(item->check->diagnostics, d, "items are separated by commas, alternatives joined by `or`");
     else if (item->field != TN_NONE && item->schema->fields[item->field].kind != TN_FIELD_FLAG)
         tn_help(item->check->diagnostics, d, "`%s` can be %s", item->schema->fields[item->field].name, legal);
-    else
-        tn_help(item->check->diagnostics, d,
-                "write items such as `8'`, `public`, `not public`, `machine dense 4'`, `width >= 8'`");
+    else {
+        tn_say_items(item->schema, legal, sizeof legal);
+        tn_help(item->check->diagnostics, d, "write items such as %s", legal);
+    }
     return false;
 }
 

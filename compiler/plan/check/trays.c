@@ -48,7 +48,7 @@ static bool add_forbids(tn_check *check, tn_checked_schema *schema, const tn_che
 {
     for (TN_EACH(const tn_ast_forbid, forbid, of->ast->body.forbids)) {
         if (!tn_check_room(check, schema->forbid_count, TN_FORBIDS_MAX, "`forbid`", forbid->node.span,
-                           "forbid several trays at once: `forbid tray(4' or 8', body dense)`")) {
+                           "forbid several trays at once, with `or` between values: `forbid tray(a or b)`")) {
             schema->broken = true;
             return false;
         }

@@ -112,6 +112,18 @@ static bool join_words(const tn_checked_schema *schema, const tn_ast_word *word,
     return is_word_of(schema, joined);
 }
 
+/* `non-smoking`, `inaccessible`: the word whose opposite it is, or NULL. */
+static const char *opposite_of(const tn_checked_schema *schema, const char *word)
+{
+    static const char *const beginnings[] = {"non-", "not-", "no-", "non", "un", "in", "im", "dis"};
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
+        size_t size = strlen(beginnings[i]);
+        if (strncmp(word, beginnings[i], size) == 0 && is_word_of(schema, word + size))
+            return word + size;
+    }
+    return NULL;
+}
+
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span,
@@ -124,10 +136,13 @@ static void report_unknown_word(tn_check *check, const tn_checked_schema *schema
     for (uint32_t f = 0; f < schema->field_count; f++)
         append(fields, sizeof fields, "%s%s", f == 0 ? "" : ", ", schema->fields[f].name);
     const tn_slip *slip = tn_slip_find(TN_SLIP_TRAY, word->text, strlen(word->text));
+    const char *opposite = opposite_of(schema, word->text);
     if (slip) {
         tn_help(check->diagnostics, d, "%s", slip->help);
         if (slip->instead)
             tn_replace_with(check->diagnostics, d, "%s", slip->instead);
+    } else if (opposite) {
+        tn_suggest(check->diagnostics, d, "not %s", opposite);
     } else if (near) {
         tn_suggest(check->diagnostics, d, "%s", near);
     } else if (join_words(schema, word, joined, sizeof joined)) {
@@ -160,6 +175,23 @@ uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const 
                                  (unsigned)count, word->text);
     tn_help(check->diagnostics, d, "say which: write %s", list);
     return TN_NONE;
+}
+
+void tn_say_items(const tn_checked_schema *schema, char *text, size_t size)
+{
+    enum { SHOWN = 3 };
+    text[0] = '\0';
+    for (uint32_t f = 0; f < schema->field_count && f < SHOWN; f++) {
+        const tn_checked_field *field = &schema->fields[f];
+        const tn_checked_value *value = field->value_count ? &field->values[0] : NULL;
+        const char *comma = f == 0 ? "" : ", ";
+        if (field->kind == TN_FIELD_FLAG)
+            append(text, size, "%s`%s`, `not %s`", comma, field->name, field->name);
+        else if (field->kind == TN_FIELD_LENGTH && value)
+            append(text, size, "%s`%s >= %s`", comma, field->name, value->name);
+        else if (value)
+            append(text, size, "%s`%s %s`", comma, field->name, value->name);
+    }
 }
 
 /* Another field of lengths that does have the value. */
@@ -231,7 +263,14 @@ void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_a
     char meant[64];
     tn_span span = apart ? tn_span_join(number->node.span, apart->node.span) : number->node.span;
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_UNIT, span, "`%s` has no unit", number->text);
-    if (apart) {
+    const tn_ast_word *next = (const tn_ast_word *)number->node.next;
+    uint32_t named =
+        !apart && schema && next && next->kind == TN_WORD_NAME ? tn_field_find(schema, next->text) : TN_NONE;
+    if (named != TN_NONE && schema->fields[named].kind != TN_FIELD_FLAG) { /* 2 floors */
+        char legal[400];
+        tn_say_values(&schema->fields[named], NULL, legal, sizeof legal);
+        tn_help(check->diagnostics, d, "a field comes before its value, and `%s` can be %s", next->text, legal);
+    } else if (apart) {
         const char *unit = strcmp(apart->text, "ft") == 0 ? "'" : strcmp(apart->text, "in") == 0 ? "\"" : apart->text;
         tn_help(check->diagnostics, d, "a unit follows its number directly: `%s%s`", number->text, unit);
         tn_replace_with(check->diagnostics, d, "%s%s", number->text, unit);
@@ -252,6 +291,22 @@ static const char *nearest_value(tn_check *check, const tn_checked_field *field,
     return tn_nearest(word, names, field->value_count);
 }
 
+/* `14' 6`: with the inches that follow without their sign, is it one of the field's? */
+static bool with_inches(const tn_checked_field *field, const tn_ast_word *word, char *text, size_t size)
+{
+    const tn_ast_word *next = (const tn_ast_word *)word->node.next;
+    int64_t length;
+    if (!next || next->kind != TN_WORD_NUMBER)
+        return false;
+    snprintf(text, size, "%s-%s\"", word->text, next->text);
+    if (tn_length_read(text, strlen(text), false, &length, NULL) != strlen(text))
+        return false;
+    for (uint32_t v = 0; v < field->value_count; v++)
+        if (field->values[v].length == length)
+            return true;
+    return false;
+}
+
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word)
 {
     if (schema->broken || word->broken)
@@ -263,6 +318,16 @@ void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t 
         tn_report(check->diagnostics, E_ILLEGAL_VALUE, word->node.span, "`%s` cannot be %s", f->name, word->text);
     tn_note(check->diagnostics, d, &f->ast->name->node.span, "`%s` is declared here", f->name);
     const char *other = word->kind == TN_WORD_LENGTH ? other_field(schema, field, word->value) : NULL;
+    char meant[64];
+    if (word->kind == TN_WORD_LENGTH && with_inches(f, word, meant, sizeof meant)) {
+        tn_help(check->diagnostics, d, "it can be %s; inches have a sign of their own: `%s`", legal, meant);
+        return;
+    }
+    if (tn_word_is(word, "in") && f->kind == TN_FIELD_CHOICE && f->value_count > 1) {
+        tn_help(check->diagnostics, d, "values are joined by `or`: `%s %s or %s`", f->name, f->values[0].name,
+                f->values[1].name);
+        return;
+    }
     const char *near = word->kind == TN_WORD_LENGTH ? NULL : nearest_value(check, f, word->text);
     if (other) {
         tn_help(check->diagnostics, d, "it can be %s; did you mean `%s %s`?", legal, other, word->text);

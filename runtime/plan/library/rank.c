@@ -9,12 +9,31 @@ static uint32_t marked(const tn_library *library, tn_tray tray, uint32_t column)
     return library->passed[(size_t)(tray / library->stride) * library->kept->columns + column];
 }
 
+/* The same where counts have one limb, as most have: without GMP. */
+static void few_plans_before(const tn_library *library, const uint32_t *next, tn_tray tray, uint32_t left, mpz_t sum)
+{
+    const mp_limb_t *counts = library->rows[left].value;
+    const uint32_t *passed = library->passed + (size_t)(tray / library->stride) * library->kept->columns;
+    tn_wide_limb plans = 0;
+    for (uint32_t c = 0; c < library->kept->columns; c++)
+        plans += (tn_wide_limb)counts[next[c]] * passed[c];
+    for (tn_tray t = tray - tray % library->stride; t < tray; t++)
+        plans += counts[next[library->tray_column[t]]];
+    mpz_set_ui(sum, (mp_limb_t)(plans >> 64));
+    mpz_mul_2exp(sum, sum, 64);
+    mpz_add_ui(sum, sum, (mp_limb_t)plans);
+}
+
 /* sum := plans that start in `state` with a tray before `tray`, `left` trays to come after it. */
 static void plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
 {
     const tn_dfa *kept = library->kept;
     const tn_count_row *row = &library->rows[left];
     const uint32_t *next = kept->delta + (size_t)state * kept->columns;
+    if (row->limbs == 1) {
+        few_plans_before(library, next, tray, left, sum);
+        return;
+    }
     mpz_set_ui(sum, 0);
     for (uint32_t c = 0; c < kept->columns; c++) {
         uint32_t trays = marked(library, tray, c);

@@ -9,15 +9,17 @@
 
 #define NONE UINT32_MAX
 
-/* Completions of a state: its tray, then the child's completion of that rank. At the root the tray is a length. */
+/* A completion of a place: its tray, then the child's completion of that rank. */
 typedef struct path {
     int64_t value[TN_WEIGHED_MAX]; /* with the sign that makes less better */
     tn_tray tray;
+    uint32_t child; /* the place after the tray */
     uint32_t rank;
 } path;
 
 /* A state with so many trays to come. */
 typedef struct place {
+    uint32_t left, state;
     path *found; /* in order */
     size_t found_count, found_room;
     path *heap; /* candidates, the best first */
@@ -33,6 +35,7 @@ struct tn_best {
     int64_t sign[TN_WEIGHED_MAX];
     tn_numbering numbers; /* left << 32 | state -> place */
     place *places;
+    uint32_t place_count; /* one fewer than the numbers where memory ran out */
     size_t place_room;
     size_t *given; /* [max - min + 1]: plans of each length given so far */
 };
@@ -54,7 +57,7 @@ void tn_best_free(tn_best *best)
 {
     if (!best)
         return;
-    for (uint32_t i = 0; i < best->numbers.count; i++) {
+    for (uint32_t i = 0; i < best->place_count; i++) {
         free(best->places[i].found);
         free(best->places[i].heap);
     }
@@ -141,7 +144,8 @@ static tn_status place_of(tn_best *best, uint32_t left, uint32_t state, uint32_t
         best->places = places;
         best->place_room = room;
     }
-    best->places[*index] = (place){0};
+    best->places[*index] = (place){.left = left, .state = state};
+    best->place_count = *index + 1;
     return TN_OK;
 }
 
@@ -163,7 +167,7 @@ static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t 
     tn_status status = place_of(best, left, state, index, error);
     if (status != TN_OK || best->places[*index].measured)
         return status;
-    place found = {.measured = true};
+    place found = {.left = left, .state = state, .measured = true};
     if (left == 0) {
         found.possible = tn_weighed_alive(best->weighed, 0, state);
         set_rest(best, state, found.least);
@@ -192,12 +196,12 @@ static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t 
     return status;
 }
 
-static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
-                        tn_error *error);
+static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there, tn_error *error);
 
-/* All trays of a state as candidates, each with its best completion. */
-static tn_status open_place(tn_best *best, uint32_t left, uint32_t state, uint32_t index, tn_error *error)
+/* All trays of a place as candidates, each with its best completion. */
+static tn_status open_place(tn_best *best, uint32_t index, tn_error *error)
 {
+    uint32_t left = best->places[index].left, state = best->places[index].state;
     uint32_t letters = tn_weighed_letters(best->weighed), trays = best->library->schema->tray_count;
     path *by_letter = calloc((size_t)letters + 1, sizeof *by_letter);
     bool *possible = calloc((size_t)letters + 1, sizeof *possible);
@@ -210,6 +214,7 @@ static tn_status open_place(tn_best *best, uint32_t left, uint32_t state, uint32
             continue;
         status = measure(best, left - 1, target, &child, error);
         possible[l] = status == TN_OK && best->places[child].possible;
+        by_letter[l].child = child;
         memcpy(by_letter[l].value, best->places[child].least, sizeof by_letter[l].value);
         add_gain(best, by_letter[l].value, gain);
     }
@@ -226,39 +231,32 @@ static tn_status open_place(tn_best *best, uint32_t left, uint32_t state, uint32
     return status;
 }
 
-/* Puts the successor of the last path found among the candidates: the same tray, the child's next completion. */
-static tn_status succeed(tn_best *best, uint32_t left, uint32_t state, uint32_t index, tn_error *error)
+/* Puts the successor of the last path found among the candidates: the same tray, the child's next completion. What the
+ * tray adds is what the path has over its child. */
+static tn_status succeed(tn_best *best, uint32_t index, tn_error *error)
 {
     place *p = &best->places[index];
-    path last = p->found[p->found_count - 1];
-    uint32_t target, child;
-    int64_t gain[TN_WEIGHED_MAX];
+    path next = p->found[p->found_count - 1];
     bool there;
     p->pending = false;
-    tn_status status =
-        tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, last.tray), &target, gain, error);
-    if (status == TN_OK)
-        status = place_of(best, left - 1, target, &child, error);
-    if (status == TN_OK)
-        status = ensure(best, left - 1, target, child, (size_t)last.rank + 1, &there, error);
+    next.rank++;
+    tn_status status = ensure(best, next.child, next.rank, &there, error);
     if (status != TN_OK || !there)
         return status;
-    path added = best->places[child].found[last.rank + 1];
-    add_gain(best, added.value, gain);
-    added.tray = last.tray;
-    added.rank = last.rank + 1;
-    return push(&best->places[index], added) ? TN_OK : tn_fail_memory(error);
+    const path *of_child = &best->places[next.child].found[next.rank];
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        next.value[k] += of_child[0].value[k] - of_child[-1].value[k];
+    return push(&best->places[index], next) ? TN_OK : tn_fail_memory(error);
 }
 
-/* Finds the completions of a state up to the given rank; *there: is there one? */
-static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t index, size_t rank, bool *there,
-                        tn_error *error)
+/* Finds the completions of a place up to the given rank; *there: is there one? */
+static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there, tn_error *error)
 {
     tn_status status = TN_OK;
-    if (left == 0 && best->places[index].found_count == 0) {
-        path end = {0};
-        set_rest(best, state, end.value);
-        place *p = &best->places[index];
+    place *p = &best->places[index];
+    if (p->left == 0 && p->found_count == 0) {
+        path end = {.child = NONE};
+        set_rest(best, p->state, end.value);
         if (!reserve(&p->found, &p->found_room, 0))
             return tn_fail_memory(error);
         p->found[p->found_count++] = end;
@@ -266,10 +264,10 @@ static tn_status ensure(tn_best *best, uint32_t left, uint32_t state, uint32_t i
     }
     while (status == TN_OK && best->places[index].found_count <= rank) {
         if (!best->places[index].opened)
-            status = open_place(best, left, state, index, error);
+            status = open_place(best, index, error);
         if (status == TN_OK && best->places[index].pending)
-            status = succeed(best, left, state, index, error);
-        place *p = &best->places[index];
+            status = succeed(best, index, error);
+        p = &best->places[index];
         if (status != TN_OK || p->heap_count == 0)
             break;
         if (!reserve(&p->found, &p->found_room, p->found_count))
@@ -301,7 +299,7 @@ static tn_status next_length(tn_best *best, const size_t *given, cursor *next, b
             continue;
         tn_status status = measure(best, n, 0, &index, error);
         if (status == TN_OK && best->places[index].possible)
-            status = ensure(best, n, 0, index, given[n - best->library->min], &there, error);
+            status = ensure(best, index, given[n - best->library->min], &there, error);
         if (status != TN_OK)
             return status;
         if (!there)
@@ -316,27 +314,21 @@ static tn_status next_length(tn_best *best, const size_t *given, cursor *next, b
     return TN_OK;
 }
 
-static tn_status follow(tn_best *best, cursor at, tn_tray *trays, tn_error *error)
+/* The trays of a place's completion of the given rank, which is there. */
+static tn_status follow(tn_best *best, uint32_t index, size_t rank, tn_tray *trays, tn_error *error)
 {
-    uint32_t state = 0, length = at.left;
-    for (uint32_t i = 0; i < length; i++) {
-        uint32_t index, target;
-        int64_t gain[TN_WEIGHED_MAX];
-        tn_status status = place_of(best, length - i, state, &index, error);
-        bool there;
-        if (status == TN_OK)
-            status = ensure(best, length - i, state, index, at.rank, &there, error);
+    tn_status status = TN_OK;
+    bool there;
+    for (uint32_t left = best->places[index].left; status == TN_OK && left > 0; left--) {
+        status = ensure(best, index, rank, &there, error);
         if (status != TN_OK)
-            return status;
-        path p = best->places[index].found[at.rank];
-        trays[i] = p.tray;
-        at.rank = p.rank;
-        status = tn_weighed_step(best->weighed, state, tn_weighed_letter(best->weighed, p.tray), &target, gain, error);
-        if (status != TN_OK)
-            return status;
-        state = target;
+            break;
+        const path *p = &best->places[index].found[rank];
+        *trays++ = p->tray;
+        index = p->child;
+        rank = p->rank;
     }
-    return TN_OK;
+    return status;
 }
 
 tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t *values, bool *found, tn_error *error)
@@ -357,5 +349,5 @@ tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t 
     for (uint32_t k = 0; status == TN_OK && k < tn_weighed_count(best->weighed); k++)
         values[k] = best->sign[k] * best->places[index].found[next.rank].value[k] + tn_weighed_start(best->weighed, k);
     *length = next.left;
-    return status == TN_OK ? follow(best, next, trays, error) : status;
+    return status == TN_OK ? follow(best, index, next.rank, trays, error) : status;
 }

@@ -4,22 +4,15 @@
  * The machine guesses where a run of written trays after a gap starts, and remembers the runs that started earlier:
  * none of them may come to its end, so that the guess is the leftmost. Each plan is then read in one way only.
  */
-#include "runtime/plan/measure/complete.h"
+#include "runtime/plan/measure/complete_data.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/library/library_data.h"
-#include "runtime/plan/match/vm.h"
-
 #define WORST INT64_MAX
 
-/* A run of written trays without a gap between them. */
-typedef struct segment {
-    uint32_t first, count;
-    bool floats; /* after a gap, and not bound to the plan's end */
-} segment;
+typedef tn_completer completer;
+typedef tn_open_segment segment;
 
 /* Where the machine is: so many trays placed; in the gap before the next run; runs that started earlier, bit k: k + 1
  * of their trays have been met. */
@@ -34,117 +27,6 @@ typedef struct way {
     machine to;
     bool places;
 } way;
-
-typedef struct completer {
-    const tn_library *library;
-    tn_weighed *weighed; /* whose states take the place of the library's; or NULL */
-    int64_t sign;        /* that makes less better */
-    tn_error *error;
-    tn_status failed; /* while stepping */
-    uint32_t items;
-    segment segments[TN_PATTERN_MAX + 1];
-    uint32_t segment_of[TN_PATTERN_MAX + 1];
-    uint32_t segment_count;
-    bool gap_first, gap_last;
-    uint64_t *fits;      /* [trays]: bit i: the tray fits written tray i */
-    uint32_t *letter_of; /* [trays] */
-    uint32_t letters;
-    tn_tray *first;     /* [letters] */
-    uint64_t *size;     /* [letters] */
-    tn_interner states; /* {library's state, placed, gap, earlier in two words} */
-    uint32_t **level;   /* [max + 1]: the states at each place, ascending */
-    uint32_t *level_size;
-    mpz_t **forward, **backward;                       /* [max + 1][level_size] */
-    mpz_t *placed;                                     /* [items][letters] */
-    int64_t **best_before, **best_after, *best_placed; /* the same of the measure; WORST where there is none */
-} completer;
-
-/* ---- the pattern */
-
-static tn_status read_pattern(completer *c, const uint32_t *functions, size_t count, tn_error *error)
-{
-    bool gap = false;
-    for (size_t i = 0; i < count; i++) {
-        if (functions[i] == TN_NO_RECORD) {
-            gap = true;
-            c->gap_first |= c->items == 0;
-            continue;
-        }
-        if (c->items == TN_PATTERN_MAX) {
-            tn_fail(error, TN_LIMIT, E_TOO_MANY, "an open plan has more than %u written trays", TN_PATTERN_MAX);
-            tn_error_help(error, "write `...` for some of them");
-            return TN_LIMIT;
-        }
-        if (c->items == 0 || gap)
-            c->segments[c->segment_count++] = (segment){.first = c->items, .floats = gap};
-        c->segments[c->segment_count - 1].count++;
-        c->segment_of[c->items++] = c->segment_count - 1;
-        gap = false;
-    }
-    c->gap_last = gap;
-    if (!gap && c->segment_count > 0) /* bound to the end: there is one place for it */
-        c->segments[c->segment_count - 1].floats = false;
-    return TN_OK;
-}
-
-static bool gap_before(const completer *c, uint32_t item)
-{
-    uint32_t s = c->segment_of[item];
-    return c->segments[s].first == item && (s > 0 || c->gap_first);
-}
-
-static tn_status find_fits(completer *c, const uint32_t *functions, size_t count, tn_error *error)
-{
-    const tn_schema *schema = c->library->schema;
-    tn_plan_vm *vm = NULL;
-    c->fits = calloc((size_t)schema->tray_count + 1, sizeof *c->fits);
-    tn_status status = c->fits ? tn_plan_vm_new(schema, 1, &vm, error) : tn_fail_memory(error);
-    for (tn_tray t = 0; status == TN_OK && t < schema->tray_count; t++) {
-        uint32_t item = 0;
-        status = tn_plan_vm_plan(vm, &t, 1, error);
-        for (size_t i = 0; status == TN_OK && i < count; i++) {
-            bool in;
-            if (functions[i] == TN_NO_RECORD)
-                continue;
-            status = tn_plan_vm_relation(vm, functions[i], 0, 1, &in, error);
-            c->fits[t] |= status == TN_OK && in ? UINT64_C(1) << item : 0;
-            item++;
-        }
-    }
-    tn_plan_vm_free(vm);
-    return status;
-}
-
-/* Trays that differ here lead to different states, or weigh differently. */
-static uint32_t letter_apart(const completer *c, tn_tray t)
-{
-    return c->weighed ? tn_weighed_letter(c->weighed, t) : c->library->tray_column[t];
-}
-
-static tn_status make_letters(completer *c, tn_error *error)
-{
-    uint32_t trays = c->library->schema->tray_count;
-    tn_numbering fits = {0}, pairs = {0};
-    c->letter_of = calloc((size_t)trays + 1, sizeof *c->letter_of);
-    bool ok = c->letter_of != NULL;
-    for (tn_tray t = 0; ok && t < trays; t++) {
-        uint32_t fit = tn_number(&fits, c->fits[t]);
-        c->letter_of[t] = fit == UINT32_MAX ? fit : tn_number(&pairs, (uint64_t)letter_apart(c, t) << 32 | fit);
-        ok = c->letter_of[t] != UINT32_MAX;
-    }
-    c->letters = pairs.count;
-    tn_numbering_clear(&fits);
-    tn_numbering_clear(&pairs);
-    c->first = ok ? calloc((size_t)c->letters + 1, sizeof *c->first) : NULL;
-    c->size = ok ? calloc((size_t)c->letters + 1, sizeof *c->size) : NULL;
-    if (!c->first || !c->size)
-        return tn_fail_memory(error);
-    for (tn_tray t = trays; t-- > 0;) {
-        c->first[c->letter_of[t]] = t;
-        c->size[c->letter_of[t]]++;
-    }
-    return TN_OK;
-}
 
 /* ---- the machine */
 
@@ -165,7 +47,7 @@ static bool advance(const segment *s, uint64_t fits, uint64_t earlier, uint64_t 
 static machine next_item(const completer *c, uint32_t placed, uint64_t earlier)
 {
     bool last = placed == c->items, ends = last || c->segment_of[placed] != c->segment_of[placed - 1];
-    return (machine){placed, last ? c->gap_last : gap_before(c, placed), ends ? 0 : earlier};
+    return (machine){placed, last ? c->gap_last : tn_completer_gap_before(c, placed), ends ? 0 : earlier};
 }
 
 /* The ways on with a tray that fits so: at most two. */
@@ -460,11 +342,7 @@ tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_o
     completer c = {.library = library, .weighed = open->weighed, .sign = open->most ? -1 : 1, .error = error};
     *out = (tn_completions){0};
     mpz_init(out->plans);
-    tn_status status = read_pattern(&c, open->functions, open->count, error);
-    if (status == TN_OK)
-        status = find_fits(&c, open->functions, open->count, error);
-    if (status == TN_OK)
-        status = make_letters(&c, error);
+    tn_status status = tn_completer_read(&c, open, error);
     if (status == TN_OK)
         status = make_room(&c, out, error);
     if (status == TN_OK && library->min <= library->max)

@@ -20,8 +20,15 @@ typedef struct tn_completions {
                         completions; NULL where no measure was asked for */
 } tn_completions;
 
+/* A place of an open plan by its trays instead of by a rule. */
+typedef struct tn_open_tray {
+    const bool *fits; /* [trays of the schema]; NULL: every tray */
+    bool gap;
+} tn_open_tray;
+
 typedef struct tn_open_plan {
-    const uint32_t *functions; /* of M, or TN_NO_RECORD for a gap */
+    const uint32_t *functions; /* of M, or TN_NO_RECORD for a gap; NULL: `trays` says it */
+    const tn_open_tray *trays;
     size_t count;
     tn_weighed *weighed; /* by its first measure, of the same library, choices are weighed; or NULL */
     bool most;           /* more of it is better, else less */

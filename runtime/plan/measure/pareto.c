@@ -27,6 +27,7 @@ typedef struct fronts {
     int64_t sign[TN_WEIGHED_MAX];
     tn_numbering numbers; /* left << 32 | state -> front */
     front *items;
+    uint32_t count; /* of items: one fewer than the numbers where memory ran out */
     size_t room;
 } fronts;
 
@@ -130,6 +131,7 @@ static tn_status number_of(fronts *all, uint32_t left, uint32_t state, uint32_t 
         all->room = room;
     }
     all->items[*index] = (front){0};
+    all->count = *index + 1;
     return TN_OK;
 }
 
@@ -241,7 +243,7 @@ tn_status tn_pareto_make(tn_pareto_front *out, tn_weighed *weighed, const bool *
         out->count++;
     }
     front_clear(&whole);
-    for (uint32_t i = 0; i < all.numbers.count; i++)
+    for (uint32_t i = 0; i < all.count; i++)
         front_clear(&all.items[i]);
     free(all.items);
     tn_numbering_clear(&all.numbers);

@@ -39,6 +39,7 @@ struct tn_weighed {
     tn_interner states;
     node *nodes;
     size_t node_capacity;
+    uint32_t node_count;
     tn_key key, next, part;
 };
 
@@ -155,6 +156,7 @@ static tn_status intern(tn_weighed *w, const int64_t *rest, uint32_t *state, tn_
         w->node_capacity = capacity;
     }
     w->nodes[*state] = (node){0};
+    w->node_count = *state + 1;
     memcpy(w->nodes[*state].rest, rest, sizeof w->nodes[*state].rest);
     return TN_OK;
 }
@@ -262,7 +264,7 @@ void tn_weighed_free(tn_weighed *w)
         tn_summing_clear(&m->summing);
         tn_sum_free(m->sum);
     }
-    for (uint32_t s = 0; s < w->states.count; s++)
+    for (uint32_t s = 0; s < w->node_count; s++) /* a state that failed has none */
         free(w->nodes[s].edges);
     free(w->nodes);
     tn_interner_clear(&w->states);

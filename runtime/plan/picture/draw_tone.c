@@ -7,6 +7,7 @@
 
 #define HATCH_SPACING 2.8
 #define COARSE 1.9 /* how much wider light hatches are */
+#define DOT 0.7
 
 typedef enum hatching { PLAIN, RISING, FALLING, CROSSED, LEVEL, UPRIGHT, GRID, DOTTED, HATCHINGS } hatching;
 
@@ -50,13 +51,16 @@ static void upright(cairo_t *context, double spacing, double x, double y, double
     }
 }
 
+/* Dashed lines, which take a hundredth of the bytes of so many points. */
 static void dotted(cairo_t *context, double spacing, double x, double y, double width, double height)
 {
-    for (double down = ceil((y + 0.6) / spacing) * spacing; down < y + height - 0.5; down += spacing)
-        for (double at = ceil((x + 0.6) / spacing) * spacing; at < x + width - 0.5; at += spacing) {
-            cairo_move_to(context, at - 0.35, down);
-            cairo_line_to(context, at + 0.35, down);
-        }
+    const double dashes[] = {DOT, spacing - DOT};
+    cairo_save(context);
+    cairo_set_dash(context, dashes, 2, x - floor(x / spacing) * spacing);
+    level(context, spacing, x, y, width, height);
+    cairo_set_line_width(context, DOT);
+    cairo_stroke(context);
+    cairo_restore(context);
 }
 
 static void hatch(cairo_t *context, hatching how, double spacing, double x, double y, double width, double height)
@@ -69,10 +73,10 @@ static void hatch(cairo_t *context, hatching how, double spacing, double x, doub
         level(context, spacing, x, y, width, height);
     if (how == UPRIGHT || how == GRID)
         upright(context, spacing, x, y, width, height);
+    cairo_set_line_width(context, TN_LINE_HAIR + 0.08);
+    cairo_stroke(context);
     if (how == DOTTED)
         dotted(context, spacing, x, y, width, height);
-    cairo_set_line_width(context, how == DOTTED ? 0.7 : TN_LINE_HAIR + 0.08);
-    cairo_stroke(context);
 }
 
 /* How many fills of that role, but of other names, the bands have before this one. */

@@ -14,7 +14,8 @@
 
 static const char text[] = "schema box { width = 1m | 2m  lid = flag }\n"
                            "rule pair = neighbour(tray(lid), tray(lid))\n"
-                           "library rows using box { trays 1..3 prune pair }\n";
+                           "library rows using box { trays 1..3 prune pair }\n"
+                           "measure long = sum(width)\nmeasure lids = quantity(tray(lid))\n";
 
 typedef tartan_status operation(const tartan_module *module, tartan_error *error);
 
@@ -97,9 +98,49 @@ static tartan_status walk(const tartan_module *module, tartan_error *error)
     return status;
 }
 
+static tartan_status measure(const tartan_module *module, tartan_error *error)
+{
+    const tartan_wish wishes[] = {{"long", true}, {"lids", false}};
+    const tartan_open_tray places[] = {{NULL, false}, {NULL, true}};
+    tartan_library *library = NULL;
+    tartan_distribution *distribution = NULL;
+    tartan_best *best = NULL;
+    tartan_front *front = NULL;
+    tartan_completions *completions = NULL;
+    char *texts[4] = {NULL};
+    const uint32_t *trays;
+    size_t length;
+    bool found;
+    tartan_status status = tartan_library_open(module, NULL, NULL, &library, error);
+    if (status == TARTAN_OK)
+        status = tartan_distribution_new(library, "long", &distribution, error);
+    if (status == TARTAN_OK)
+        status = tartan_distribution_value(distribution, 0, &texts[0], &texts[1], error);
+    if (status == TARTAN_OK)
+        status = tartan_best_new(library, wishes, 2, &best, error);
+    if (status == TARTAN_OK)
+        status = tartan_best_next(best, &trays, &length, &found, error);
+    if (status == TARTAN_OK)
+        status = tartan_best_value(best, 0, &texts[2], error);
+    if (status == TARTAN_OK)
+        status = tartan_front_new(library, wishes, 2, &front, error);
+    if (status == TARTAN_OK)
+        status = tartan_front_plans(front, 0, &texts[3], &trays, &length, error);
+    if (status == TARTAN_OK)
+        status = tartan_completions_new(library, places, 2, wishes, &completions, error);
+    for (size_t i = 0; i < 4; i++)
+        tartan_text_free(texts[i]);
+    tartan_completions_free(completions);
+    tartan_front_free(front);
+    tartan_best_free(best);
+    tartan_distribution_free(distribution);
+    tartan_library_free(library);
+    return status;
+}
+
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile, load, match, walk};
+    static operation *const operations[] = {compile, load, match, walk, measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

@@ -81,6 +81,25 @@ static void test_bad_source(void **state)
     compile_with_failures("a.plan", bad, false);
 }
 
+static void test_schema_made_from_another(void **state)
+{
+    static const char newer[] =
+        "schema old { w = 1m | 2m  use = room | store  zone z = full(1m) | none  forbid tray(store, 2m)\n"
+        "  number k = 1 where tray(room) | 0 }\n"
+        "let rooms = room or store\n"
+        "rule beside(a, b) using old = symmetric neighbour(a, b)\n"
+        "rule far using old = beside(tray(rooms), tray(2m)) or some v in w (quantity(tray(v), n > 1))\n"
+        "measure floor using old = sum(w * z)\n"
+        "library l using old { trays 2 total w <= 3m prune far require sum(k) >= 1 }\n"
+        "schema new from old { use = ... | lab  w = ... | 3m  zone z = ... | full(2m) | wet(1m)  lit = flag }\n"
+        "library m using new from l { prune beside(tray(lab), tray(lit)) require floor <= 9m2 }\n";
+    static const char wrong[] = "schema a from b { w = ... | 3m }\nschema b from a { }\n"
+                                "schema c { w = 1m }\nschema d from c { v = ... | 2m  w = ... | 1m  w = 3m }\n";
+    (void)state;
+    compile_with_failures("a.plan", newer, true);
+    compile_with_failures("b.plan", wrong, false);
+}
+
 static void test_other_notations(void **state)
 {
     (void)state;
@@ -207,9 +226,13 @@ static void test_automata(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_source),      cmocka_unit_test(test_bad_source),
-        cmocka_unit_test(test_other_notations),  cmocka_unit_test(test_resolved_source),
-        cmocka_unit_test(test_reference_engine), cmocka_unit_test(test_automata),
+        cmocka_unit_test(test_good_source),
+        cmocka_unit_test(test_bad_source),
+        cmocka_unit_test(test_schema_made_from_another),
+        cmocka_unit_test(test_other_notations),
+        cmocka_unit_test(test_resolved_source),
+        cmocka_unit_test(test_reference_engine),
+        cmocka_unit_test(test_automata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -661,7 +661,8 @@ static void finish_live(live *l)
 static const char related[] =
     "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
     "rule never allow W019 = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
-    "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n";
+    "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n"
+    "measure long \"of all\" = sum(width)\nmeasure twice = 2 * long\n";
 
 static void test_meaning(void **state)
 {
@@ -683,6 +684,12 @@ static void test_meaning(void **state)
     hovered = hear_answer(
         &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "l using") - related))));
     assert_true(mentions(hovered, "`total` keeps out 0 plans of its lengths, 0 of them alone"));
+    assert_true(mentions(hovered, "by trays: 1: ") && mentions(hovered, "`long`: 4 ft to 12 ft, "));
+    json_decref(hovered);
+    hovered = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, related, (size_t)(strstr(related, "* long") + 2 - related))));
+    assert_true(mentions(hovered, "measure `long`") && mentions(hovered, "over `l`: 4 ft to 12 ft, ") &&
+                mentions(hovered, " on average (standard deviation "));
     json_decref(hovered);
     json_t *actions = hear_answer(&l, ask(&l.session, "textDocument/codeAction", everything(uri)));
     assert_true(mentions(actions, "Allow W001 in never"));

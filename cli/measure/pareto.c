@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/wishes.h"
+#include "cli/measure/wishes.h"
 #include "driver/measure/front.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/text/text.h"

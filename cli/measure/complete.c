@@ -3,7 +3,8 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/plan/wishes.h"
+#include "cli/measure/complete_why.h"
+#include "cli/measure/wishes.h"
 #include "compiler/plan/syntax/program.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/measure/bins.h"
@@ -209,6 +210,10 @@ static void show(tn_job *job, const paper *p)
         draw(job, p);
     } else if (tn_job_output(job, settings->output, &output)) {
         (settings->json ? write_json : write_text)(p, output.stream);
+        tn_error error;
+        if (!settings->json && mpz_sgn(p->found->plans) == 0 &&
+            tn_complete_why(p->ready->library, p->open, output.stream, &error) != TN_OK)
+            tn_job_fail(job, &error);
         tn_job_commit(job, &output);
     }
 }

@@ -1,5 +1,5 @@
 /* Measures that commands are told to make small or great. */
-#include "cli/plan/wishes.h"
+#include "cli/measure/wishes.h"
 
 #include <string.h>
 

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/measure/wishes.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sheet.h"
-#include "cli/plan/wishes.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/measure/best.h"
 
@@ -35,6 +35,8 @@ typedef struct sink {
     bool json, draws;
     tn_plan_sheet sheet;
     tn_buffer text;
+    tn_buffer values; /* as text: many plans in a row have the same */
+    int64_t written[TN_WEIGHED_MAX];
 } sink;
 
 static const char *measure_name(const sink *s, uint32_t k)
@@ -58,20 +60,30 @@ static tn_status add_drawn(sink *s, const tn_tray *trays, uint32_t length, const
     return tn_fail_memory(error);
 }
 
-static bool put_values(sink *s, const int64_t *values)
+static bool write_values(sink *s, const int64_t *values)
 {
-    bool list = s->wishes->count > 1,
-         ok = tn_buffer_printf(&s->text, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
+    bool list = s->wishes->count > 1;
+    s->values.size = 0;
+    bool ok = tn_buffer_printf(&s->values, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
     for (uint32_t k = 0; ok && k < s->wishes->count; k++) {
-        ok = k == 0 || tn_buffer_printf(&s->text, s->json ? "," : "  ");
+        ok = k == 0 || tn_buffer_printf(&s->values, s->json ? "," : "  ");
+        s->written[k] = values[k];
         if (!s->json) {
-            ok = ok && tn_wishes_text(s->wishes, s->weighed, k, values[k], &s->text);
+            ok = ok && tn_wishes_text(s->wishes, s->weighed, k, values[k], &s->values);
             continue;
         }
-        ok = ok && tn_buffer_printf(&s->text, "\"") && tn_wishes_exact(s->wishes, s->weighed, k, values[k], &s->text) &&
-             tn_buffer_printf(&s->text, "\"");
+        ok = ok && tn_buffer_printf(&s->values, "\"") &&
+             tn_wishes_exact(s->wishes, s->weighed, k, values[k], &s->values) && tn_buffer_printf(&s->values, "\"");
     }
-    return ok && (!s->json || !list || tn_buffer_printf(&s->text, "]"));
+    return ok && (!s->json || !list || tn_buffer_printf(&s->values, "]"));
+}
+
+static bool put_values(sink *s, const int64_t *values)
+{
+    bool same = s->values.size > 0;
+    for (uint32_t k = 0; same && k < s->wishes->count; k++)
+        same = values[k] == s->written[k];
+    return (same || write_values(s, values)) && tn_buffer_append(&s->text, s->values.data, s->values.size);
 }
 
 static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
@@ -221,6 +233,7 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     }
     tn_sheet_clear(&s.sheet);
     free(s.text.data);
+    free(s.values.data);
     tn_best_free(best);
     tn_weighed_free(weighed);
 }

@@ -1,6 +1,6 @@
 /* What `best` and `pareto` are told to make small or great: measures in their order. */
-#ifndef TARTAN_CLI_PLAN_WISHES_H
-#define TARTAN_CLI_PLAN_WISHES_H
+#ifndef TARTAN_CLI_MEASURE_WISHES_H
+#define TARTAN_CLI_MEASURE_WISHES_H
 
 #include "cli/plan/library_job.h"
 #include "runtime/plan/measure/amount.h"

@@ -1,0 +1,65 @@
+/* Says which written tray of an open plan leaves no completion: it counts what begins as the open plan does, for longer
+ * and longer beginnings. */
+#include "cli/measure/complete_why.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/open/digits.h"
+
+/* The plans that begin with the first `count` parts; any trays may follow. `parts` has room for one more. */
+static tn_status count_beginning(const tn_library *library, const tn_open_plan *open, size_t count, uint32_t *parts,
+                                 mpz_t plans, tn_error *error)
+{
+    tn_completions found;
+    bool gap = count > 0 && open->functions[count - 1] == TN_NO_RECORD;
+    memcpy(parts, open->functions, count * sizeof *parts);
+    if (!gap)
+        parts[count++] = TN_NO_RECORD;
+    tn_status status = tn_complete(&found, library, &(tn_open_plan){.functions = parts, .count = count}, error);
+    if (status == TN_OK)
+        mpz_set(plans, found.plans);
+    tn_completions_clear(&found);
+    return status;
+}
+
+static bool say(const mpz_t plans, size_t trays, bool all, FILE *out)
+{
+    char *digits = tn_digits(plans, true);
+    if (!digits)
+        return false;
+    if (all)
+        fprintf(out, "%s plans begin so, and all have more trays: `| ...` at the end lets them\n", digits);
+    else if (trays == 1)
+        fprintf(out, "no plan of the library has tray 1 as it is written\n");
+    else
+        fprintf(out, "%s plans fit what is written before tray %zu, and none of them goes on with it\n", digits, trays);
+    free(digits);
+    return true;
+}
+
+tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, FILE *out, tn_error *error)
+{
+    uint32_t *parts = calloc(open->count + 1, sizeof *parts);
+    tn_status status = parts ? TN_OK : tn_fail_memory(error);
+    size_t trays = 0, i = 0;
+    mpz_t before, plans;
+    mpz_inits(before, plans, NULL);
+    if (status == TN_OK)
+        status = count_beginning(library, open, 0, parts, plans, error);
+    bool empty = status == TN_OK && mpz_sgn(plans) == 0;
+    for (; status == TN_OK && mpz_sgn(plans) > 0 && i < open->count; i++) {
+        if (open->functions[i] == TN_NO_RECORD)
+            continue;
+        trays++;
+        mpz_set(before, plans);
+        status = count_beginning(library, open, i + 1, parts, plans, error);
+    }
+    if (status == TN_OK && empty)
+        fputs("the library holds no plan at all\n", out);
+    else if (status == TN_OK && !say(mpz_sgn(plans) > 0 ? plans : before, trays, mpz_sgn(plans) > 0, out))
+        status = tn_fail_memory(error);
+    mpz_clears(before, plans, NULL);
+    free(parts);
+    return status;
+}

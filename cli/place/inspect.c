@@ -1,0 +1,225 @@
+/* tartan inspect: what there is to find about a model of parts, whoever made it. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/option_rows.h"
+#include "cli/place/place.h"
+#include "driver/place/kit.h"
+#include "driver/place/shape.h"
+#include "runtime/place/read.h"
+
+typedef struct inspect_settings {
+    tn_settings common;
+    const char *kit, *model, *output;
+    bool json;
+} inspect_settings;
+
+typedef struct inspection {
+    tn_job *job;
+    const inspect_settings *settings;
+    const tn_module *module;
+    tn_ldraw ldraw;
+    tn_placed_measures measures;
+    uint32_t chosen; /* model of the kit whose conditions it is held to */
+} inspection;
+
+/* ---- what is written */
+
+static void write_text(const inspection *n, FILE *out)
+{
+    for (int i = 0; i < TN_PLACED_X; i++)
+        if (i != TN_PLACED_FILL || n->settings->model)
+            fprintf(out, "%12.10g  %s\n", n->measures.terms[i], tn_placed_terms[i]);
+}
+
+static void write_json(const inspection *n, FILE *out)
+{
+    for (int i = 0; i < TN_PLACED_X; i++)
+        fprintf(out, "%s\"%s\":%.17g", i ? "," : "{", tn_placed_terms[i], n->measures.terms[i]);
+    fprintf(out, ",\"unknown\":%zu,\"snapped\":%zu,\"tilted\":%zu,\"beside\":%zu,\"findings\":[",
+            n->measures.joints.unknown, n->ldraw.snapped, n->ldraw.tilted, n->ldraw.beside);
+    bool comma = false;
+    for (size_t i = 0; i < n->ldraw.model.count; i++) {
+        bool unknown = !n->measures.joints.kinds[i];
+        if (!n->measures.overlaps[i] && !n->measures.floating[i] && !n->measures.joints.cut[i] && !unknown)
+            continue;
+        fprintf(out, "%s{\"part\":%zu,\"overlaps\":%s,\"floating\":%s,\"cut\":%s,\"unknown\":%s}", comma ? "," : "", i,
+                n->measures.overlaps[i] ? "true" : "false", n->measures.floating[i] ? "true" : "false",
+                n->measures.joints.cut[i] ? "true" : "false", unknown ? "true" : "false");
+        comma = true;
+    }
+    fputs("]}\n", out);
+}
+
+/* Parts that the picture shows in red: those that overlap, or float. */
+static void draw(inspection *n)
+{
+    size_t count = n->ldraw.model.count;
+    bool *marked = malloc(count + 1);
+    tn_error error;
+    tn_status status = marked ? TN_OK : tn_fail_memory(&error);
+    for (size_t i = 0; marked && i < count; i++)
+        marked[i] = n->measures.overlaps[i] || n->measures.floating[i];
+    if (status == TN_OK)
+        status = tn_placed_draw(n->module, &n->ldraw.model, &n->measures, marked, NULL,
+                                &(tn_picture){.path = n->settings->output}, &error);
+    if (status != TN_OK)
+        tn_job_fail(n->job, &error);
+    free(marked);
+}
+
+static void write_findings(inspection *n)
+{
+    tn_output output;
+    tn_error error;
+    if (!tn_job_output(n->job, NULL, &output))
+        return;
+    if (n->settings->json) {
+        write_json(n, output.stream);
+    } else {
+        tn_status status = tn_place_summary(&n->ldraw.model, output.stream, &error);
+        if (status != TN_OK)
+            tn_job_fail(n->job, &error);
+        write_text(n, output.stream);
+    }
+    tn_job_commit(n->job, &output);
+    if (n->settings->output)
+        draw(n);
+}
+
+/* ---- what is said */
+
+static void note_left_out(inspection *n, size_t count, const char *first, const char *why)
+{
+    if (count > 0)
+        tn_job_note(n->job, "%zu part%s left out, the first a %.60s: %s", count, count == 1 ? " is" : "s are", first,
+                    why);
+}
+
+/* Each name once. */
+static void note_unknown(inspection *n)
+{
+    for (size_t i = 0; i < n->ldraw.model.count; i++) {
+        const char *name = n->ldraw.model.parts[i].name;
+        size_t j = 0;
+        while (!n->measures.joints.kinds[i] && j < i && strcmp(n->ldraw.model.parts[j].name, name) != 0)
+            j++;
+        if (!n->measures.joints.kinds[i] && j == i)
+            tn_job_note(n->job, "the kit has no part %.60s: it joins nothing and fills nothing here", name);
+    }
+}
+
+static void say(inspection *n)
+{
+    note_left_out(n, n->ldraw.tilted, n->ldraw.first_tilted, "it is not turned about the vertical alone");
+    note_left_out(n, n->ldraw.beside, n->ldraw.first_beside, "it lies beside the kit's cells");
+    if (n->ldraw.snapped)
+        tn_job_note(n->job, "%zu part%s lay a little beside the cells, or were turned a little: this was set right",
+                    n->ldraw.snapped, n->ldraw.snapped == 1 ? "" : "s");
+    note_unknown(n);
+}
+
+/* ---- the run */
+
+static tn_status read_model(inspection *n, tn_error *error)
+{
+    const char *path = n->settings->common.operands.items[0];
+    uint8_t *bytes;
+    size_t size;
+    double unit[3];
+    tn_status status = tn_file_read(path, (size_t)256 << 20, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    tn_place_unit(n->module, unit);
+    status = tn_ldraw_read((const char *)bytes, size, unit, &n->ldraw, error);
+    free(bytes);
+    if (status == TN_INVALID) {
+        tn_error found = *error;
+        tn_fail(error, status, E_LDRAW_LINE, "%.200s, %s", path, found.message);
+        tn_error_help(error, "a part is written `1 COLOUR X Y Z A B C D E F G H I NAME.dat`");
+    }
+    if (status == TN_OK && n->ldraw.model.count == 0 && n->ldraw.tilted + n->ldraw.beside == 0) {
+        tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%.200s has no parts", path);
+        tn_error_help(error, "a model is an LDraw file, .ldr or .mpd");
+        return TN_INVALID;
+    }
+    return status;
+}
+
+static void inspect(inspection *n)
+{
+    const tn_kit_model_record *space = NULL;
+    tn_error error;
+    tn_kit_tally tally = {0};
+    n->module = n->job->opened.module;
+    if (n->module->KIT_count == 0) {
+        tn_job_usage(n->job, "%.200s is no kit", n->settings->kit);
+        return;
+    }
+    if (n->settings->model) {
+        tn_status chosen = tn_kit_choose(&n->job->opened, n->settings->model, &n->chosen);
+        tn_job_status(n->job, chosen);
+        if (chosen != TN_OK)
+            return;
+        space = &n->module->KIT_MODEL_records[n->chosen];
+    }
+    tn_status status = read_model(n, &error);
+    if (status == TN_OK)
+        status = tn_placed_measure(n->module, space, &n->ldraw.model, tn_interrupt_waiting(), &n->measures, &error);
+    if (status != TN_OK) {
+        tn_job_fail(n->job, &error);
+        return;
+    }
+    say(n);
+    write_findings(n);
+    if (space)
+        tn_job_status(n->job, tn_kit_conditions(&n->job->opened, n->chosen, &n->measures, false, NULL, &tally));
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    tn_job job;
+    inspection n = {.job = &job, .settings = (const inspect_settings *)common};
+    tn_job_begin(&job, common);
+    if (!n.settings->kit)
+        tn_help(tn_job_diagnostics(&job), tn_job_usage(&job, "which kit are its parts of?"),
+                "name one: `--kit bricks`");
+    else if (tn_job_open(&job, n.settings->kit))
+        inspect(&n);
+    tn_placed_measures_clear(&n.measures);
+    tn_ldraw_clear(&n.ldraw);
+    return tn_job_end(&job);
+}
+
+#define SETTINGS inspect_settings
+static const tn_option options[] = {
+    TEXT("kit", 'k', "FILE", kit,
+         "the kit that knows the parts: a .kit file, a module, or one of the standard library"),
+    TEXT("model", 'm', "NAME", model, "hold it to what this model of the kit requires; its space is what `fill` is of"),
+    TEXT("output", 'o', "FILE", output, "draw it, by the file's ending .svg, .png or .pdf: red parts overlap or float"),
+    FLAG("json", 0, json, "write JSON, with the parts that there is something to say about"),
+    OPTION_WERROR,
+};
+
+const tn_command tn_command_inspect = {
+    .name = "inspect",
+    .summary = "say what is wrong with a model of parts",
+    .usage = "MODEL.ldr --kit KIT [--model NAME] [-o FILE.svg|png|pdf]\nMODEL.mpd --kit KIT --json",
+    .description =
+        "Reads a model from an LDraw file, whoever made it, and measures it with the parts of a kit: pieces, joints "
+        "and "
+        "open connectors, parts that float or overlap, parts without which it falls apart, size, mass, price, balance. "
+        "Sub-files are put in their places; parts that the kit lacks are named.\n\n"
+        "With --model the exit code is 1 where the model does not meet what that model of the kit requires.",
+    .example = "$ tartan inspect wall.ldr --kit bricks -o wall.svg",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .operands = "one MODEL.ldr or .mpd",
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,279 @@
+/* What was probably meant: marks of other notations, words in the wrong place, what is missing. */
+#include "compiler/plan/syntax/syntax_fix.h"
+
+#include <ctype.h>
+#include <string.h>
+
+bool tn_expects(const tn_expected *e, const char *token)
+{
+    for (size_t i = 0; i < e->count; i++)
+        if (strcmp(e->tokens[i], token) == 0)
+            return true;
+    return false;
+}
+
+bool tn_is_keyword(const char *token)
+{
+    return token[0] == '`' && token[1] >= 'a' && token[1] <= 'z';
+}
+
+bool tn_starts_expression(const char *found)
+{
+    static const char *const words[] = {"`tray`",        "`neighbour`", "`any`",     "`not`",
+                                        "`symmetric`",   "`quantity`",  "`sum`",     "`many`",
+                                        "`occurrences`", "`optional`",  "`distance`"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(found, words[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool is_arithmetic(const char *found)
+{
+    return found[0] == '`' && strchr("+*/", found[1]) && found[2] == '`';
+}
+
+/* Does the token before the one at hand stand directly for `token`? */
+static bool comes_after(const tn_parse *parse, const char *word)
+{
+    tn_span span = parse->span_before;
+    size_t size = strlen(word);
+    return span.end - span.begin == size && memcmp(parse->text + span.begin, word, size) == 0;
+}
+
+static bool stands_here(const tn_parse *parse, const char *word)
+{
+    tn_span span = parse->last_span;
+    size_t size = strlen(word);
+    return span.end - span.begin == size && memcmp(parse->text + span.begin, word, size) == 0;
+}
+
+static bool comes_after_number(const tn_parse *parse)
+{
+    tn_span span = parse->span_before;
+    return span.end > span.begin && parse->text[span.begin] >= '0' && parse->text[span.begin] <= '9';
+}
+
+/* Is what stands at hand `measure` or `let`, and `=` comes next? */
+static bool followed_by_equals(const tn_parse *parse)
+{
+    tn_span span = parse->last_span;
+    size_t size = span.end - span.begin, at = span.end;
+    const char *word = parse->text + span.begin;
+    if (!(size == 7 && memcmp(word, "measure", 7) == 0) && !(size == 3 && memcmp(word, "let", 3) == 0))
+        return false;
+    while (at < parse->size && parse->text[at] == ' ')
+        at++;
+    return at < parse->size && parse->text[at] == '=';
+}
+
+/* Does the `(` before the token at hand follow a name of the author's? */
+static bool opens_call(const tn_parse *parse)
+{
+    static const char *const words[] = {"tray",     "neighbour", "neighbor", "quantity", "occurrences", "sum",
+                                        "distance", "many",      "optional", "every",    "matches",     "not"};
+    uint32_t end = parse->span_before.begin, begin = end;
+    while (begin > 0 && (isalnum((unsigned char)parse->text[begin - 1]) || parse->text[begin - 1] == '-'))
+        begin--;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == end - begin && memcmp(words[i], parse->text + begin, end - begin) == 0)
+            return false;
+    return end > begin;
+}
+
+/* Does a digit come directly after the token at hand? */
+static bool digit_follows(const tn_parse *parse)
+{
+    return parse->last_span.end < parse->size && isdigit((unsigned char)parse->text[parse->last_span.end]);
+}
+
+/* What was likely meant by a mark that other notations have there, or that stands in a wrong place. */
+static const char *mark_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (strcmp(found, "`..`") == 0 && tn_expects(e, "`...`"))
+        return "any number of trays is written with three dots: `...`";
+    if (strcmp(found, "`|`") == 0 && parse->mode == TN_LEX_SCHEMA && tn_expects(e, "`)`"))
+        return "the depths of a fill are separated by commas: `FILL(2m, 3m)`";
+    if (strcmp(found, "`:`") == 0 && parse->mode == TN_LEX_TRAY)
+        return "leave it out: a value follows its field after a blank";
+    bool tray = parse->mode == TN_LEX_TRAY;
+    if (tray && (strcmp(found, "`|`") == 0 || strcmp(found, "`{`") == 0 ||
+                 (strcmp(found, "`,`") == 0 && tn_expects(e, "`or`") && !tn_expects(e, "`,`"))))
+        return "values that a tray may have are joined by `or`: `tray(a or b)`, `tray(not (a or b))`";
+    if (strcmp(found, "`|`") == 0 && tn_expects(e, "`or`"))
+        return "alternatives are joined by `or`: `tray(a or b)` for the values of a tray, `a or b` for rules";
+    if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
+        return "an open plan on the command line has no brackets: `a | ? | ...`";
+    if (strcmp(found, "`[`") == 0 && tn_expects(e, "`{`"))
+        return "cases stand in braces: `test NAME { match [...] }`";
+    if (strcmp(found, "`[`") == 0 && parse->mode != TN_LEX_TRAY && tn_expects(e, "`(`") && !tn_expects(e, "`tray`"))
+        return "what follows the word stands in parentheses: `tray(...)`";
+    if (strcmp(found, "`[`") == 0 && tn_expects(e, "`tray`"))
+        return "rules are joined by `and` or `or`; an open plan is written `plan [a | ? | b]`";
+    if (strcmp(found, "`{`") == 0 && tn_expects(e, "`tray`"))
+        return "numbers in a row are written `quantity(a) in 2..4`, others `quantity(a) = 2 or quantity(a) = 5`";
+    if (strcmp(found, "`{`") == 0 && tn_expects(e, "a number"))
+        return "numbers in a row are written `n in 2..4`, others `n = 2 or n = 5`";
+    if (strcmp(found, "`*`") == 0 && tn_expects(e, "`...`"))
+        return "any number of trays is written `...`";
+    if ((is_arithmetic(found) || strcmp(found, "`-`") == 0) && tn_expects(e, "`>`") && !tn_expects(e, "`*`"))
+        return "a condition compares with one number; sums are compared outside: `sum(FIELD) > 2m + 1m`";
+    if (strcmp(found, "`,`") == 0 && tn_expects(e, "`and`") && tn_expects(e, "`>`") && !tn_expects(e, "`implies`"))
+        return "conditions are joined by `and`: `n > 2 and n < 4`";
+    if (strcmp(found, "`,`") == 0 && tn_expects(e, "`implies`") && tn_expects(e, "`)`") && !tn_expects(e, "`,`"))
+        return "one rule stands in these parentheses; rules are joined by `and` or `or`, trays in a row by "
+               "`neighbour(a, a, a)`";
+    if (strcmp(found, "`,`") == 0 && comes_after_number(parse) && tn_expects(e, "`*`") && digit_follows(parse))
+        return "a number is written without marks between its digits: `1200`";
+    if (strcmp(found, "`)`") == 0 && comes_after(parse, "(") && tn_expects(e, "`tray`"))
+        return opens_call(parse) ? "a rule without parameters is named alone, without parentheses"
+                                 : "something is missing before this";
+    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`in`") && tn_expects(e, "`mod`"))
+        return "a condition compares: `n > 1`, `n = 2 or n = 5`, `n in 2..4`, `n mod 3 = 1`";
+    if ((strcmp(found, "`>`") == 0 || strcmp(found, "`<`") == 0) && tn_expects(e, "`-`"))
+        return "what is compared stands on both sides: `n > 1`, `quantity(a) > 1 and quantity(a) < 4`";
+    if (strcmp(found, "`-`") == 0 && tn_expects(e, "`=`") && !tn_expects(e, "`and`"))
+        return "a name does not end with `-`";
+    return NULL;
+}
+
+/* The same of words of the language. */
+static const char *word_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (strcmp(found, "`of`") == 0 && tn_expects(e, "`*`"))
+        return "a share is written `30% * trays`";
+    if (strcmp(found, "`to`") == 0 && !tn_expects(e, "`..`"))
+        return "a distance is written `distance(from ..., to ..., by quantity(..., n >= 2))`";
+    if (strcmp(found, "`trays`") == 0 && comes_after_number(parse) && tn_expects(e, "`)`"))
+        return "a tray of any kind is written `any`, two of them `any, any`, any number of them `...`";
+    if (tn_expects(e, "`and`") && strcmp(found, "`tray`") == 0 && !tn_expects(e, "`,`"))
+        return "trays side by side are written `neighbour(tray(...), tray(...))`; rules are joined by `and` or `or`";
+    if (tn_expects(e, "`and`") && (strcmp(found, "`neighbour`") == 0 || strcmp(found, "`many`") == 0))
+        return "this word comes before what it is about: `neighbour(a, b)`; rules are joined by `and` or `or`";
+    if (tn_expects(e, "a number") && !tn_expects(e, "`tray`") && comes_after(parse, "trays"))
+        return "how many trays a plan has is written `trays 4..6`";
+    if (e->count == 1 && tn_expects(e, "`(`"))
+        return "what this word is about stands in parentheses after it";
+    if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
+        return "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
+    if (tn_expects(e, "`where`"))
+        return "which trays a case is for is said by `where`: `number beds = 4 where tray(a) | 0`";
+    if (e->count == 1 && tn_expects(e, "`tray`"))
+        return "a tray that is left out is written `forbid tray(...)`";
+    if (parse->mode == TN_LEX_SCHEMA && strcmp(found, "a decimal number") == 0)
+        return "a length has a unit: `3.6m`, `12'`";
+    if (parse->mode == TN_LEX_SCHEMA && strcmp(found, "a text in quotes") == 0 && tn_expects(e, "`flag`"))
+        return "a value is a name; a text for people comes after it: `one-bed \"one bed\"`";
+    if ((strcmp(found, "`require`") == 0 || strcmp(found, "`prune`") == 0) && tn_expects(e, "`tray`"))
+        return "`and` joins rules; a clause follows the one before without a word between";
+    if (tn_expects(e, "`*`") && tn_expects(e, "`rule`") && !tn_expects(e, "`and`"))
+        return "a measure is made of sums: `1200 * sum(FIELD) / 1m + 15000 * quantity(tray(a))`";
+    if (strcmp(found, "a text in quotes") == 0 && parse->mode == TN_LEX_TRAY)
+        return "values stand without quotes";
+    if (strcmp(found, "a name") == 0 && comes_after_number(parse) && tn_expects(e, "`*`"))
+        return "no word follows a number; a unit follows directly: `30m`";
+    return NULL;
+}
+
+/* The same among the fields of a schema. */
+static const char *schema_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (tn_expects(e, "`flag`") &&
+        (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0 || strcmp(found, "`(`") == 0))
+        return "the values stand one after the other, with `|` between: `a | b | c`";
+    if (strcmp(found, "a length") == 0 && tn_expects(e, "`(`"))
+        return "the depths of a fill stand in parentheses: `FILL(2m, 3m)`";
+    if (strcmp(found, "`..`") == 0 && tn_expects(e, "`|`"))
+        return "each value is written: `4m | 6m | 8m`";
+    if (stands_here(parse, "tray") && !tn_expects(e, "`tray`"))
+        return "each tray that is left out has a `forbid` of its own: `forbid tray(...)`";
+    return NULL;
+}
+
+/* A word of the language that a name of the author's has to follow. */
+static bool comes_after_heading(const tn_parse *parse)
+{
+    return comes_after(parse, "rule") || comes_after(parse, "library") || comes_after(parse, "schema") ||
+           comes_after(parse, "measure") || comes_after(parse, "let") || comes_after(parse, "form");
+}
+
+/* A likely fix, from what was found and what could have stood there; NULL where none is known. */
+static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
+        return "inside tray(...) the items are separated by commas: all of them must be met";
+    if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
+        return "close tray(...) with `)` first";
+    if (parse->mode == TN_LEX_LITERAL && strcmp(found, "`,`") == 0)
+        return "inside a plan, values are separated by blanks and trays by `|`: `[a b | c]`";
+    if (parse->mode == TN_LEX_LITERAL || tn_expects(e, "`]`"))
+        return "a plan is written `[a b | c]`: the values of a tray, and `|` between trays";
+    const char *schema = parse->mode == TN_LEX_SCHEMA ? schema_fix(parse, found, e) : NULL;
+    if (schema)
+        return schema;
+    if (parse->mode == TN_LEX_SCHEMA && tn_expects(e, "`|`"))
+        return "alternatives are separated by `|`, and a field starts with `NAME =`";
+    if (parse->mode == TN_LEX_SCHEMA && tn_expects(e, "a field"))
+        return "a field is written `NAME = a | b`, `NAME = 4m | 6m`, `NAME = flag` or `zone NAME = FILL(2m) | FILL`, "
+               "a forbidden tray `forbid tray(...)`";
+    if (tn_expects(e, "`)`") && tn_expects(e, "`,`") && tn_starts_expression(found))
+        return "a `,` is missing before this, or `and` or `or`";
+    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`and`") && !tn_expects(e, "`)`") && !tn_expects(e, "`,`"))
+        return "no `(` is open that this could close: leave it out";
+    if (tn_expects(e, "`)`") &&
+        (strcmp(found, "the end of the file") == 0 || (tn_is_keyword(found) && !tn_expects(e, "a name"))))
+        return "close the `(` before this";
+    if (tn_expects(e, "`[`"))
+        return "a plan stands in brackets: `[a b | c]`";
+    if (strcmp(found, "a text in quotes") == 0)
+        return "a text comes directly after the name that it describes";
+    if (tn_is_keyword(found) && tn_expects(e, "a name") && !tn_expects(e, "`tray`"))
+        return "this is a word of the language; a name of yours has to be another word";
+    if (tn_expects(e, "`from`") && tn_expects(e, "`using`"))
+        return "a library is written `library NAME using SCHEMA { ... }`";
+    if (strcmp(found, "`{`") == 0 && tn_expects(e, "`=`"))
+        return "a rule is written `rule NAME = ...`, without braces";
+    if (strcmp(found, "`=`") == 0 && tn_expects(e, "`{`"))
+        return "write `{` instead of `=`, and `}` after the last line";
+    if (tn_expects(e, "`=`") && tn_expects(e, "`using`"))
+        return "a rule is written `rule NAME = ...`; a text that describes it comes after the name";
+    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`,`") && tn_expects(e, "`and`"))
+        return "`every(a, b)` has two parts: each tray that is a is b too";
+    if (strcmp(found, "a number") == 0 && tn_expects(e, "a text in quotes"))
+        return "a text stands in double quotes";
+    if (tn_expects(e, "`from`") && parse->schema_head)
+        return "a schema is made from another by `schema NAME from OLDER { ... }`";
+    if (e->count == 1 && tn_expects(e, "a name") && comes_after_heading(parse))
+        return "a name of yours follows this word: `rule NAME = ...`, `library NAME { ... }`";
+    if (e->count == 1 && tn_expects(e, "a text in quotes") && comes_after(parse, "use"))
+        return "the name of a file stands in quotes: `use \"NAME\"`";
+    if (e->count == 2 && tn_expects(e, "`)`") && tn_expects(e, "`,`") && strcmp(found, "a name") == 0)
+        return "names are separated by commas";
+    if (tn_expects(e, "`from`") || (e->count == 1 && (tn_expects(e, "`to`") || tn_expects(e, "`by`"))))
+        return "a distance is written `distance(from ..., to ..., by quantity(..., n >= 2))`";
+    if (tn_expects(e, "`in`") && tn_expects(e, "`mod`"))
+        return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
+    if (tn_expects(e, "`match`") && tn_expects(e, "`keep`"))
+        return "a case is written `match [a b | c]`";
+    if (tn_expects(e, "`prune`") && tn_expects(e, "`require`"))
+        return "a library says `trays 4..9`, `total FIELD 10m..20m`, `require RULE`, `prune RULE` or `allow W001`; "
+               "what a "
+               "tray is stands in rules, in `tray(...)`";
+    if (tn_expects(e, "`rule`") && strcmp(found, "a name") == 0 && followed_by_equals(parse))
+        return "a name has to follow this word: `measure NAME = ...`, `let NAME = ...`";
+    if (tn_expects(e, "`rule`") && tn_expects(e, "`and`"))
+        return "rule expressions are joined by `and` or `or`; the next rule starts with `rule`";
+    if (tn_expects(e, "`rule`"))
+        return "a rule is written `rule NAME = ...`";
+    if (strcmp(found, "`)`") == 0 || strcmp(found, "`}`") == 0 || strcmp(found, "the end of the file") == 0)
+        return "something is missing before this";
+    return NULL;
+}
+
+const char *tn_syntax_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    const char *fix = mark_fix(parse, found, e);
+    if (!fix)
+        fix = word_fix(parse, found, e);
+    return fix ? fix : likely_fix(parse, found, e);
+}

@@ -1,0 +1,30 @@
+/* Finds files beside a study, and reads boxes. */
+#include "driver/breed/beside.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/values.h"
+
+char *tn_study_beside(const char *study, const char *path)
+{
+    const char *slash = path[0] == '/' ? NULL : strrchr(study, '/');
+    size_t folder = slash ? (size_t)(slash - study) + 1 : 0, size = folder + strlen(path) + 1;
+    char *joined = malloc(size);
+    if (joined)
+        snprintf(joined, size, "%.*s%s", (int)folder, study, path);
+    return joined;
+}
+
+bool tn_study_box(const char *text, double low[3], double high[3])
+{
+    int end = 0;
+    int read = sscanf(text, " ( %lf , %lf , %lf ) .. ( %lf , %lf , %lf ) %n", &low[0], &low[1], &low[2], &high[0],
+                      &high[1], &high[2], &end);
+    bool well = read == 6 && end && !text[end];
+    for (int k = 0; k < 3 && well; k++)
+        well = fabs(low[k]) <= TN_COORDINATE_MAX && fabs(high[k]) <= TN_COORDINATE_MAX && low[k] < high[k];
+    return well;
+}

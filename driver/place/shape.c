@@ -1,0 +1,322 @@
+/* Turns placed models into faces. */
+#include "driver/place/shape.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/geometry/union/union.h"
+#include "runtime/place/colours.h"
+
+enum { STUD_SIDES = 8, BOX_FACES = 6 };
+static const double ldu = 0.4, stud_radius = 6, stud_height = 4; /* millimetres; LDU */
+
+/* A regular octagon's corners, the first half a side from x. */
+static const double octagon[STUD_SIDES][2] = {
+    {0.92387953251128674, 0.38268343236508977},   {0.38268343236508977, 0.92387953251128674},
+    {-0.38268343236508977, 0.92387953251128674},  {-0.92387953251128674, 0.38268343236508977},
+    {-0.92387953251128674, -0.38268343236508977}, {-0.38268343236508977, -0.92387953251128674},
+    {0.38268343236508977, -0.92387953251128674},  {0.92387953251128674, -0.38268343236508977}};
+
+typedef struct drawing {
+    const tn_module *module;
+    const tn_placed_model *model;
+    double unit[3]; /* LDU */
+    tn_sight sight;
+    uint32_t corner; /* next */
+} drawing;
+
+/* Colours of a model, each once; a group for each. */
+typedef struct colour_list {
+    int32_t *items;
+    size_t count, capacity;
+} colour_list;
+
+static bool group_of(colour_list *list, int32_t colour, uint32_t *group)
+{
+    for (*group = 0; *group < list->count; ++*group)
+        if (list->items[*group] == colour)
+            return true;
+    if (!tn_array_reserve(&list->items, &list->capacity, list->count, 1, sizeof *list->items))
+        return false;
+    list->items[list->count++] = colour;
+    return true;
+}
+
+static tn_status find_groups(const tn_placed_model *model, colour_list *list, uint32_t **groups, tn_error *error)
+{
+    *list = (colour_list){0};
+    *groups = malloc((model->count + 1) * sizeof **groups);
+    for (size_t i = 0; *groups && i < model->count; i++)
+        if (!group_of(list, model->parts[i].frame.colour, &(*groups)[i]))
+            return tn_fail_memory(error);
+    return *groups ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- faces */
+
+/* A place in LDU, y downwards, as a place of the picture. */
+static void put_corner(drawing *d, double x, double y, double z)
+{
+    double *p = d->sight.points[d->corner];
+    d->sight.edges[d->corner++] = TN_EDGE_DARK;
+    p[0] = x * ldu;
+    p[1] = z * ldu;
+    p[2] = -y * ldu;
+}
+
+static void end_face(drawing *d, uint32_t group)
+{
+    d->sight.groups[d->sight.face_count++] = group;
+    d->sight.first[d->sight.face_count] = d->corner;
+}
+
+static void add_box(drawing *d, const tn_cell_box *box, uint32_t group)
+{
+    /* corners by bits: 1 high x, 2 high z, 4 upper; counter-clockwise seen from outside, z up */
+    static const uint8_t faces[BOX_FACES][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 1, 5, 4},
+                                                {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+    for (int f = 0; f < BOX_FACES; f++) {
+        for (int c = 0; c < 4; c++) {
+            uint8_t at = faces[f][c];
+            put_corner(d, d->unit[0] * (at & 1 ? box->high[0] : box->low[0]),
+                       d->unit[1] * (at & 4 ? box->low[1] : box->high[1]),
+                       d->unit[2] * (at & 2 ? box->high[2] : box->low[2]));
+        }
+        end_face(d, group);
+    }
+}
+
+static void add_stud(drawing *d, double x, double y, double z, uint32_t group)
+{
+    for (int i = 0; i < STUD_SIDES; i++) {
+        const double *a = octagon[i], *b = octagon[(i + 1) % STUD_SIDES];
+        put_corner(d, x + stud_radius * a[0], y, z + stud_radius * a[1]);
+        put_corner(d, x + stud_radius * b[0], y, z + stud_radius * b[1]);
+        put_corner(d, x + stud_radius * b[0], y - stud_height, z + stud_radius * b[1]);
+        put_corner(d, x + stud_radius * a[0], y - stud_height, z + stud_radius * a[1]);
+        end_face(d, group);
+    }
+    for (int i = 0; i < STUD_SIDES; i++)
+        put_corner(d, x + stud_radius * octagon[i][0], y - stud_height, z + stud_radius * octagon[i][1]);
+    end_face(d, group);
+}
+
+/* ---- studs that nothing stands on */
+
+static bool is_stud(const tn_part_connector_record *connector)
+{
+    return connector->axis == TN_AXIS_UP;
+}
+
+static size_t count_studs(const drawing *d, const tn_kit_part_record *kind)
+{
+    size_t count = 0;
+    for (uint32_t c = 0; kind && c < kind->connector_count; c++)
+        count += is_stud(&d->module->PART_CONNECTOR_records[kind->connector_first + c]);
+    return count;
+}
+
+/* Is the cell above the stud filled? */
+static bool is_covered(tn_cells *cells, const int32_t at[3])
+{
+    tn_cell_box above = {{at[0] - 1, at[1] - 1, at[2] - 1}, {at[0] + 1, at[1], at[2] + 1}};
+    return tn_cells_any(cells, &above);
+}
+
+static void add_studs(drawing *d, tn_cells *cells, const tn_kit_part_record *kind, const tn_frame *frame,
+                      uint32_t group)
+{
+    for (uint32_t c = 0; c < kind->connector_count; c++) {
+        const tn_part_connector_record *connector = &d->module->PART_CONNECTOR_records[kind->connector_first + c];
+        int32_t x, z;
+        if (!is_stud(connector))
+            continue;
+        tn_heading_turn(frame->heading, (int32_t)connector->x, (int32_t)connector->z, &x, &z);
+        int32_t at[3] = {frame->at[0] + x, frame->at[1] + (int32_t)connector->y, frame->at[2] + z};
+        if (!is_covered(cells, at))
+            add_stud(d, d->unit[0] * at[0], d->unit[1] * at[1], d->unit[2] * at[2], group);
+    }
+}
+
+/* ---- pictures */
+
+static tn_cell_box box_of(const drawing *d, const tn_placed_joints *joints, size_t part, uint32_t box)
+{
+    return tn_part_box_at(&d->module->PART_BOX_records[joints->kinds[part]->box_first + box],
+                          &d->model->parts[part].frame);
+}
+
+static tn_status list_faces(drawing *d, const tn_placed_joints *joints, const uint32_t *groups, tn_error *error)
+{
+    tn_cells *cells = tn_cells_new(NULL);
+    tn_status status = cells ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < joints->count && status == TN_OK; i++) {
+        const tn_kit_part_record *kind = joints->kinds[i];
+        for (uint32_t b = 0; kind && b < kind->box_count && status == TN_OK; b++) {
+            tn_cell_box box = box_of(d, joints, i, b);
+            add_box(d, &box, groups[i]);
+            status = tn_cells_fill(cells, &box, error);
+        }
+    }
+    for (size_t i = 0; i < joints->count && status == TN_OK; i++)
+        if (joints->kinds[i])
+            add_studs(d, cells, joints->kinds[i], &d->model->parts[i].frame, groups[i]);
+    tn_cells_free(cells);
+    return status;
+}
+
+static tn_status no_shape(tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_PLACE_NO_SHAPE, "none of the model's parts has a shape that is known");
+    tn_error_help(error, "shapes are those of a kit: `tartan inspect MODEL.ldr --kit bricks -o wall.svg`");
+    return TN_INVALID;
+}
+
+static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uint32_t *groups, tn_view **view,
+                           tn_error *error)
+{
+    size_t boxes = 0, studs = 0;
+    for (size_t i = 0; i < joints->count; i++) {
+        boxes += joints->kinds[i] ? joints->kinds[i]->box_count : 0;
+        studs += count_studs(d, joints->kinds[i]);
+    }
+    if (boxes == 0)
+        return no_shape(error);
+    tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
+                                    4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
+    if (status != TN_OK)
+        return status;
+    d->sight.closed = true;
+    d->sight.face_count = 0;
+    d->sight.first[0] = 0;
+    status = list_faces(d, joints, groups, error);
+    const tn_camera camera = {.azimuth = -60, .elevation = 30, .width = 480};
+    return status == TN_OK ? tn_view_take(&d->sight, &camera, view, error) : status;
+}
+
+/* With marks, groups are plain and marked; otherwise colours. */
+static tn_status make_palette(const colour_list *list, bool marks, double (**palette)[3], tn_error *error)
+{
+    *palette = calloc(list->count + 2, sizeof **palette);
+    if (!*palette)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < list->count && !marks; i++)
+        tn_ldraw_colour(list->items[i], (*palette)[i]);
+    for (int k = 0; k < 3 && marks; k++) {
+        (*palette)[0][k] = 0.9;
+        (*palette)[1][k] = k == 0 ? 0.85 : 0.1;
+    }
+    return TN_OK;
+}
+
+tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, const tn_placed_measures *measures,
+                         const bool *marked, const char *title, tn_picture *to, tn_error *error)
+{
+    drawing d = {.module = module, .model = model};
+    colour_list list;
+    uint32_t *groups;
+    double(*palette)[3] = NULL;
+    tn_view *view = NULL;
+    tn_place_unit(module, d.unit);
+    tn_status status = find_groups(model, &list, &groups, error);
+    for (size_t i = 0; i < model->count && marked && status == TN_OK; i++)
+        groups[i] = marked[i];
+    if (status == TN_OK)
+        status = make_palette(&list, marked != NULL, &palette, error);
+    if (status == TN_OK)
+        status = take_view(&d, &measures->joints, groups, &view, error);
+    if (status == TN_OK) {
+        const tn_view_options options = {.title = title, .palette = (const double(*)[3])palette};
+        status = tn_views_draw(&view, 1, &options, to, error);
+    }
+    tn_view_free(view);
+    tn_sight_clear(&d.sight);
+    free(palette);
+    free(groups);
+    free(list.items);
+    return status;
+}
+
+/* ---- meshes */
+
+static tn_status list_cells(const drawing *d, const tn_placed_joints *joints, const uint32_t *groups,
+                            tn_cut_box **cells, uint32_t **cell_groups, size_t *count, tn_error *error)
+{
+    size_t boxes = 0;
+    for (size_t i = 0; i < joints->count; i++)
+        boxes += joints->kinds[i] ? joints->kinds[i]->box_count : 0;
+    *cells = malloc((boxes + 1) * sizeof **cells);
+    *cell_groups = malloc((boxes + 1) * sizeof **cell_groups);
+    *count = 0;
+    if (!*cells || !*cell_groups)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < joints->count; i++) {
+        for (uint32_t b = 0; joints->kinds[i] && b < joints->kinds[i]->box_count; b++) {
+            tn_cell_box box = box_of(d, joints, i, b);
+            double low[3] = {ldu * d->unit[0] * box.low[0], ldu * d->unit[2] * box.low[2],
+                             -ldu * d->unit[1] * box.high[1]};
+            double high[3] = {ldu * d->unit[0] * box.high[0], ldu * d->unit[2] * box.high[2],
+                              -ldu * d->unit[1] * box.low[1]};
+            tn_cut_box_clip(low, high, NULL, 0, &(*cells)[*count]);
+            (*cell_groups)[(*count)++] = groups[i];
+        }
+    }
+    return boxes ? TN_OK : no_shape(error);
+}
+
+/* The union's groups are cells: they become colours. */
+static tn_status take_mesh(tn_union *u, const uint32_t *cell_groups, const colour_list *list, tn_mesh *mesh,
+                           unsigned char (**palette)[3], tn_error *error)
+{
+    *mesh = u->mesh;
+    u->mesh = (tn_mesh){0};
+    free(mesh->group_names);
+    mesh->group_names = calloc(list->count + 1, sizeof *mesh->group_names);
+    *palette = calloc(list->count + 1, sizeof **palette);
+    if (!mesh->group_names || !*palette)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < mesh->face_count; f++)
+        mesh->face_group[f] = cell_groups[mesh->face_group[f]];
+    mesh->group_count = (uint32_t)list->count;
+    for (size_t i = 0; i < list->count; i++) {
+        double rgb[3];
+        tn_ldraw_colour(list->items[i], rgb);
+        snprintf(mesh->group_names[i], sizeof *mesh->group_names, "colour-%d", list->items[i]);
+        for (int k = 0; k < 3; k++)
+            (*palette)[i][k] = (unsigned char)(255 * rgb[k] + 0.5);
+    }
+    return TN_OK;
+}
+
+tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, tn_mesh *mesh,
+                         unsigned char (**palette)[3], tn_error *error)
+{
+    drawing d = {.module = module, .model = model};
+    tn_placed_joints joints;
+    colour_list list;
+    uint32_t *groups, *cell_groups = NULL;
+    tn_cut_box *cells = NULL;
+    tn_union u = {0};
+    size_t count;
+    *mesh = (tn_mesh){0};
+    *palette = NULL;
+    tn_place_unit(module, d.unit);
+    tn_status status = find_groups(model, &list, &groups, error);
+    tn_status found = tn_placed_joints_find(module, model, NULL, &joints, error);
+    status = status == TN_OK ? found : status;
+    if (status == TN_OK)
+        status = list_cells(&d, &joints, groups, &cells, &cell_groups, &count, error);
+    if (status == TN_OK)
+        status = tn_union_make(cells, count, &u, error);
+    if (status == TN_OK)
+        status = take_mesh(&u, cell_groups, &list, mesh, palette, error);
+    tn_union_clear(&u);
+    tn_placed_joints_clear(&joints);
+    free(cells);
+    free(cell_groups);
+    free(groups);
+    free(list.items);
+    return status;
+}

@@ -1,0 +1,20 @@
+/* What placed models look like: pictures with studs, and closed meshes. Parts are the boxes that their kit says.
+ *
+ * A length in pictures and meshes is a millimetre (an LDU is 0.4), z up. */
+#ifndef TARTAN_DRIVER_PLACE_SHAPE_H
+#define TARTAN_DRIVER_PLACE_SHAPE_H
+
+#include "runtime/place/measure.h"
+#include "runtime/scene/view.h"
+
+/* Draws a model in the colours of LDraw; connectors that point up and join nothing are studs. marked: [part] those to
+ * be shown in red while all others are pale, or NULL. E1318 where the kit has none of its parts. */
+tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, const tn_placed_measures *measures,
+                         const bool *marked, const char *title, tn_picture *to, tn_error *error);
+
+/* The closed surface of a model, a group for each colour; *palette: the groups' colours, which the caller frees. The
+ * model's parts do not overlap. */
+tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, tn_mesh *mesh,
+                         unsigned char (**palette)[3], tn_error *error);
+
+#endif

@@ -1,0 +1,287 @@
+/* Reads LDraw files line by line. A line `0 FILE NAME` begins a sub-file; the first is the model. */
+#include "runtime/place/read.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+
+enum { DEPTH_MAX = 32, PARTS_MAX = 1000000, VISITS_MAX = 10000000, NUMBERS = 12 };
+
+/* A reference of a line of type 1. */
+typedef struct reference {
+    size_t line;
+    int32_t colour;
+    double at[NUMBERS]; /* place, then the rows of the matrix */
+    char *name;         /* of our own text */
+} reference;
+
+typedef struct subfile {
+    char *name;          /* NULL: the model has none */
+    size_t first, count; /* references */
+    bool open;           /* it is being put in place */
+} subfile;
+
+typedef struct reader {
+    tn_ldraw *ldraw;
+    const double *unit;
+    reference *references;
+    size_t reference_count, reference_capacity;
+    subfile *files;
+    size_t file_count, file_capacity;
+    size_t visited; /* references, each as often as its file is put in place */
+    tn_error *error;
+} reader;
+
+/* ---- lines */
+
+static tn_status wrong_line(reader *r, size_t line, const char *what)
+{
+    return tn_fail(r->error, TN_INVALID, E_LDRAW_LINE, "line %zu: %s", line, what);
+}
+
+static char *skip_blanks(char *text)
+{
+    while (*text == ' ' || *text == '\t')
+        text++;
+    return text;
+}
+
+/* The rest of a line, in small letters, with / for \, without blanks at its end. */
+static char *take_name(char *text)
+{
+    size_t size = strlen(text);
+    while (size > 0 && isspace((unsigned char)text[size - 1]))
+        text[--size] = '\0';
+    for (char *c = text; *c; c++)
+        *c = *c == '\\' ? '/' : (char)tolower((unsigned char)*c);
+    return text;
+}
+
+static tn_status read_reference(reader *r, char *text, size_t line)
+{
+    char *end;
+    long colour = strtol(text, &end, 0); /* direct colours are 0x2RRGGBB */
+    reference made = {.line = line, .colour = (int32_t)colour};
+    if (end == text || colour < 0 || colour > TN_PLACE_COLOUR_MAX)
+        return wrong_line(r, line, "the colour is no number");
+    for (int i = 0; i < NUMBERS; i++) {
+        text = end;
+        made.at[i] = strtod(text, &end);
+        if (end == text || !isfinite(made.at[i]) || (*end && !isspace((unsigned char)*end)))
+            return wrong_line(r, line, "12 numbers stand behind the colour");
+    }
+    made.name = take_name(skip_blanks(end));
+    if (!*made.name)
+        return wrong_line(r, line, "the part has no name");
+    if (!tn_array_reserve(&r->references, &r->reference_capacity, r->reference_count, 1, sizeof made))
+        return tn_fail_memory(r->error);
+    r->references[r->reference_count++] = made;
+    r->files[r->file_count - 1].count++;
+    return TN_OK;
+}
+
+static tn_status begin_file(reader *r, char *name)
+{
+    if (!tn_array_reserve(&r->files, &r->file_capacity, r->file_count, 1, sizeof *r->files))
+        return tn_fail_memory(r->error);
+    r->files[r->file_count++] = (subfile){.name = name, .first = r->reference_count};
+    return TN_OK;
+}
+
+static tn_status read_line(reader *r, char *text, size_t line)
+{
+    text = skip_blanks(text);
+    if (strncmp(text, "0 FILE ", 7) == 0) {
+        subfile *first = &r->files[0];
+        if (r->file_count == 1 && first->count == 0 && !first->name) {
+            first->name = take_name(skip_blanks(text + 7)); /* the model itself */
+            return TN_OK;
+        }
+        return begin_file(r, take_name(skip_blanks(text + 7)));
+    }
+    if (text[0] == '1' && (text[1] == ' ' || text[1] == '\t'))
+        return read_reference(r, text + 1, line);
+    return TN_OK;
+}
+
+static tn_status read_lines(reader *r, char *text)
+{
+    tn_status status = begin_file(r, NULL);
+    for (size_t line = 1; text && status == TN_OK; line++) {
+        char *next = strchr(text, '\n');
+        if (next)
+            *next++ = '\0';
+        status = read_line(r, text, line);
+        text = next;
+    }
+    return status;
+}
+
+/* ---- placing */
+
+/* Rotations about the vertical, by heading: a, c, g and i of the matrix. */
+static const double turns[4][4] = {{1, 0, 0, 1}, {0, -1, 1, 0}, {-1, 0, 0, -1}, {0, 1, -1, 0}};
+static const double near_turn = 0.01, near_cell = 0.1;
+
+static int heading_of(const double m[9], bool *exact)
+{
+    const double upright[5] = {m[1], m[3], m[4] - 1, m[5], m[7]}, level[4] = {m[0], m[2], m[6], m[8]};
+    for (int h = 0; h < 4; h++) {
+        double off = 0;
+        for (int i = 0; i < 5; i++)
+            off = fmax(off, fabs(upright[i]));
+        for (int i = 0; i < 4; i++)
+            off = fmax(off, fabs(level[i] - turns[h][i]));
+        *exact &= off == 0 || off > near_turn;
+        if (off <= near_turn)
+            return h;
+    }
+    return -1;
+}
+
+static bool cells_of(const reader *r, const double at[3], int32_t cells[3], bool *exact)
+{
+    for (int k = 0; k < 3; k++) {
+        double value = at[k] / r->unit[k], whole = floor(value + 0.5);
+        if (fabs(value - whole) > near_cell || fabs(whole) > TN_PLACE_FAR)
+            return false;
+        *exact &= fabs(value - whole) < 1e-6;
+        cells[k] = (int32_t)whole;
+    }
+    return true;
+}
+
+static tn_status add_part(reader *r, const reference *from, const double at[NUMBERS], int32_t colour)
+{
+    tn_placed_model *model = &r->ldraw->model;
+    tn_placed_part part = {.frame.colour = colour, .name = from->name};
+    bool exact = true;
+    int heading = heading_of(at + 3, &exact);
+    if (heading < 0) {
+        r->ldraw->tilted++;
+        r->ldraw->first_tilted = r->ldraw->first_tilted ? r->ldraw->first_tilted : from->name;
+        return TN_OK;
+    }
+    if (!cells_of(r, at, part.frame.at, &exact)) {
+        r->ldraw->beside++;
+        r->ldraw->first_beside = r->ldraw->first_beside ? r->ldraw->first_beside : from->name;
+        return TN_OK;
+    }
+    part.frame.heading = (uint32_t)heading;
+    r->ldraw->snapped += !exact;
+    if (model->count == PARTS_MAX)
+        return tn_fail(r->error, TN_LIMIT, E_PLACE_LIMIT, "the model has more than %d parts", PARTS_MAX);
+    if (!tn_array_reserve(&model->parts, &model->capacity, model->count, 1, sizeof part))
+        return tn_fail_memory(r->error);
+    model->parts[model->count++] = part;
+    return TN_OK;
+}
+
+/* outer after inner: a place and a matrix each. */
+static void compose(const double outer[NUMBERS], const double inner[NUMBERS], double result[NUMBERS])
+{
+    for (int row = 0; row < 3; row++) {
+        const double *m = outer + 3 + 3 * row;
+        result[row] = outer[row] + m[0] * inner[0] + m[1] * inner[1] + m[2] * inner[2];
+        for (int column = 0; column < 3; column++)
+            result[3 + 3 * row + column] =
+                m[0] * inner[3 + column] + m[1] * inner[6 + column] + m[2] * inner[9 + column];
+    }
+}
+
+static subfile *find_file(const reader *r, const char *name)
+{
+    for (size_t i = 1; i < r->file_count; i++)
+        if (r->files[i].name && strcmp(r->files[i].name, name) == 0)
+            return &r->files[i];
+    return NULL;
+}
+
+/* Recursion is as deep as sub-files nest, at most DEPTH_MAX. */
+static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], int32_t colour, int depth)
+{
+    enum { OUTER_COLOUR = 16 };
+    tn_status status = TN_OK;
+    file->open = true;
+    for (size_t i = 0; i < file->count && status == TN_OK; i++) {
+        const reference *from = &r->references[file->first + i];
+        subfile *sub = find_file(r, from->name);
+        double placed[NUMBERS];
+        int32_t own = from->colour == OUTER_COLOUR ? colour : from->colour;
+        if (++r->visited > VISITS_MAX)
+            return tn_fail(r->error, TN_LIMIT, E_PLACE_LIMIT, "the sub-files have more than %d lines together",
+                           VISITS_MAX);
+        compose(at, from->at, placed);
+        if (!sub)
+            status = add_part(r, from, placed, own);
+        else if (sub->open || depth == DEPTH_MAX)
+            status = wrong_line(r, from->line, "this sub-file contains itself, or too many others in one another");
+        else
+            status = place_file(r, sub, placed, own, depth + 1);
+    }
+    file->open = false;
+    return status;
+}
+
+static void cut_ending(char *name)
+{
+    size_t size = name ? strlen(name) : 0;
+    if (size > 4 && strcmp(name + size - 4, ".dat") == 0)
+        name[size - 4] = '\0';
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const reference *const *one = a, *const *other = b;
+    return strcmp((*one)->name, (*other)->name);
+}
+
+/* Names lose their ending, and equal ones become one text: parts are counted by it. */
+static tn_status share_names(reader *r)
+{
+    reference **sorted = malloc((r->reference_count + 1) * sizeof *sorted);
+    if (!sorted)
+        return tn_fail_memory(r->error);
+    for (size_t i = 0; i < r->file_count; i++)
+        cut_ending(r->files[i].name);
+    for (size_t i = 0; i < r->reference_count; i++) {
+        cut_ending(r->references[i].name);
+        sorted[i] = &r->references[i];
+    }
+    qsort(sorted, r->reference_count, sizeof *sorted, by_name);
+    for (size_t i = 1; i < r->reference_count; i++)
+        if (strcmp(sorted[i]->name, sorted[i - 1]->name) == 0)
+            sorted[i]->name = sorted[i - 1]->name;
+    free(sorted);
+    return TN_OK;
+}
+
+tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], tn_ldraw *ldraw, tn_error *error)
+{
+    static const double here[NUMBERS] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    reader r = {.ldraw = ldraw, .unit = unit, .error = error};
+    *ldraw = (tn_ldraw){.text = malloc(size + 1)};
+    if (!ldraw->text)
+        return tn_fail_memory(error);
+    memcpy(ldraw->text, text, size);
+    ldraw->text[size] = '\0';
+    tn_status status = read_lines(&r, ldraw->text);
+    if (status == TN_OK)
+        status = share_names(&r);
+    if (status == TN_OK)
+        status = place_file(&r, &r.files[0], here, 1, 0);
+    free(r.references);
+    free(r.files);
+    return status;
+}
+
+void tn_ldraw_clear(tn_ldraw *ldraw)
+{
+    tn_placed_model_clear(&ldraw->model);
+    free(ldraw->text);
+    *ldraw = (tn_ldraw){0};
+}

@@ -1,0 +1,45 @@
+/* What the files of open plans share: the pattern made ready, and what is found out about each place of the plans. */
+#ifndef TARTAN_PLAN_MEASURE_COMPLETE_DATA_H
+#define TARTAN_PLAN_MEASURE_COMPLETE_DATA_H
+
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/complete.h"
+
+/* A run of written trays without a gap between them. */
+typedef struct tn_open_segment {
+    uint32_t first, count;
+    bool floats; /* after a gap, and not bound to the plan's end */
+} tn_open_segment;
+
+typedef struct tn_completer {
+    const tn_library *library;
+    tn_weighed *weighed; /* whose states take the place of the library's; or NULL */
+    int64_t sign;        /* that makes less better */
+    tn_error *error;
+    tn_status failed; /* while stepping */
+    uint32_t items;
+    tn_open_segment segments[TN_PATTERN_MAX + 1];
+    uint32_t segment_of[TN_PATTERN_MAX + 1];
+    uint32_t segment_count;
+    bool gap_first, gap_last;
+    uint64_t *fits;      /* [trays]: bit i: the tray fits written tray i */
+    uint32_t *letter_of; /* [trays] */
+    uint32_t letters;
+    tn_tray *first;     /* [letters] */
+    uint64_t *size;     /* [letters] */
+    tn_interner states; /* {library's state, placed, gap, earlier in two words} */
+    uint32_t **level;   /* [max + 1]: the states at each place, ascending */
+    uint32_t *level_size;
+    mpz_t **forward, **backward;                       /* [max + 1][level_size] */
+    mpz_t *placed;                                     /* [items][letters] */
+    int64_t **best_before, **best_after, *best_placed; /* the same of the measure; WORST where there is none */
+} tn_completer;
+
+/* Reads the pattern, and which trays fit which of its places (complete_pattern.c). */
+tn_status tn_completer_read(tn_completer *c, const tn_open_plan *open, tn_error *error);
+
+/* Is there a gap before the written tray? */
+bool tn_completer_gap_before(const tn_completer *c, uint32_t item);
+
+#endif

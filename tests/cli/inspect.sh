@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# tartan inspect: what `place` wrote has nothing to be said of; models made by hand, with sub-files and all that can be wrong with them.
+# Needs the parts: draw mesh
+name=inspect
+source "$(dirname "$0")/golden.bash"
+cp "$here/../fuzz/corpus/kit/tower.kit" "$here/../../examples/gatehouse/gatehouse.kit" "$scratch"
+cat >"$scratch/hand.mpd" <<'X'
+0 FILE hand.ldr
+0 Two posts, a beam, one brick too many
+1 4 0 0 0 1 0 0 0 1 0 0 0 1 post.ldr
+1 1 60 0 0 1 0 0 0 1 0 0 0 1 POST.LDR
+1 14 30 -48 0 1 0 0 0 1 0 0 0 1 3010.dat
+1 14 30 -56 40 0.0001 0 -1 0 1 0 1 0 0.0001 3005.DAT
+1 15 20.4 -24 0 1 0 0 0 1 0 0 0 1 3004.dat
+1 15 33 -24 0 1 0 0 0 1 0 0 0 1 3004.dat
+1 15 0 -24 0 1 0 0 0 0 -1 0 1 0 3004.dat
+1 0x2112233 100 -24 0 1 0 0 0 1 0 0 0 1 s\4073.dat
+0 FILE post.ldr
+1 16 0 -24 0 1 0 0 0 1 0 0 0 1 3005.dat
+0 STEP
+1 16 0 0 0 1 0 0 0 1 0 0 0 1 3005.dat
+X
+golden hand "tartan inspect $scratch/hand.mpd --kit bricks"
+golden json "tartan inspect $scratch/hand.mpd --kit bricks --json"
+golden model "tartan inspect $scratch/hand.mpd --kit $scratch/gatehouse.kit --model gatehouse"
+golden no_kit "tartan inspect $scratch/hand.mpd"
+golden no_such_kit "tartan inspect $scratch/hand.mpd --kit brick"
+golden plan_for_kit "tartan inspect $scratch/hand.mpd --kit table"
+write() { printf "$2" >"$scratch/$1.ldr"; }
+write colour '1 red 0 0 0 1 0 0 0 1 0 0 0 1 3005.dat\n'
+write short '0 a model\n1 4 0 0 0 1 0 0 0 1 0 0 0 3005.dat\n'
+write nameless '1 4 0 0 0 1 0 0 0 1 0 0 0 1\n'
+write empty '0 nothing\n'
+write itself '0 FILE a.ldr\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 b.ldr\n0 FILE b.ldr\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 b.ldr\n'
+{
+    printf '0 FILE main.ldr\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 f0.ldr\n'
+    for i in {0..9}; do
+        printf '0 FILE f%d.ldr\n' "$i"
+        for _ in {1..9}; do printf '1 16 0 0 0 1 0 0 0 1 0 0 0 1 f%d.ldr\n' $((i + 1)); done
+    done
+    printf '0 FILE f10.ldr\n0 nothing\n'
+} >"$scratch/many.ldr"
+for one in colour short nameless empty itself many; do
+    golden $one "tartan inspect $scratch/$one.ldr --kit bricks"
+done
+
+# Of what was placed: the same figures, no overlaps, and its conditions hold; the pictures are the same twice.
+cd "$scratch"
+for kit in tower gatehouse; do
+    "$TARTAN" place $kit.kit -o $kit.ldr -o one.svg -o one.png -o one.obj -o one.stl -o one.ply -o one.glb
+    "$TARTAN" place $kit.kit -o two.svg -o two.png -o two.obj -o two.stl -o two.ply -o two.glb
+    for ending in svg png obj stl ply glb; do
+        cmp one.$ending two.$ending || fail "two files .$ending of $kit differ"
+    done
+    "$TARTAN" inspect $kit.ldr --kit $kit.kit --model $kit -o found.svg >found.txt || fail "$kit does not meet its own conditions"
+    is "overlaps of $kit" "$(awk '$2 == "overlaps" { print $1 }' found.txt)" 0
+    is "parts of $kit" "$(awk '$2 == "elements" { print $1 }' found.txt)" "$(grep -c '^1 ' $kit.ldr)"
+    grep -q '<svg' found.svg || fail "no picture of $kit"
+done
+# The mesh is closed, and as large as the cells that are filled: 10 x 8 x 10 LDU of 0.4 mm.
+python3 - one.obj found.txt <<'PY' || fail 'the mesh is not closed, or of another volume'
+import sys
+points, edges, volume = [], {}, 0
+for line in open(sys.argv[1]):
+    word, *rest = line.split() or [""]
+    if word == "v":
+        points.append([float(x) for x in rest])
+    elif word == "f":
+        corners = [int(x.split("/")[0]) - 1 for x in rest]
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            edges[a, b] = edges.get((a, b), 0) + 1
+        p = [points[c] for c in corners]
+        for b, c in zip(p[1:], p[2:]):
+            a = p[0]
+            volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+cells = float(next(line.split()[0] for line in open(sys.argv[2]) if line.split()[-1] == "cells"))
+assert all(n == 1 and edges.get((b, a)) == 1 for (a, b), n in edges.items())
+assert abs(volume - cells * 4 * 3.2 * 4) < 1e-6 * volume, (volume, cells)
+PY
+"$TARTAN" place "$here/../../examples/brick-wall/wall.pcfg" "$here/../../examples/brick-wall/bricks.pcfg" -o wall.svg 2>err && fail 'a picture of parts without a shape'
+grep -q E1318 err || fail "it does not say why: $(cat err)"
+"$TARTAN" place "$here/../../examples/brick-wall/wall.pcfg" "$here/../../examples/brick-wall/bricks.pcfg" -o wall.ldr
+is 'pieces of the wall of a connection grammar' "$("$TARTAN" inspect wall.ldr --kit bricks --json | python3 -c 'import json, sys; r = json.load(sys.stdin); print(r["components"], r["overlaps"], r["unknown"])')" '1 0 0'
+exit $((failures > 0))
