@@ -78,10 +78,17 @@ void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, dou
 
 /* ---- levels */
 
+/* Heights of roofs are fractions: they are written to the nearest 1/64" or millimetre. */
+static int64_t rounded(const tn_house *house, double v)
+{
+    int64_t step = style_of(house) == TN_STYLE_FEET ? TN_INCH_NM / 64 : 1000000;
+    return (int64_t)(v / (double)step + 0.5) * step;
+}
+
 static void put_level(tn_marks *marks, const tn_house *house, double u, double v, double lettering, const char *name)
 {
     char text[sizeof marks->items->text], length[64];
-    tn_length_write_style((int64_t)(v + 0.5), style_of(house), length, sizeof length);
+    tn_length_write_style(rounded(house, v), style_of(house), length, sizeof length);
     snprintf(text, sizeof text, "%.30s%s%.15s", name, name[0] ? " " : "", length);
     double wide = tn_mark_width(text) * lettering;
     tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, v, u, v);
