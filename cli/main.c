@@ -139,6 +139,7 @@ int main(int argc, char **argv)
     keep_standard_descriptors();
     tn_terminal_guard();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as EPIPE, which commands end on quietly */
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond `ulimit -f` shows as EFBIG, an error like that of a full disk */
     if (argc < 2) {
         tn_help_overview(stderr);
         return TN_EXIT_USAGE;

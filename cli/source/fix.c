@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/common/interrupt.h"
@@ -117,13 +118,23 @@ static bool still_same(tn_job *job, const char *path, const char *text, size_t s
     return false;
 }
 
-static void write_file(tn_job *job, const char *path, const fixed_text *fixed)
+/* What was read is compared last, when all but the renaming is done: an edit in between would be lost. */
+static void write_file(tn_job *job, const char *path, const char *text, size_t size, const fixed_text *fixed)
 {
     tn_output output;
+    tn_error error;
     if (!tn_job_output(job, path, &output))
         return;
     fwrite(fixed->text, 1, fixed->size, output.stream);
-    tn_job_commit(job, &output);
+    fflush(output.stream);
+    if (!still_same(job, path, text, size)) {
+        tn_output_discard(&output);
+        return;
+    }
+    if (tn_output_commit(&output, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
     tn_job_note(job, "%.300s: %zu place%s replaced", path, fixed->fixes, fixed->fixes == 1 ? "" : "s");
 }
 
@@ -152,15 +163,25 @@ static bool deliver(tn_job *job, const char *path, const char *text, size_t size
     if (!show_difference(job, path, text, fixed->text))
         return false;
     bool person = isatty(STDIN_FILENO) && isatty(STDERR_FILENO);
-    if (yes || (person && asks_yes(path))) {
-        if (still_same(job, path, text, size))
-            write_file(job, path, fixed);
-    } else if (person) {
+    if (yes || (person && asks_yes(path)))
+        write_file(job, path, text, size, fixed);
+    else if (person)
         tn_job_note(job, "%.300s stays as it is", path);
-    } else {
+    else
         tn_job_note(job, "%.300s stays as it is: --yes writes it", path);
-    }
     return job->exit_code <= TN_EXIT_INVALID && !tn_interrupted();
+}
+
+/* The file is read several times and written, which a pipe or a device cannot be. What is not there is said by reading.
+ */
+static tn_status expect_file(const char *path, tn_error *error)
+{
+    struct stat found;
+    if (stat(path, &found) != 0 || S_ISREG(found.st_mode) || S_ISDIR(found.st_mode))
+        return TN_OK;
+    tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot write %.300s: it is a pipe or a device, not a file", path);
+    tn_error_help(error, "--fix reads a file and writes it again: name one");
+    return TN_IO;
 }
 
 bool tn_fix_file(tn_job *job, const char *path, bool yes)
@@ -168,7 +189,7 @@ bool tn_fix_file(tn_job *job, const char *path, bool yes)
     uint8_t *bytes = NULL;
     size_t size = 0;
     tn_error error;
-    if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
+    if (expect_file(path, &error) != TN_OK || tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
         tn_job_fail(job, &error);
         return false;
     }

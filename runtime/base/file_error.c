@@ -27,6 +27,7 @@ static const file_reason write_reasons[] = {
     {EPERM, "you have no right to write there", "name another folder"},
     {EROFS, "that disk can only be read", "name a folder on another"},
     {ENOSPC, "the disk is full", "make room on it, or name a folder on another"},
+    {EFBIG, "the file would be larger than is allowed", "raise the limit of the shell, `ulimit -f`, or write less"},
     {EDQUOT, "your share of the disk is used up", "make room on it, or name a folder on another"},
     {ENAMETOOLONG, "the name is too long", "choose a shorter one"},
     {EBADF, "it is closed", "leave it open, or name a file with -o"},

@@ -24,6 +24,17 @@ golden yes "tartan check --fix --yes --no-analysis $scratch/wrong.plan $shown"
 exits 0 "$TARTAN" check --no-analysis --werror "$scratch/wrong.plan"
 golden nothing_left "tartan check --fix --yes --no-analysis $scratch/wrong.plan"
 
+# What cannot be written is not said to be replaced; a pipe is refused before it is read.
+wrong
+said=$( (ulimit -f 0 && exec "$TARTAN" check --fix --yes --no-analysis "$scratch/wrong.plan") 2>&1) && code=0 || code=$?
+is 'a file that cannot be written' "$code" 3
+untouched 'a file that cannot be written'
+[[ $said == *'larger than is allowed'* && $said != *'replaced'* ]] || fail "a file that cannot be written: ${said##*$'\n'}"
+mkfifo "$scratch/pipe.plan"
+code=0 && timeout 60 "$TARTAN" check --fix --yes "$scratch/pipe.plan" 2>"$scratch/err" || code=$?
+is 'a pipe' "$code" 3
+grep -q 'it is a pipe or a device' "$scratch/err" || fail "a pipe: $(head -n 1 "$scratch/err")"
+
 # A mistake that hides behind another is found in the next round; what has no suggestion is left, and said.
 printf 'use "lahave"\nrule a = neighbor(tray(sngle), trai(4))\nrule b = tray(qwerty)\n' >"$scratch/two.plan"
 golden rounds "tartan check --fix --yes $scratch/two.plan $shown"

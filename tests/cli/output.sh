@@ -24,6 +24,15 @@ for command in "${commands[@]}"; do
     rm -f "$scratch/code"
     [ ! -s "$scratch/err" ] || fail "closed pipe, $command: $(head -n 1 "$scratch/err")"
 done
+# A file beyond the limit of the shell is an error too, and nothing of it stays but the plans that were enumerated.
+for out in "export lahave --prolog -o $scratch/big.pl" "enumerate lahave-houses -n 5000 -o $scratch/big.plans" "grow koch -n 5 -o $scratch/big.obj"; do
+    # shellcheck disable=SC2086
+    code=0 && (ulimit -f 1 && exec "$TARTAN" $out 2>"$scratch/err") || code=$?
+    is "a limit of files' sizes, $out" "$code" 3
+    grep -q 'larger than is allowed' "$scratch/err" || fail "a limit of files' sizes, $out: $(head -n 1 "$scratch/err")"
+done
+[ "$(find "$scratch" -name 'big.*' ! -name big.plans | wc -l)" = 0 ] || fail "a limit of files' sizes: $(ls "$scratch")"
+rm -f "$scratch"/big.*
 # Closed descriptors are not those of the next file that is opened.
 for command in "${commands[@]}"; do
     # shellcheck disable=SC2086
