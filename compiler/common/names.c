@@ -4,6 +4,8 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "runtime/module/module.h"
+
 /* The place of a text: its entry, or the free entry where it belongs. At least one entry is free. */
 static tn_name_entry *find(tn_name_entry *entries, size_t capacity, const char *text)
 {
@@ -39,4 +41,14 @@ void tn_names_put(tn_names *names, const char *text, void *value)
     tn_name_entry *entry = find(names->entries, names->capacity, text);
     names->count += entry->text == NULL;
     *entry = (tn_name_entry){text, value};
+}
+
+bool tn_name_fits(tn_diagnostics *diagnostics, const char *name, tn_span span)
+{
+    if (strlen(name) <= TN_NAME_MAX)
+        return true;
+    tn_diagnostic *d =
+        tn_report(diagnostics, E_NAME_TOO_LONG, span, "this name is longer than the limit of %u bytes", TN_NAME_MAX);
+    tn_help(diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
+    return false;
 }

@@ -1,8 +1,9 @@
-/* A table from texts to pointers. It lives in an arena and borrows the texts. */
+/* A table from texts to pointers, which lives in an arena and borrows the texts; and how long a name may be. */
 #ifndef TARTAN_COMPILER_COMMON_NAMES_H
 #define TARTAN_COMPILER_COMMON_NAMES_H
 
 #include "compiler/common/arena.h"
+#include "compiler/common/diagnostic.h"
 
 typedef struct tn_name_entry {
     const char *text; /* NULL: free */
@@ -19,5 +20,8 @@ void *tn_names_get(const tn_names *names, const char *text); /* NULL where it is
 
 /* Adds or replaces. Does nothing where out of memory, which the arena remembers. */
 void tn_names_put(tn_names *names, const char *text, void *value);
+
+/* False where a name is longer than a module holds: then reported. */
+bool tn_name_fits(tn_diagnostics *diagnostics, const char *name, tn_span span);
 
 #endif

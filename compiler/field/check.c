@@ -225,6 +225,7 @@ static void check_definition(check *c, uint32_t index)
     tn_field_definition *own = c->checked->definitions[index];
     const tn_field_definition *first = namesake(c, index);
     tn_diagnostic *d;
+    tn_name_fits(c->diagnostics, own->name.text, own->name.span);
     if (first) {
         d = tn_report(c->diagnostics, E_DUPLICATE_NAME, own->name.span, "`%.100s` is defined twice", own->name.text);
         tn_note(c->diagnostics, d, &first->name.span, "the first is here");

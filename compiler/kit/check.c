@@ -29,17 +29,25 @@ static bool define(tn_kit *kit, tn_names *names, const tn_kit_node *node, const 
     return false;
 }
 
+/* A wrong unit is said once: no length can be laid on cells that nobody knows. */
 static void take_unit(tn_kit *kit, const tn_kit_node *node)
 {
+    int64_t unit[3];
+    bool good = true;
     for (int k = 0; k < 3; k++) {
-        if (!tn_kit_measure(kit, &node->size[k], &kit->unit[k]))
-            continue;
-        if (kit->unit[k] > 0)
-            continue;
-        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNIT, node->size[k].span, "a cell has an extent above 0");
-        tn_help(kit->diagnostics, d, "write `unit 10 x 8 x 10;`");
-        kit->unit[k] = 1;
+        if (!tn_kit_measure(kit, &node->size[k], &unit[k])) {
+            good = false;
+        } else if (unit[k] <= 0) {
+            tn_diagnostic *d =
+                tn_report(kit->diagnostics, E_KIT_UNIT, node->size[k].span, "a cell has an extent above 0");
+            tn_help(kit->diagnostics, d, "write `unit 10 x 8 x 10;`");
+            good = false;
+        }
     }
+    kit->damaged |= !good;
+    if (!good)
+        return;
+    memcpy(kit->unit, unit, sizeof unit);
     kit->unit_node = node;
     if (kit->unit[0] == kit->unit[2])
         return;

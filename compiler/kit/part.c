@@ -182,6 +182,18 @@ static void check_boxes(tn_kit *kit, const tn_kit_part *part)
     }
 }
 
+/* A mass or a price, as large as a module holds. */
+static double read_amount(tn_kit *kit, const tn_kit_node *node)
+{
+    double amount = tn_kit_number(kit, &node->count[0]);
+    if (amount <= TN_COORDINATE_MAX)
+        return amount;
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_NUMBER, node->count[0].span, "this %s is too large",
+                                 node->kind == TN_KIT_MASS ? "mass" : "price");
+    tn_help(kit->diagnostics, d, "write a number up to %.0f", TN_COORDINATE_MAX);
+    return 0;
+}
+
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
 {
     size_t boxes = 0, errors = kit->diagnostics->error_count;
@@ -197,7 +209,7 @@ void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
         else if (node->kind == TN_KIT_HAS)
             add_joints(kit, part, node);
         else
-            *(node->kind == TN_KIT_MASS ? &part->mass : &part->price) = tn_kit_number(kit, &node->count[0]);
+            *(node->kind == TN_KIT_MASS ? &part->mass : &part->price) = read_amount(kit, node);
     }
     if (kit->diagnostics->error_count == errors && !kit->damaged)
         check_boxes(kit, part);

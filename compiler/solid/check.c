@@ -1,7 +1,9 @@
 /* Checks what a .solid file means: names once, settings once, expressions over what is measured. */
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/names.h"
 #include "compiler/solid/solid.h"
 
 const tn_expression_scope tn_solid_scope = {
@@ -60,8 +62,8 @@ static void take_model(tn_solid_check *check, const tn_solid_item *item)
             check->solid->model = i;
     if (check->solid->model != TN_MODEL_NONE)
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, item->name.span, "`%.40s` is not a unit of a design",
-                                 item->name.text ? item->name.text : "");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, item->name.span,
+                                 "`%.40s` is not a unit of a design", item->name.text ? item->name.text : "");
     tn_help(check->diagnostics, d, "write `model mm;`, `model cm;` or `model m;`");
     check->solid->wrong = true;
 }
@@ -180,17 +182,35 @@ static const tn_solid_item *goal_before(const tn_checked_solid *solid, const tn_
     return NULL;
 }
 
+/* A goal's target (0) or weight (1). Both are plain numbers, read as what the module holds (emit.c). */
+static void check_goal_number(tn_solid_check *check, const tn_solid_item *item, int which)
+{
+    double value = tn_solid_goal_number(check->diagnostics->sources, item, which, 0);
+    bool below = which == 1 && value < 0;
+    if (!below && fabs(value) <= TN_COORDINATE_MAX)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SETTING_RANGE, item->given[which],
+                                 below        ? "a weight is not below 0"
+                                 : which == 1 ? "this weight is too large"
+                                              : "this target is too far from 0");
+    if (below)
+        tn_help(check->diagnostics, d, "a larger weight makes a goal count for more");
+    else
+        tn_help(check->diagnostics, d, "write a number from %.0f to %.0f", which == 1 ? 0 : -TN_COORDINATE_MAX,
+                TN_COORDINATE_MAX);
+    check->solid->wrong = true;
+}
+
 static void check_goal(tn_solid_check *check, const tn_solid_item *item)
 {
     const tn_solid_item *before = item->name.text ? goal_before(check->solid, item) : NULL;
     check_expressions(check, item);
     if (before)
         twice(check, item->name.span, before->name.span, "the goal", item->name.text, "give one of them another name");
-    if (item->given[1].end > item->given[1].begin && tn_solid_value(check, &item->number[1]) < 0) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_SETTING_RANGE, item->given[1], "a weight is not below 0");
-        tn_help(check->diagnostics, d, "a larger weight makes a goal count for more");
+    if (item->name.text && !tn_name_fits(check->diagnostics, item->name.text, item->name.span))
         check->solid->wrong = true;
-    }
+    check_goal_number(check, item, 0);
+    check_goal_number(check, item, 1);
 }
 
 /* ---- boxes */
@@ -210,10 +230,8 @@ static void take_box(tn_solid_check *check, const tn_solid_item *item)
     if (before)
         twice(check, item->name.span, before->item->name.span, "the box", item->name.text,
               "give one of them another name");
-    if (item->name.text && strlen(item->name.text) > TN_NAME_MAX) {
-        tn_report(check->diagnostics, E_SOLID_BOX, item->name.span, "a box's name has at most %u bytes", TN_NAME_MAX);
+    if (item->name.text && !tn_name_fits(check->diagnostics, item->name.text, item->name.span))
         check->solid->wrong = true;
-    }
     tn_check_box(check, item);
 }
 
@@ -289,6 +307,7 @@ static void take_design(tn_solid_check *check, tn_checked_solids *solids, const 
     solid->design = design;
     solid->imported = imported;
     check->solid = solid;
+    tn_name_fits(check->diagnostics, design->name.text, design->name.span);
     if (before)
         twice(check, design->name.span, before->design->name.span, "the design", design->name.text,
               "give one of them another name");

@@ -53,12 +53,12 @@ static void emit_item(emitting *e, const tn_solid_item *item)
     }
 }
 
-static double number_of(const emitting *e, const tn_solid_item *item, int which, double otherwise)
+double tn_solid_goal_number(const tn_sources *sources, const tn_solid_item *item, int which, double otherwise)
 {
     if (item->given[which].end == item->given[which].begin)
         return otherwise;
     const tn_solid_number *number = &item->number[which];
-    const char *text = e->sources->files[number->digits.file].text + number->digits.begin;
+    const char *text = sources->files[number->digits.file].text + number->digits.begin;
     double value = tn_decimal_value(text, number->digits.end - number->digits.begin);
     return number->negative ? -value : value;
 }
@@ -68,8 +68,8 @@ static void emit_goal(emitting *e, const tn_solid_item *item)
     tn_solid_goal_record record = {.name = tn_builder_string(e->builder, item->name.text),
                                    .function =
                                        emit_function(e, item->name.text, item->entries.first->expression, false),
-                                   .target = number_of(e, item, 0, 0),
-                                   .weight = number_of(e, item, 1, 1),
+                                   .target = tn_solid_goal_number(e->sources, item, 0, 0),
+                                   .weight = tn_solid_goal_number(e->sources, item, 1, 1),
                                    .file = item->span.file,
                                    .begin = item->span.begin,
                                    .end = item->span.end};

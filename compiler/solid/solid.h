@@ -182,6 +182,9 @@ bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_sol
 /* What expressions of designs speak of. */
 extern const tn_expression_scope tn_solid_scope;
 
+/* A goal's target (which is 0) or weight (1): a plain number; `otherwise` where it is not written. */
+double tn_solid_goal_number(const tn_sources *sources, const tn_solid_item *item, int which, double otherwise);
+
 /* TN_OK or TN_MEMORY. */
 tn_status tn_emit_solids(tn_builder *builder, const tn_sources *sources, const tn_checked_solids *solids,
                          tn_error *error);

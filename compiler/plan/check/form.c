@@ -84,12 +84,11 @@ static bool word_is_free(tn_check *check, const tn_checked_form *form, const tn_
             taken = true;
             what = "a word of the schema";
         }
-    if (!taken && strlen(name->text) <= TN_NAME_MAX)
-        return true;
-    tn_diagnostic *d = tn_report(
-        check->diagnostics, taken ? E_PART_TWICE : E_NAME_TOO_LONG, name->node.span,
-        taken ? "the name `%.80s` is that of %s already" : "the name `%.80s...` is too long%.0s", name->text, what);
-    tn_help(check->diagnostics, d, "choose another name, so that `cell(%.40s)` is clear", taken ? "NAME" : "...");
+    if (!taken)
+        return tn_name_fits(check->diagnostics, name->text, name->node.span);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, name->node.span,
+                                 "the name `%.80s` is that of %s already", name->text, what);
+    tn_help(check->diagnostics, d, "choose another name, so that `cell(NAME)` is clear");
     return false;
 }
 
@@ -322,13 +321,8 @@ static void add_form(tn_check *check, const tn_ast_form *ast, size_t unit)
         return;
     *form = (tn_checked_form){.ast = ast, .name = ast->name->text, .unit = unit};
     result->forms[result->form_count++] = form;
-    if (strlen(form->name) > TN_NAME_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span,
-                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
-        tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
-    } else {
+    if (tn_name_fits(check->diagnostics, form->name, ast->name->node.span))
         check_form(check, form);
-    }
 }
 
 void tn_check_forms(tn_check *check)

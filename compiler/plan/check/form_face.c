@@ -17,7 +17,7 @@ static bool opening_is_new(tn_check *check, const tn_checked_form *form, const t
         if (strcmp(form->openings[i].ast->name->text, name->text) == 0)
             what = "another opening";
     if (!what)
-        return true;
+        return tn_name_fits(check->diagnostics, name->text, name->node.span);
     tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, name->node.span,
                                  "the name `%s` is that of %s already", name->text, what);
     tn_help(check->diagnostics, d, "choose another name");

@@ -79,7 +79,8 @@ static void add_box(tn_check *check, tn_checked_tile *tile, const tn_ast_tile_pa
     for (TN_EACH(const tn_ast_reach, reach, part->list))
         read_reach(check, reach, said, &box);
     box.flags |= (said[0] ? 0 : TN_TILE_X_TO_RIGHT) | (said[1] ? 0 : TN_TILE_Y_TO_FRONT);
-    if (!tn_check_room(check, tile->box_count, TN_TILE_BOXES_MAX, "item", part->node.span, "make two tiles of it"))
+    if (!tn_name_fits(check->diagnostics, part->name->text, part->name->node.span) ||
+        !tn_check_room(check, tile->box_count, TN_TILE_BOXES_MAX, "item", part->node.span, "make two tiles of it"))
         return;
     tile->box_ast[tile->box_count] = part;
     tile->boxes[tile->box_count++] = box;
@@ -112,7 +113,7 @@ static bool tile_is_new(tn_check *check, const tn_checked_form *form, const tn_a
         tn_help(check->diagnostics, d, "choose another name");
         return false;
     }
-    return true;
+    return tn_name_fits(check->diagnostics, name->text, name->node.span);
 }
 
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)

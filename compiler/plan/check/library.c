@@ -98,11 +98,9 @@ static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast
     }
     if (ast->name)
         clause->name = ast->name->text;
-    if (ast->name && strlen(clause->name) > TN_NAME_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, ast->name->node.span,
-                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
-        tn_help(check->diagnostics, d, "choose a shorter name");
-    } else if (clause->name) {
+    if (ast->name && !tn_name_fits(check->diagnostics, clause->name, ast->name->node.span))
+        return;
+    if (clause->name) {
         if (name_is_free(check, library, clause, ast->name ? ast->name->node.span : ast->expr->node.span))
             put_clause(check, library, clause);
     } else {

@@ -55,11 +55,8 @@ static void report_duplicate(tn_check *check, const tn_ast_word *name, const cha
 
 static bool name_fits(tn_check *check, const tn_ast_word *name)
 {
-    if (strlen(name->text) <= TN_NAME_MAX)
+    if (tn_name_fits(check->diagnostics, name->text, name->node.span))
         return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, name->node.span,
-                                 "this name is longer than the limit of %u bytes", TN_NAME_MAX);
-    tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
     check->incomplete = true;
     return false;
 }
@@ -388,8 +385,7 @@ static bool report_misspelled(tn_check *check, const tn_ast_word *word)
     if (!meant)
         return false;
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_RULE, word->node.span,
-                                 "the language has no `%s(...)`, and there is no rule `%s`",
-                                 word->text, word->text);
+                                 "the language has no `%s(...)`, and there is no rule `%s`", word->text, word->text);
     tn_suggest(check->diagnostics, d, "%s", meant);
     return true;
 }

@@ -17,16 +17,13 @@ static bool is_reserved(const tn_ast_word *word)
 
 static bool name_is_good(tn_check *check, tn_checked_schema *schema, const tn_ast_word *word)
 {
-    if (strlen(word->text) > TN_NAME_MAX) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_NAME_TOO_LONG, word->node.span,
-                                     "this name is longer than the limit of %u bytes", TN_NAME_MAX);
-        tn_help(check->diagnostics, d, "choose a shorter name; what it means can stand in a text after it");
-    } else if (is_reserved(word)) {
+    bool fits = tn_name_fits(check->diagnostics, word->text, word->node.span);
+    if (fits && !is_reserved(word))
+        return !word->broken;
+    if (fits) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_RESERVED_WORD, word->node.span,
                                      "`%s` is a word of tray specifiers and cannot be a name", word->text);
         tn_help(check->diagnostics, d, "choose another name");
-    } else {
-        return !word->broken;
     }
     schema->broken = true;
     return false;

@@ -157,9 +157,8 @@ static bool covers(tn_check *check, const tn_checked_schema *schema, const tn_ch
 
 static bool name_is_new(tn_check *check, tn_checked_schema *schema, const tn_ast_word *word)
 {
-    if (tn_check_new_word(check, schema, word, false))
-        return strlen(word->text) <= TN_NAME_MAX;
-    return false;
+    return tn_check_new_word(check, schema, word, false) &&
+           tn_name_fits(check->diagnostics, word->text, word->node.span);
 }
 
 static void check_number(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *of,
