@@ -16,7 +16,7 @@ void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_opt
 /* How two libraries are compared: all zero as `tartan diff` does without options. */
 typedef struct tn_compare_options {
     tn_option_number sample, seed;
-    bool json;
+    bool json, without_measures;
     const char *output, *title; /* of a picture */
 } tn_compare_options;
 

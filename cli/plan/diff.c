@@ -128,7 +128,7 @@ void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_o
                              .modules = {before->schema->module, after->schema->module},
                              .records = {before->record, after->record}};
     tn_measure_changes *measures = NULL;
-    if (tn_measure_changes_find(job, compared, &measures, &error) != TN_OK) {
+    if (!options->without_measures && tn_measure_changes_find(job, compared, &measures, &error) != TN_OK) {
         tn_job_fail(job, &error);
     } else {
         report.measures = measures;
@@ -177,6 +177,7 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", compare.sample, 0, SHOWN_MAX, "show the first plan of each and N at random (default 3)"),
     NUMBER("seed", 's', "S", compare.seed, 0, 0, "which random ones (default 0)"),
     FLAG("json", 0, compare.json, "write JSON, every count as a string of digits"),
+    FLAG("no-measures", 0, compare.without_measures, "leave out how measures change, which takes most of the time"),
     TEXT("output", 'o', "FILE", compare.output,
          "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", compare.title, "the picture's title"),

@@ -219,7 +219,7 @@ tn_status tn_diff_write_text(const tn_diff_report *report, FILE *out, tn_error *
     tn_status status = write_counts(report, out, error);
     if (status == TN_OK)
         status = write_clauses(report, out, error);
-    if (status == TN_OK && !tn_measure_changes_write(report->measures, out))
+    if (status == TN_OK && report->measures && !tn_measure_changes_write(report->measures, out))
         status = tn_fail_memory(error);
     for (int part = 0; status == TN_OK && part < TN_DIFF_PARTS; part++)
         status = write_plans(report, (tn_diff_part)part, out, error);

@@ -19,7 +19,7 @@ typedef struct tn_diff_report {
     const tn_module *modules[2];
     const tn_library_record *records[2];
     tn_diff_sample samples[TN_DIFF_PARTS];
-    const tn_measure_changes *measures;
+    const tn_measure_changes *measures; /* NULL: left out */
 } tn_diff_report;
 
 extern const char *const tn_diff_part_names[TN_DIFF_PARTS]; /* "removed", "added", "kept" */

@@ -127,7 +127,7 @@ static void compare(tn_job *job, const tn_ready_library *after)
                                       &before,
                                       after,
                                       (uint32_t)settings->plans.max_states.value},
-                       &(tn_compare_options){0});
+                       &(tn_compare_options){.without_measures = true}); /* they take most of the time */
     tn_library_close(&before);
     int code = tn_job_end(&old);
     job->exit_code = code > job->exit_code ? code : job->exit_code;
@@ -311,7 +311,8 @@ static const tn_option options[] = {
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
     FLAG("test", 0, with_tests, "also run the file's tests, as `tartan test` does"),
     FLAG("count", 0, with_counts, "also count the library's plans, as `tartan count` does"),
-    TEXT("diff", 0, "OLD", before, "also compare the library with the one of OLD, as `tartan diff OLD FILE` does"),
+    TEXT("diff", 0, "OLD", before,
+         "also compare the library with the one of OLD, as `tartan diff --no-measures OLD FILE` does"),
     FLAG("fix", 0, fix, "show what the suggested replacements change in FILE, ask, and write it"),
     FLAG("yes", 0, yes, "with --fix: write without asking"),
     FLAG("watch", 0, watch, "check again whenever a file that was read changes; Ctrl-C ends"),

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/library_data.h"
 
 #define DENSE_MAX (INT64_C(1) << 22) /* values side by side: beyond, they are sorted */
@@ -83,12 +84,28 @@ static bool add_arc(spreader *s, arc a)
     return true;
 }
 
-static int compare_arcs(const void *left, const void *right)
+/* Orders arcs by target. Those of one target stay in the order in which they were found: by source, then by gain. */
+static bool sort_arcs(spreader *s)
 {
-    const arc *a = left, *b = right;
-    if (a->target != b->target)
-        return a->target < b->target ? -1 : 1;
-    return a->source != b->source ? (a->source < b->source ? -1 : 1) : (a->gain > b->gain) - (a->gain < b->gain);
+    uint32_t states = tn_weighed_states(s->weighed);
+    size_t *place = calloc((size_t)states + 1, sizeof *place);
+    arc *sorted = malloc((s->arc_count + 1) * sizeof *sorted);
+    if (!place || !sorted) {
+        free(place);
+        free(sorted);
+        return false;
+    }
+    for (size_t i = 0; i < s->arc_count; i++)
+        place[s->arcs[i].target + 1]++;
+    for (uint32_t state = 0; state < states; state++)
+        place[state + 1] += place[state];
+    for (size_t i = 0; i < s->arc_count; i++)
+        sorted[place[s->arcs[i].target]++] = s->arcs[i];
+    free(place);
+    free(s->arcs);
+    s->arcs = sorted;
+    s->arc_capacity = s->arc_count + 1;
+    return true;
 }
 
 /* Does a kept plan of the library's lengths follow, after n trays? */
@@ -115,14 +132,20 @@ static tn_status find_arcs(spreader *s, const level *from, uint32_t n, tn_error 
                 !add_arc(s, (arc){edges[e].target, (uint32_t)i, edges[e].trays, edges[e].gain[0]}))
                 return tn_fail_memory(error);
     }
-    qsort(s->arcs, s->arc_count, sizeof *s->arcs, compare_arcs);
-    return TN_OK;
+    return sort_arcs(s) ? TN_OK : tn_fail_memory(error);
 }
 
 static void add_plans(mp_limb_t *to, const mp_limb_t *plans, uint64_t times, size_t limbs)
 {
-    mpn_addmul_1(to, plans, (mp_size_t)limbs,
-                 times); /* what a prefix leads to is at most the library: no carry is lost */
+    tn_limbs_add(to, plans, limbs, times); /* what a prefix leads to is at most the library: no carry is lost */
+}
+
+static bool is_zero(const mp_limb_t *plans, size_t limbs)
+{
+    mp_limb_t any = 0;
+    for (size_t i = 0; i < limbs; i++)
+        any |= plans[i];
+    return any == 0;
 }
 
 static bool spread_new(spread *made, uint32_t state, size_t count, size_t limbs)
@@ -160,10 +183,10 @@ static bool gather_dense(spreader *s, const level *from, size_t first, size_t la
     }
     size_t count = 0;
     for (size_t v = 0; v < range; v++)
-        count += !mpn_zero_p(s->dense + v * limbs, (mp_size_t)limbs);
+        count += !is_zero(s->dense + v * limbs, limbs);
     bool ok = spread_new(made, s->arcs[first].target, count, limbs);
     for (size_t v = 0; ok && v < range; v++)
-        if (!mpn_zero_p(s->dense + v * limbs, (mp_size_t)limbs))
+        if (!is_zero(s->dense + v * limbs, limbs))
             spread_add(made, low + (int64_t)v, s->dense + v * limbs, limbs);
     memset(s->dense, 0, range * limbs * sizeof *s->dense);
     return ok;

@@ -4,22 +4,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/summing.h"
 
 enum { STATES_MAX = 4000000 };
 
-/* A measure: its sum's machine, and the automata of what `matches` counts. */
+/* What a measure remembers, and where a tray of each class leads from there. */
+typedef struct memory {
+    uint32_t *next; /* [classes]: another memory; UINT32_MAX: not asked yet. NULL: none was asked */
+    int64_t *gain;  /* [classes] */
+    int64_t rest;   /* what is added where the plan ends */
+} memory;
+
+/* A measure: its sum's machine, and the automata of what `matches` counts. A memory's key: the states of its `matches`,
+ * then the words of its machine. */
 typedef struct weight {
     const tn_measure_record *record;
     tn_sum *sum;
     tn_dfa **parts; /* [sum->count]: of places that single trays do not decide, and of `matches` */
     tn_summing summing;
+    tn_interner keys;
+    memory *memories;
+    size_t memory_room, memory_count;
 } weight;
 
-/* What is known of a state. Its key: the library's state; then of each measure the states of its `matches` and, after
- * their number, the words of its machine. */
+/* What is known of a state. Its key: the library's state and each measure's memory. */
 typedef struct node {
     tn_weighed_edge *edges; /* NULL: not found yet */
     size_t count;
@@ -41,6 +52,8 @@ struct tn_weighed {
     size_t node_capacity;
     uint32_t node_count;
     tn_key key, next, part;
+    tn_weighed_edge *found; /* [letters]: room for the edges of a state */
+    uint8_t *live;          /* [states of the library]: does a kept plan follow? 0: not asked yet, 1: no, 2: yes */
 };
 
 /* ---- making */
@@ -117,7 +130,8 @@ static tn_status make_letters(tn_weighed *w, tn_error *error)
     tn_numbering_clear(&pairs);
     w->first = ok ? calloc((size_t)w->letters + 1, sizeof *w->first) : NULL;
     w->size = ok ? calloc((size_t)w->letters + 1, sizeof *w->size) : NULL;
-    if (!w->first || !w->size)
+    w->found = ok ? calloc((size_t)w->letters + 1, sizeof *w->found) : NULL;
+    if (!w->first || !w->size || !w->found)
         return tn_fail_memory(error);
     for (tn_tray t = trays; t-- > 0;) {
         w->first[w->letter_of[t]] = t;
@@ -136,8 +150,8 @@ static tn_status too_many(tn_error *error)
     return TN_LIMIT;
 }
 
-/* The number of the state with the key in w->next; what it adds at the end is `rest`. */
-static tn_status intern(tn_weighed *w, const int64_t *rest, uint32_t *state, tn_error *error)
+/* The number of a state; w->next is its key. */
+static tn_status intern(tn_weighed *w, uint32_t *state, tn_error *error)
 {
     uint32_t before = w->states.count;
     *state = tn_intern(&w->states, w->next.data, w->next.size);
@@ -147,88 +161,126 @@ static tn_status intern(tn_weighed *w, const int64_t *rest, uint32_t *state, tn_
         return TN_OK;
     if (*state >= STATES_MAX)
         return too_many(error);
-    if (*state >= w->node_capacity) {
-        size_t capacity = w->node_capacity * 2 + 64;
-        node *nodes = realloc(w->nodes, capacity * sizeof *nodes);
-        if (!nodes)
-            return tn_fail_memory(error);
-        w->nodes = nodes;
-        w->node_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&w->nodes, &w->node_capacity, 64, *state, 1, sizeof *w->nodes))
+        return tn_fail_memory(error);
     w->nodes[*state] = (node){0};
     w->node_count = *state + 1;
-    memcpy(w->nodes[*state].rest, rest, sizeof w->nodes[*state].rest);
+    for (uint32_t k = 0; k < w->count; k++)
+        w->nodes[*state].rest[k] = w->weights[k].memories[w->next.data[1 + k]].rest;
     return TN_OK;
 }
 
-/* Appends what measure k remembers at the beginning: its marker read. */
-static bool start_measure(weight *m, tn_key *next, tn_key *room, int64_t *gain)
+/* What a measure adds where the plan ends with this key of a memory. */
+static bool rest_of(weight *m, const uint32_t *words, size_t size, tn_key *room, int64_t *rest)
 {
-    for (uint32_t i = 0; i < m->sum->count; i++)
-        if (m->sum->terms[i].kind == TN_SUM_MATCHES && !tn_key_push(next, 0))
-            return false;
-    size_t at = next->size;
-    room->size = 0;
-    if (!tn_key_push(next, 0) || !tn_summing_start(&m->summing, room) ||
-        !tn_summing_step(&m->summing, room->data, room->size, m->summing.marker, next, gain))
-        return false;
-    next->data[at] = (uint32_t)(next->size - at - 1);
-    return true;
-}
-
-/* Appends what measure k remembers after a tray of the class; *words: its part of the key before, moved past. */
-static bool step_measure(weight *m, uint32_t class, const uint32_t **words, tn_key *next, int64_t *gain)
-{
-    for (uint32_t i = 0; i < m->sum->count; i++)
-        if (m->sum->terms[i].kind == TN_SUM_MATCHES && !tn_key_push(next, tn_dfa_read(m->parts[i], *(*words)++, class)))
-            return false;
-    size_t size = *(*words)++;
-    tn_key tail = {0};
-    bool ok = tn_summing_step(&m->summing, *words, size, m->summing.join.column[class], &tail, gain) &&
-              tn_key_push(next, (uint32_t)tail.size);
-    for (size_t i = 0; ok && i < tail.size; i++)
-        ok = tn_key_push(next, tail.data[i]);
-    free(tail.data);
-    *words += size;
-    return ok;
-}
-
-/* What measure k adds where the plan ends: *words as above. */
-static bool rest_of(weight *m, const uint32_t **words, tn_key *room, int64_t *rest)
-{
+    int64_t gain;
     *rest = 0;
     for (uint32_t i = 0; i < m->sum->count; i++)
-        if (m->sum->terms[i].kind == TN_SUM_MATCHES)
-            *rest += m->parts[i]->accept[*(*words)++] ? m->sum->terms[i].each : 0;
-    size_t size = *(*words)++;
-    int64_t gain;
+        if (m->sum->terms[i].kind == TN_SUM_MATCHES) {
+            *rest += m->parts[i]->accept[*words++] ? m->sum->terms[i].each : 0;
+            size--;
+        }
     room->size = 0;
-    if (!tn_summing_step(&m->summing, *words, size, m->summing.marker, room, &gain))
+    if (!tn_summing_step(&m->summing, words, size, m->summing.marker, room, &gain))
         return false;
     *rest += gain + tn_summing_rest(&m->summing, room->data, room->size);
-    *words += size;
     return true;
 }
 
-static tn_status finish_state(tn_weighed *w, uint32_t *state, tn_error *error)
+/* The number of a memory; w->next is its key. */
+static tn_status remember(tn_weighed *w, weight *m, uint32_t *number, tn_error *error)
 {
-    int64_t rest[TN_WEIGHED_MAX] = {0};
-    const uint32_t *words = w->next.data + 1;
-    for (uint32_t k = 0; k < w->count; k++)
-        if (!rest_of(&w->weights[k], &words, &w->part, &rest[k]))
+    uint32_t before = m->keys.count;
+    *number = tn_intern(&m->keys, w->next.data, w->next.size);
+    if (*number == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*number < before)
+        return TN_OK;
+    if (*number >= STATES_MAX)
+        return too_many(error);
+    memory made = {0};
+    if (!tn_array_reserve_from(&m->memories, &m->memory_room, 16, *number, 1, sizeof *m->memories) ||
+        !rest_of(m, w->next.data, w->next.size, &w->part, &made.rest))
+        return tn_fail_memory(error);
+    m->memories[*number] = made;
+    m->memory_count = (size_t)*number + 1;
+    return TN_OK;
+}
+
+/* What a measure remembers at the beginning: its marker read. */
+static tn_status start_measure(tn_weighed *w, weight *m, uint32_t *number, tn_error *error)
+{
+    int64_t gain;
+    bool ok = true;
+    w->next.size = w->part.size = 0;
+    for (uint32_t i = 0; ok && i < m->sum->count; i++)
+        ok = m->sum->terms[i].kind != TN_SUM_MATCHES || tn_key_push(&w->next, 0);
+    ok = ok && tn_summing_start(&m->summing, &w->part) &&
+         tn_summing_step(&m->summing, w->part.data, w->part.size, m->summing.marker, &w->next, &gain);
+    return ok ? remember(w, m, number, error) : tn_fail_memory(error);
+}
+
+/* Where a tray of the class leads a memory, which has room for it. */
+static tn_status find_next(tn_weighed *w, weight *m, uint32_t number, uint32_t class, tn_error *error)
+{
+    size_t size;
+    const uint32_t *key = tn_interned(&m->keys, number, &size);
+    int64_t gain;
+    uint32_t to;
+    if (!tn_key_copy(&w->key, key, size))
+        return tn_fail_memory(error);
+    const uint32_t *words = w->key.data, *end = words + size;
+    bool ok = true;
+    w->next.size = 0;
+    for (uint32_t i = 0; ok && i < m->sum->count; i++)
+        if (m->sum->terms[i].kind == TN_SUM_MATCHES)
+            ok = tn_key_push(&w->next, tn_dfa_read(m->parts[i], *words++, class));
+    ok = ok &&
+         tn_summing_step(&m->summing, words, (size_t)(end - words), m->summing.join.column[class], &w->next, &gain);
+    tn_status status = ok ? remember(w, m, &to, error) : tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
+    m->memories[number].next[class] = to;
+    m->memories[number].gain[class] = gain;
+    return TN_OK;
+}
+
+static tn_status step_measure(tn_weighed *w, weight *m, uint32_t class, uint32_t *number, int64_t *gain,
+                              tn_error *error)
+{
+    uint32_t classes = w->classes->count;
+    memory *from = &m->memories[*number];
+    if (!from->next) {
+        from->next = malloc(classes * sizeof *from->next);
+        from->gain = malloc(classes * sizeof *from->gain);
+        if (!from->next || !from->gain)
             return tn_fail_memory(error);
-    return intern(w, rest, state, error);
+        memset(from->next, 0xff, classes * sizeof *from->next);
+    }
+    if (from->next[class] == UINT32_MAX) {
+        tn_status status = find_next(w, m, *number, class, error);
+        if (status != TN_OK)
+            return status;
+        from = &m->memories[*number];
+    }
+    *gain = from->gain[class];
+    *number = from->next[class];
+    return TN_OK;
 }
 
 static tn_status make_start(tn_weighed *w, tn_error *error)
 {
-    uint32_t state;
-    int64_t gain;
+    uint32_t state, numbers[TN_WEIGHED_MAX];
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < w->count; k++)
+        status = start_measure(w, &w->weights[k], &numbers[k], error);
+    if (status != TN_OK)
+        return status;
     w->next.size = 0;
     bool ok = tn_key_push(&w->next, 0);
     for (uint32_t k = 0; ok && k < w->count; k++)
-        ok = start_measure(&w->weights[k], &w->next, &w->part, &gain);
-    return ok ? finish_state(w, &state, error) : tn_fail_memory(error);
+        ok = tn_key_push(&w->next, numbers[k]);
+    return ok ? intern(w, &state, error) : tn_fail_memory(error);
 }
 
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out,
@@ -239,7 +291,8 @@ tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, ui
         return tn_fail_memory(error);
     w->library = library;
     w->count = count;
-    tn_status status = make_weights(w, measures, error);
+    w->live = calloc((size_t)library->kept->states + 1, 1);
+    tn_status status = w->live ? make_weights(w, measures, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = make_letters(w, error);
     if (status == TN_OK)
@@ -261,6 +314,12 @@ void tn_weighed_free(tn_weighed *w)
         for (uint32_t i = 0; m->parts && i < m->sum->count; i++)
             tn_dfa_free(m->parts[i]);
         free(m->parts);
+        for (size_t i = 0; i < m->memory_count; i++) {
+            free(m->memories[i].next);
+            free(m->memories[i].gain);
+        }
+        free(m->memories);
+        tn_interner_clear(&m->keys);
         tn_summing_clear(&m->summing);
         tn_sum_free(m->sum);
     }
@@ -276,6 +335,8 @@ void tn_weighed_free(tn_weighed *w)
     free(w->key.data);
     free(w->next.data);
     free(w->part.data);
+    free(w->found);
+    free(w->live);
     free(w);
 }
 
@@ -338,12 +399,14 @@ bool tn_weighed_alive(const tn_weighed *w, uint32_t left, uint32_t state)
 }
 
 /* Does any kept plan follow the library's state? */
-static bool is_live(const tn_library *library, uint32_t state)
+static bool is_live(tn_weighed *w, uint32_t state)
 {
-    for (uint32_t left = 0; left <= library->max; left++)
-        if (tn_library_alive(library, left, state))
-            return true;
-    return false;
+    if (w->live[state] == 0) {
+        w->live[state] = 1;
+        for (uint32_t left = 0; w->live[state] == 1 && left <= w->library->max; left++)
+            w->live[state] += tn_library_alive(w->library, left, state);
+    }
+    return w->live[state] == 2;
 }
 
 tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
@@ -352,19 +415,22 @@ tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32
     size_t size;
     tn_tray tray = w->first[letter];
     const uint32_t *key = tn_interned(&w->states, state, &size);
-    uint32_t to = tn_library_step(w->library, key[0], tray);
+    uint32_t numbers[TN_WEIGHED_MAX], to = tn_library_step(w->library, key[0], tray);
     *target = UINT32_MAX;
     memset(gain, 0, TN_WEIGHED_MAX * sizeof *gain);
-    if (!is_live(w->library, to))
+    if (!is_live(w, to))
         return TN_OK;
-    if (!tn_key_copy(&w->key, key, size))
-        return tn_fail_memory(error);
-    const uint32_t *words = w->key.data + 1;
+    memcpy(numbers, key + 1, (size - 1) * sizeof *numbers);
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < w->count; k++)
+        status = step_measure(w, &w->weights[k], w->classes->of_tray[tray], &numbers[k], &gain[k], error);
+    if (status != TN_OK)
+        return status;
     w->next.size = 0;
     bool ok = tn_key_push(&w->next, to);
     for (uint32_t k = 0; ok && k < w->count; k++)
-        ok = step_measure(&w->weights[k], w->classes->of_tray[tray], &words, &w->next, &gain[k]);
-    return ok ? finish_state(w, target, error) : tn_fail_memory(error);
+        ok = tn_key_push(&w->next, numbers[k]);
+    return ok ? intern(w, target, error) : tn_fail_memory(error);
 }
 
 static int compare_edges(const void *left, const void *right)
@@ -388,35 +454,45 @@ tn_status tn_weighed_check(const tn_weighed *w, tn_error *error)
     return tn_watch_check(w->library->schema->module->watch, error);
 }
 
+/* The edges of a state into w->found, which has room for them; returns how many. */
+static tn_status find_edges(tn_weighed *w, uint32_t state, size_t *count, tn_error *error)
+{
+    size_t size = 0;
+    *count = 0;
+    for (uint32_t l = 0; l < w->letters; l++) {
+        tn_weighed_edge edge = {.first = w->first[l], .letter = l, .trays = w->size[l]};
+        tn_status status = tn_weighed_step(w, state, l, &edge.target, edge.gain, error);
+        if (status != TN_OK)
+            return status;
+        if (edge.target != UINT32_MAX)
+            w->found[size++] = edge;
+    }
+    qsort(w->found, size, sizeof *w->found, compare_edges);
+    for (size_t i = 0; i < size; i++) {
+        if (*count > 0 && alike(&w->found[*count - 1], &w->found[i]))
+            w->found[*count - 1].trays += w->found[i].trays;
+        else
+            w->found[(*count)++] = w->found[i];
+    }
+    return TN_OK;
+}
+
 tn_status tn_weighed_edges(tn_weighed *w, uint32_t state, const tn_weighed_edge **edges, size_t *count, tn_error *error)
 {
     tn_status going = tn_weighed_check(w, error);
     if (going != TN_OK)
         return going;
     if (!w->nodes[state].edges) {
-        tn_weighed_edge *found = calloc((size_t)w->letters + 1, sizeof *found);
-        if (!found)
+        size_t found;
+        tn_status status = find_edges(w, state, &found, error);
+        if (status != TN_OK)
+            return status;
+        tn_weighed_edge *kept = malloc((found + 1) * sizeof *kept);
+        if (!kept)
             return tn_fail_memory(error);
-        size_t size = 0, kept = 0;
-        for (uint32_t l = 0; l < w->letters; l++) {
-            tn_weighed_edge edge = {.first = w->first[l], .letter = l, .trays = w->size[l]};
-            tn_status status = tn_weighed_step(w, state, l, &edge.target, edge.gain, error);
-            if (status != TN_OK) {
-                free(found);
-                return status;
-            }
-            if (edge.target != UINT32_MAX)
-                found[size++] = edge;
-        }
-        qsort(found, size, sizeof *found, compare_edges);
-        for (size_t i = 0; i < size; i++) {
-            if (kept > 0 && alike(&found[kept - 1], &found[i]))
-                found[kept - 1].trays += found[i].trays;
-            else
-                found[kept++] = found[i];
-        }
-        w->nodes[state].edges = found;
-        w->nodes[state].count = kept;
+        memcpy(kept, w->found, found * sizeof *kept);
+        w->nodes[state].edges = kept;
+        w->nodes[state].count = found;
     }
     *edges = w->nodes[state].edges;
     *count = w->nodes[state].count;
