@@ -1,7 +1,9 @@
 /* tartan best: the best plans of a library by measures, in order. */
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/measure/wishes.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sheet.h"
@@ -123,16 +125,21 @@ static void give(sink *s, tn_best *best, uint64_t wanted)
     mpz_t rank;
     mpz_init(rank);
     bool found = true;
+    tn_progress progress;
+    tn_progress_watch(&progress, "looking for the best", tn_interrupt_waiting());
     for (uint64_t given = 0; status == TN_OK && found && given < wanted;) {
         int64_t values[TN_WEIGHED_MAX];
         uint32_t length;
         status = tn_best_next(best, trays, &length, values, &found, &error);
+        if (given == 0) /* the first takes longest; from then on lines are written */
+            tn_progress_unwatch(&progress, tn_interrupt_waiting());
         if (status != TN_OK || !found || !is_wanted(s, trays, length))
             continue;
         tn_library_rank(s->ready->library, trays, length, rank);
         status = put_plan(s, trays, length, values, rank, &error);
         given++;
     }
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     if (status != TN_OK)
         tn_job_fail(s->job, &error);
     mpz_clear(rank);

@@ -2,7 +2,9 @@
 #include <jansson.h>
 #include <stdlib.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
+#include "cli/common/progress.h"
 #include "cli/measure/wishes.h"
 #include "driver/measure/front.h"
 #include "driver/open/digits.h"
@@ -131,9 +133,12 @@ static void find_front(tn_job *job, const tn_ready_library *ready)
     if ((settings_of(job)->json && !tn_job_takes_text(job, settings_of(job)->output)) ||
         !tn_wishes_read(job, ready, &settings_of(job)->wanted, 2, &wishes))
         return;
+    tn_progress progress;
+    tn_progress_watch(&progress, "looking for the front", tn_interrupt_waiting());
     tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
     if (status == TN_OK)
         status = tn_pareto_make(&front, weighed, wishes.most, &error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     paper p = {ready, &wishes, weighed, &front};
     tn_job_show(job);
     if (status != TN_OK)

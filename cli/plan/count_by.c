@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
 #include "driver/measure/spread.h"
 #include "driver/open/digits.h"
 #include "runtime/number/rational.h"
@@ -206,7 +208,11 @@ void tn_count_by(tn_job *job, const tn_ready_library *ready, const char *measure
     tn_job_status(job, status);
     if (status != TN_OK)
         return;
-    if (tn_spread_make(&spread, ready, index, &error) != TN_OK)
+    tn_progress progress;
+    tn_progress_watch(&progress, "counting by the measure", tn_interrupt_waiting());
+    status = tn_spread_make(&spread, ready, index, &error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    if (status != TN_OK)
         tn_job_fail(job, &error);
     else if (choose_bins(job, options, &spread.bins))
         write_spread(job, &spread, options->json, path);

@@ -189,6 +189,26 @@ void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached)
     }
 }
 
+tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, bool *compares, tn_error *error)
+{
+    uint8_t *reached = calloc(module->FUNCTION_count + 1, 1);
+    *compares = false;
+    if (!reached)
+        return tn_fail_memory(error);
+    reached[function] = 1;
+    tn_plan_analysis_mark_called(module, reached);
+    for (size_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *record = &module->FUNCTION_records[f];
+        for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
+            tn_instruction code = tn_code_read(module->code, offset);
+            *compares |= code.opcode == TN_OP_BELOW || code.opcode == TN_OP_ZERO || code.opcode == TN_OP_ABOVE;
+            offset += code.length;
+        }
+    }
+    free(reached);
+    return TN_OK;
+}
+
 static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
@@ -211,6 +231,46 @@ static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
+/* *looked_at: is the rule a comparison of sums, or made of one, that a clause of a library of the file uses? */
+static tn_status is_looked_at(const tn_plan_analysis *analysis, const tn_rule_record *rule, bool *looked_at,
+                              tn_error *error)
+{
+    const tn_module *module = analysis->schema->module;
+    tn_status status = tn_plan_analysis_compares(module, rule->holds, looked_at, error);
+    if (status != TN_OK || !*looked_at)
+        return status;
+    uint8_t *reached = calloc(module->FUNCTION_count + 1, 1);
+    if (!reached)
+        return tn_fail_memory(error);
+    for (size_t l = 0; l < module->LIBRARY_count; l++) {
+        const tn_library_record *library = &module->LIBRARY_records[l];
+        for (uint32_t c = 0; is_own_library(analysis, l) && c < library->clause_count; c++)
+            reached[module->CLAUSE_records[library->clause_first + c].holds] = 1;
+    }
+    tn_plan_analysis_mark_called(module, reached);
+    *looked_at = reached[rule->holds] || reached[rule->whole];
+    free(reached);
+    return TN_OK;
+}
+
+/* A rule that has no automaton for plans of any length. That is said, but not of a comparison of sums that a library of
+ * the file uses: it is looked at there, within the library's lengths. */
+static tn_status leave_rule(tn_plan_analysis *analysis, tn_plan_analysed_rule *rule, const tn_error *why,
+                            tn_error *error)
+{
+    bool looked_at;
+    rule->why = malloc(sizeof *rule->why);
+    if (!rule->why)
+        return tn_fail_memory(error);
+    *rule->why = *why;
+    if (!rule->own)
+        return TN_OK;
+    tn_status status = is_looked_at(analysis, &analysis->schema->module->RULE_records[rule->record], &looked_at, error);
+    if (status != TN_OK || looked_at)
+        return status;
+    return tn_plan_analysis_give_up(analysis, rule->record, TN_NO_RECORD, why, error);
+}
+
 static tn_status lower_rules(tn_plan_analysis *analysis, tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
@@ -225,13 +285,8 @@ static tn_status lower_rules(tn_plan_analysis *analysis, tn_error *error)
                 *error = why;
             return status;
         }
-        rule->why = malloc(sizeof *rule->why);
-        if (!rule->why)
-            return tn_fail_memory(error);
-        *rule->why = why;
-        if (rule->own)
-            status = tn_plan_analysis_give_up(analysis, rule->record, TN_NO_RECORD, &why, error);
-        if (rule->own && status != TN_OK)
+        status = leave_rule(analysis, rule, &why, error);
+        if (status != TN_OK)
             return status;
     }
     return TN_OK;

@@ -14,6 +14,7 @@ typedef struct tn_analysed_clauses {
     size_t count;
     tn_search_part *parts; /* [count]: what each clause has to answer of a kept plan */
     tn_dfa **dfas;         /* [count] */
+    tn_lowering *within;   /* of the clauses that compare sums, for plans of the library's lengths; or NULL */
     tn_library *made;      /* the library, where a search took too much and the caller has none; or NULL */
 } tn_analysed_clauses;
 
@@ -27,6 +28,12 @@ typedef struct tn_clause_verdict {
 static inline bool tn_clause_prunes(const tn_analysed_clauses *c, size_t i)
 {
     return c->clauses[i].kind == TN_CLAUSE_PRUNE;
+}
+
+/* Are its automata of plans of any length? Then plans longer than the library's can be asked about too. */
+static inline bool tn_clauses_unbounded(const tn_analysed_clauses *c)
+{
+    return c->within == NULL;
 }
 
 /* Trays of the shortest and the longest plan asked about: of the library, or any. */

@@ -8,6 +8,8 @@
 /* Of a search that the library itself can answer too, only later. */
 #define SEARCH_WORK UINT64_C(40000000) /* a tenth of a second */
 
+#define LONGEST_WITHIN 4096u /* trays, as in tn_library_options.max_length */
+
 static tn_status name_clause(const tn_analysed_clauses *c, size_t i, tn_error *error)
 {
     tn_error inner = *error;
@@ -18,10 +20,28 @@ static tn_status name_clause(const tn_analysed_clauses *c, size_t i, tn_error *e
     return inner.status;
 }
 
+/* A comparison of sums may have no automaton for plans of any length: it is made for the library's own. */
+static tn_status lower_clause(tn_analysed_clauses *c, size_t i, tn_error *error)
+{
+    const tn_plan_analysis *analysis = c->analysis;
+    bool bounded = false;
+    tn_status status = TN_OK;
+    if (c->record->trays_max <= LONGEST_WITHIN)
+        status = tn_plan_analysis_compares(analysis->schema->module, c->clauses[i].holds, &bounded, error);
+    if (status == TN_OK && bounded && !c->within) {
+        status = tn_lowering_new(analysis->classes, analysis->max_states, &c->within, error);
+        if (status == TN_OK)
+            tn_lowering_within(c->within, c->record->trays_max);
+    }
+    if (status != TN_OK)
+        return status;
+    return tn_lower(bounded ? c->within : analysis->lowering, c->clauses[i].holds, &c->dfas[i], error);
+}
+
 static tn_status lower_clauses(tn_analysed_clauses *c, tn_error *error)
 {
     for (size_t i = 0; i < c->count; i++) {
-        tn_status status = tn_lower(c->analysis->lowering, c->clauses[i].holds, &c->dfas[i], error);
+        tn_status status = lower_clause(c, i, error);
         if (status != TN_OK)
             return status == TN_LIMIT ? name_clause(c, i, error) : status;
         c->parts[i] = (tn_search_part){c->dfas[i], !tn_clause_prunes(c, i)};
@@ -134,7 +154,10 @@ static tn_status explain_empty(const tn_analysed_clauses *c, bool *in, tn_error 
         return tn_fail_memory(error);
     finding->library = c->index;
     tn_key word = {0};
-    tn_status status = search_some(c, in, c->count, false, &word, &finding->with_lengths, error);
+    tn_status status = TN_OK;
+    finding->with_lengths = true;
+    if (tn_clauses_unbounded(c))
+        status = search_some(c, in, c->count, false, &word, &finding->with_lengths, error);
     free(word.data);
     if (status == TN_LIMIT)
         finding->with_lengths = true;
@@ -302,6 +325,7 @@ static void clauses_clear(tn_analysed_clauses *c)
     for (size_t i = 0; c->dfas && i < c->count; i++)
         tn_dfa_free(c->dfas[i]);
     tn_library_free(c->made);
+    tn_lowering_free(c->within);
     free(c->dfas);
     free(c->parts);
 }

@@ -67,7 +67,8 @@ static tn_status find_bounds(tn_comparing *comparing, uint32_t max_trays, tn_err
         tn_fail(
             error, TN_LIMIT, E_TOO_MANY_STATES,
             "a sum that rises and falls has as many states as plans have trays, and it is not known how many that is");
-        tn_error_help(error, "in a library the automaton is made for its own lengths");
+        tn_error_help(error,
+                      "prune or require the rule in a library: there it is looked at within the library's lengths");
         return TN_LIMIT;
     }
     comparing->high = summing->most_down == 0 ? 0 : max_trays == 0 ? most : summing->most_down * (int64_t)max_trays;

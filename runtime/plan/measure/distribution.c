@@ -271,6 +271,8 @@ static tn_status next_level(spreader *s, const level *from, uint32_t n, level *t
     for (size_t a = 0; status == TN_OK && a < s->arc_count;) {
         status = gather(s, from, a, &a, &to->items[to->count], error);
         to->count++;
+        if (status == TN_OK)
+            status = tn_weighed_check(s->weighed, error);
     }
     return status;
 }

@@ -176,6 +176,8 @@ static tn_status make(fronts *all, uint32_t left, uint32_t state, uint32_t *inde
             if (!add_point(&made, value, p->plans, edge.trays, edge.first, child, (uint32_t)i))
                 status = tn_fail_memory(error);
         }
+        if (status == TN_OK)
+            status = tn_weighed_check(all->weighed, error);
         if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)
             reduce(&made, tn_weighed_count(all->weighed));
         if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)

@@ -449,6 +449,11 @@ static bool alike(const tn_weighed_edge *a, const tn_weighed_edge *b)
     return a->target == b->target && memcmp(a->gain, b->gain, sizeof a->gain) == 0;
 }
 
+tn_status tn_weighed_check(const tn_weighed *w, tn_error *error)
+{
+    return tn_watch_check(w->library->schema->module->watch, error);
+}
+
 /* The edges of a state into w->found, which has room for them; returns how many. */
 static tn_status find_edges(tn_weighed *w, uint32_t state, size_t *count, tn_error *error)
 {
@@ -474,6 +479,9 @@ static tn_status find_edges(tn_weighed *w, uint32_t state, size_t *count, tn_err
 
 tn_status tn_weighed_edges(tn_weighed *w, uint32_t state, const tn_weighed_edge **edges, size_t *count, tn_error *error)
 {
+    tn_status going = tn_weighed_check(w, error);
+    if (going != TN_OK)
+        return going;
     if (!w->nodes[state].edges) {
         size_t found;
         tn_status status = find_edges(w, state, &found, error);

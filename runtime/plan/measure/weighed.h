@@ -33,7 +33,10 @@ mpq_srcptr tn_weighed_unit(const tn_weighed *weighed, uint32_t measure); /* a st
 uint32_t tn_weighed_power(const tn_weighed *weighed, uint32_t measure);
 int64_t tn_weighed_start(const tn_weighed *weighed, uint32_t measure); /* steps before the first tray */
 
-/* The start state is 0. The edges of a state; valid until the next call for another state. */
+/* TN_STOPPED where whoever waits for the answer has ended the work. */
+tn_status tn_weighed_check(const tn_weighed *weighed, tn_error *error);
+
+/* The start state is 0. The edges of a state; valid until the next call for another state. Checks whether to go on. */
 tn_status tn_weighed_edges(tn_weighed *weighed, uint32_t state, const tn_weighed_edge **edges, size_t *count,
                            tn_error *error);
 
