@@ -2,6 +2,7 @@
 # Needs the parts: mesh store
 # Files that change while they are read: the old content or an error, never a mix without a word. Each reader of plans, genomes and places; and
 # those that read a file at one go: rules, modules, meshes.
+# Slow under sanitizers.
 name=changing
 . "$(dirname "$0")/golden.bash"
 shapes=$(cd "$here/../../bench" && pwd)/ten.plan

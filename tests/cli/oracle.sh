@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Both engines decide every case of the independent reference as that does.
+# Slow under sanitizers.
 set -euo pipefail
 oracle=$TARTAN_ORACLES/plan
 if [ -z "$TARTAN_ORACLES" ] || [ ! -f "$oracle/to_plan.py" ]; then

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Needs the parts: draw store
 # A database that is killed while it is written goes on with --resume: nothing twice, nothing missing.
+# Slow under sanitizers.
 name=resume
 . "$(dirname "$0")/golden.bash"
 command -v sqlite3 >/dev/null || exit 77
