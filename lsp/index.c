@@ -156,7 +156,7 @@ static const tn_symbol *use_words(tn_index *index, const tn_symbol *schema, cons
 
 static void use_specifier(tn_index *index, const tn_symbol *schema, const tn_ast_expr *tray)
 {
-    for (TN_EACH(const tn_ast_item, item, tray->items)) {
+    for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(tray))) {
         const tn_symbol *field = NULL;
         for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
             field = use_words(index, schema, field, &alternative->words);

@@ -10,6 +10,7 @@ pid, terminal = pty.fork()
 if pid == 0:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # heard also where the tests run in the background of a script
     os.execv(tartan, [tartan, "count", rules, "--by", "cost"])
+signal.alarm(300)  # rather than wait for ever
 said = b""
 while b"counting by the measure: 1 s" not in said:
     part = os.read(terminal, 4096)  # fails where the command ends without a word

@@ -41,7 +41,7 @@ static bool needs_expansion(const tn_rule_expansion *expansion, const tn_ast_exp
         if (tn_bound(expansion, expr->name).value || (rule && rule->is_template))
             return true;
     }
-    for (TN_EACH(const tn_ast_item, item, expr->items))
+    for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(expr)))
         if (expansion->check->has_lets && tn_words_bound(expansion, item))
             return true;
     if (expr->condition && expansion->check->has_lets && tn_condition_bound(expansion, expr->condition))
@@ -451,7 +451,8 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
     tn_ast_expr *copy = shallow(expansion, expr);
     if (!copy)
         return NULL;
-    copy->items = tn_expand_items(expansion, expr->items);
+    if (expr->kind != TN_EXPR_SECTION)
+        copy->items = tn_expand_items(expansion, expr->items);
     copy->condition = expr->condition ? tn_expand_condition(expansion, expr->condition) : NULL;
     copy->figure = expr->figure ? expand(expansion, expr->figure) : NULL;
     tn_ast_list parts = expand_parts(expansion, expr->parts);

@@ -83,8 +83,12 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     put_number(t, expr->older ? (long long)expr->older->index : -1);
     put_word(t, expr->name);
     put_word(t, expr->detail);
-    for (TN_EACH(const tn_ast_item, item, expr->items))
+    for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(expr)))
         put_item(t, item);
+    if (expr->kind == TN_EXPR_SECTION) { /* the same where it is the same text */
+        put_number(t, expr->node.span.file);
+        put_number(t, expr->node.span.begin);
+    }
     for (TN_EACH(const tn_ast_word, kind, expr->kinds))
         put_word(t, kind);
     if (expr->figure)

@@ -74,7 +74,7 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
         use(p, expr->name, number ? USE_NUMBER : USE_EXPRESSION);
     if (expr->kind == TN_EXPR_FIGURE)
         use(p, expr->name, USE_NUMBER);
-    for (TN_EACH(const tn_ast_item, item, expr->items))
+    for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(expr)))
         use_items(p, item);
     if (expr->condition)
         use_condition(p, expr->condition);

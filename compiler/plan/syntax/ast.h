@@ -157,7 +157,7 @@ typedef struct tn_ast_expr {
     uint32_t depth;
     const tn_ast_word *name;    /* of a rule; of the field of a sum or quantifier; a constant */
     const tn_ast_word *detail;  /* the word after a sum's field: `depth` */
-    tn_ast_list items;          /* tray, cell, room, section: tn_ast_item */
+    tn_ast_list items;          /* tray, cell, room, section: tn_ast_item; of a section each ends with a tn_ast_shape */
     tn_ast_list kinds;          /* touch, apart: tn_ast_word after `by` */
     tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
@@ -334,6 +334,13 @@ typedef struct tn_ast_file {
     node = (TYPE *)((const tn_ast_node *)node)->next
 
 tn_ast_list tn_ast_empty(void);
+
+/* What an expression asks of a tray, a cell or a room: tn_ast_item; empty for all others. */
+static inline tn_ast_list tn_ast_tray_items(const tn_ast_expr *expr)
+{
+    return expr->kind == TN_EXPR_SECTION ? tn_ast_empty() : expr->items;
+}
+
 tn_ast_list tn_ast_append(tn_ast_list list, void *node); /* NULL adds nothing */
 tn_ast_list tn_ast_one(void *node);
 tn_ast_list tn_ast_join(tn_ast_list first, tn_ast_list second);

@@ -45,7 +45,8 @@ typedef struct spreader {
     pair *pairs;
     mp_limb_t *numbers;
     size_t pair_room;
-    uint64_t cells;
+    uint64_t cells; /* of the level that is made */
+    uint64_t ended; /* of the plans that have ended */
 } spreader;
 
 static void level_clear(level *l)
@@ -288,6 +289,9 @@ static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended
         const spread *from = &l->items[i];
         if (!tn_weighed_alive(s->weighed, 0, from->state))
             continue;
+        s->ended += from->count;
+        if (s->ended > TN_DISTRIBUTION_CELLS)
+            return too_many(error);
         spread *items = realloc(ended->items, (ended->count + 1) * sizeof *items);
         if (!items)
             return tn_fail_memory(error);

@@ -4,7 +4,7 @@
 
 #include "runtime/plan/measure/weighed.h"
 
-#define TN_DISTRIBUTION_CELLS UINT64_C(64000000) /* pairs of state and value at a time */
+#define TN_DISTRIBUTION_CELLS UINT64_C(16000000) /* pairs of state and value at a time */
 
 typedef struct tn_distribution {
     size_t count;   /* values, ascending */
