@@ -61,6 +61,8 @@ static void check_rule(tn_check *check, tn_checked_rule *rule)
         tn_check_allow(check, rule->ast->allow);
         tn_expand(check, &rule->ast->body);
     }
+    if (tn_arena_failed(check->arena))
+        return;
     if (rule->is_measure)
         tn_check_sum_expr(check, rule->ast->body);
     else

@@ -318,13 +318,15 @@ static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr
     tn_rule_expansion inner = {.check = check, .unit = of->unit, .older = older_schema(check, of->schema)};
     tn_ast_expr *argument = (tn_ast_expr *)arguments.first;
     for (TN_EACH(const tn_ast_word, word, of->ast->params)) {
+        if (!argument) /* out of memory */
+            break;
         bindings[count] = (tn_bound_name){.outer = inner.bindings, .word = word, .value = argument};
         inner.bindings = &bindings[count++];
         argument = (tn_ast_expr *)argument->node.next;
     }
     rule->ast->body = expand(&inner, of->written);
-    if (!rule->ast->body)
-        rule->ast->body = of->written; /* out of memory */
+    if (!rule->ast->body || tn_arena_failed(check->arena))
+        rule->ast->body = of->written;
     check->open = rule->outer;
     return rule;
 }
@@ -478,14 +480,15 @@ void tn_expand(tn_check *check, tn_ast_expr **expr)
     if (!needs_expansion(&expansion, *expr))
         return;
     tn_ast_expr *made = expand(&expansion, *expr);
-    if (made)
+    if (made && !tn_arena_failed(check->arena)) /* parts of a copy may be missing */
         *expr = made;
 }
 
 tn_ast_expr *tn_expand_older(tn_check *check, const tn_ast_expr *written, size_t unit, const tn_checked_schema *older)
 {
     tn_rule_expansion expansion = {.check = check, .unit = unit, .older = older};
-    return expand(&expansion, written);
+    tn_ast_expr *made = expand(&expansion, written);
+    return tn_arena_failed(check->arena) ? NULL : made; /* parts of a copy may be missing */
 }
 
 tn_checked_rule *tn_expand_older_measure(tn_check *check, tn_checked_rule *measure)

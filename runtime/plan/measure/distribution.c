@@ -342,7 +342,7 @@ static tn_status walk(spreader *s, level *ended, tn_error *error)
         one[0] = 1;
         spread_add(here.items, tn_weighed_start(s->weighed, 0), one, s->limbs);
     } else {
-        here.count = 0;
+        here.count = here.items ? 1 : 0; /* half of it may be there */
     }
     for (uint32_t n = 0; status == TN_OK && n <= s->library->max; n++) {
         status = add_ended(s, &here, n, ended, error);
