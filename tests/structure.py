@@ -3,7 +3,7 @@
 
 The table of folders in docs/internals.md says which folder may include from which. This reads every #include and every tartan_folder() and
 fails on an arrow that the table does not list, on a circle of folders or of headers, on a folder with too many files, on a type defined
-in two places, on a source file that does not say what it is, and on headers that can't be included together. `--table` prints the rows
+in two places, on a source file that does not say what it is, on arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows
 that the includes ask for."""
 import collections, os, re, subprocess, sys, tempfile
 
@@ -190,6 +190,15 @@ def says_what_it_is(root, file):
     return text.startswith('#include "%s"' % header) and read(os.path.join(root, header)).startswith("/*")
 
 
+GROWS = ("runtime/base/array.c", "compiler/common/lexical.h")  # the helper itself; flex asks for its own
+
+
+def check_arrays(root, files):
+    for file in files:
+        if file not in GROWS and re.search(r"\brealloc\(", read(os.path.join(root, file))):
+            problems.append("%s grows an array by hand: runtime/base/array.h does it" % file)
+
+
 def check_openings(root, files):
     for file in files:
         if file.endswith((".c", ".cc", ".h", ".def")) and not says_what_it_is(root, file):
@@ -215,6 +224,7 @@ check_arrows(root, files)
 check_sizes(files)
 check_names(root, files)
 check_openings(root, files)
+check_arrays(root, files)
 check_headers(root, files, compiler, [flag for flag in sys.argv[3:] if flag.startswith("-")])
 for problem in problems:
     print(problem)

@@ -7,6 +7,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
+#include "runtime/base/array.h"
 
 typedef struct tn_file_seen {
     char *path;
@@ -53,14 +54,8 @@ void tn_files_read_add(tn_files_read *read, const char *path)
     tn_file_seen seen = look(path);
     if (!seen.there)
         return;
-    if (read->count == read->capacity) {
-        size_t capacity = read->capacity ? 2 * read->capacity : 8;
-        tn_file_seen *grown = realloc(read->files, capacity * sizeof *grown);
-        if (!grown)
-            return;
-        read->files = grown;
-        read->capacity = capacity;
-    }
+    if (!tn_array_reserve(&read->files, &read->capacity, read->count, 1, sizeof *read->files))
+        return;
     seen.path = strdup(path);
     if (seen.path)
         read->files[read->count++] = seen;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "driver/open/digits.h"
+#include "runtime/base/array.h"
 #include "runtime/chart/chart.h"
 #include "runtime/number/rational.h"
 
@@ -94,12 +95,7 @@ static bool find_bars(const tn_spread *s, tn_chart_bar **bars, size_t *count)
     bool ok = true;
     tn_bin_row_init(&s->bins, &row);
     while (ok && tn_bin_row_next(&s->bins, &row)) {
-        if (*count == room) {
-            room = room * 2 + 64;
-            tn_chart_bar *more = realloc(*bars, room * sizeof *more);
-            ok = more != NULL;
-            *bars = more ? more : *bars;
-        }
+        ok = tn_array_reserve(bars, &room, *count, 1, sizeof **bars);
         if (ok)
             (*bars)[(*count)++] =
                 (tn_chart_bar){mpq_get_d(row.from), mpq_get_d(row.to), tn_bins_share(row.plans, s->d.all)};

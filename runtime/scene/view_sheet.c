@@ -155,9 +155,11 @@ static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
         set_face_colour(cr, face);
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
     cairo_fill(cr);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT); /* so as not to run into the lines where it ends */
     cairo_set_line_width(cr, hairline);
     for (uint32_t i = 0; i < face->size;)
         i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i) : i + 1;
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, line);
     for (uint32_t i = 0; i < face->size;) {
         uint16_t edge = view->edges[face->first + i];

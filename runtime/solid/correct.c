@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
+
 #include "runtime/solid/design.h"
 
 /* Box i and the image of box j; i <= j. Both are squashed by the same rule if they still overlap at their turn. */
@@ -52,16 +54,9 @@ static void add_pair(pairs *found, pair one)
 {
     if (found->failed)
         return;
-    if (found->count == found->capacity) {
-        size_t capacity = found->capacity ? 2 * found->capacity : 256;
-        pair *items = realloc(found->items, capacity * sizeof *items);
-        found->failed = !items;
-        if (!items)
-            return;
-        found->items = items;
-        found->capacity = capacity;
-    }
-    found->items[found->count++] = one;
+    found->failed = !tn_array_reserve(&found->items, &found->capacity, found->count, 1, sizeof *found->items);
+    if (!found->failed)
+        found->items[found->count++] = one;
 }
 
 static int by_low(const void *a, const void *b)
@@ -161,15 +156,9 @@ static void note(meeting *m, const tn_solid_box *box, int axis, bool high, doubl
     bool told = m->of->i == m->of->j && box != m->p; /* an image of its own is squashed as the box is */
     if (!history || m->failed || told || (before == after && !box->void_))
         return;
-    if (history->count == history->capacity) {
-        size_t capacity = history->capacity ? 2 * history->capacity : 64;
-        tn_squash *items = realloc(history->items, capacity * sizeof *items);
-        m->failed = !items;
-        if (!items)
-            return;
-        history->items = items;
-        history->capacity = capacity;
-    }
+    m->failed = !tn_array_reserve(&history->items, &history->capacity, history->count, 1, sizeof *history->items);
+    if (m->failed)
+        return;
     bool first = box == m->p, turned = !first && m->of->image >> axis & 1; /* the second is told as it is written */
     history->items[history->count++] = (tn_squash){.box = first ? m->of->i : m->of->j,
                                                    .by = first ? m->of->j : m->of->i,

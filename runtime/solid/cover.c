@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/solid/footprint.h"
 
 /* A convex polygon with any number of corners up to this; a cut adds one at most. What has more is kept whole: then
@@ -35,14 +36,9 @@ bool tn_cover_of(const double (*points)[2], size_t count, tn_cover *cover)
 
 static piece *add(tn_cover_pieces *work)
 {
-    if (work->count == work->room) {
-        size_t room = work->room ? 2 * work->room : 16;
-        piece *more = realloc(work->pieces, room * sizeof *more);
-        work->failed |= !more;
-        if (!more)
-            return NULL;
-        work->pieces = more;
-        work->room = room;
+    if (!tn_array_reserve_from(&work->pieces, &work->room, 16, work->count, 1, sizeof *work->pieces)) {
+        work->failed = true;
+        return NULL;
     }
     return &work->pieces[work->count++];
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/number_text.h"
 #include "runtime/genome/breeding/normal.h"
@@ -252,13 +253,8 @@ static tn_status write(void *place, const tn_genome *genome, tn_written *written
     size_t size = head + foot + boxes * (GENES * (TN_NUMBER_TEXT_SIZE + 2) + 16) + 1;
     if (genome->count % GENES || !boxes)
         return tn_fail(error, TN_INVALID, E_RUN_DATABASE, "a genome is no list of boxes");
-    if (size > w->size) {
-        char *text = realloc(w->text, size);
-        if (!text)
-            return tn_fail_memory(error);
-        w->text = text;
-        w->size = size;
-    }
+    if (!tn_array_reserve(&w->text, &w->size, 0, size, 1))
+        return tn_fail_memory(error);
     char *at = stpcpy(w->text, w->of->head);
     for (size_t box = 0; box < boxes; box++)
         at = put_box(at, genome, box);

@@ -396,6 +396,18 @@ static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_e
     return TN_OK;
 }
 
+/* A house is asked for by a number that a plan with so many houses does not have. */
+static tn_status too_few(const mpz_t houses, tn_error *error)
+{
+    char *digits = mpz_get_str(NULL, 10, houses);
+    tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "this plan has only %.80s houses in the library",
+                               digits ? digits : "some of these");
+    if (digits)
+        tn_error_help(error, "its houses have the numbers from 0 on, less than %.80s", digits);
+    free(digits);
+    return status;
+}
+
 tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t variant,
                                tn_house *house, tn_error *error)
 {
@@ -410,10 +422,7 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
         v->house = (tn_house){0};
     } else if (status == TN_OK) {
         mpz_sub(s.here, variant, s.left);
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "there are fewer houses than that on this plan");
-        char *digits = mpz_get_str(NULL, 10, s.here);
-        tn_error_help(error, "it has %.80s: variants count from 0", digits ? digits : "fewer");
-        free(digits);
+        status = too_few(s.here, error);
     }
     mpz_clears(s.left, s.here, NULL);
     return status;

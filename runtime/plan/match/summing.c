@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/match/vm.h"
 
@@ -218,15 +219,10 @@ static void add_pending(tn_summing *summing, uint32_t term, uint32_t set, int64_
         *gain += steps;
         return;
     }
-    if (summing->pending_size == summing->pending_capacity) {
-        size_t capacity = summing->pending_capacity ? summing->pending_capacity * 2 : 32;
-        tn_summing_pending *pending = realloc(summing->pending, capacity * sizeof *pending);
-        if (!pending) {
-            summing->failed = true;
-            return;
-        }
-        summing->pending = pending;
-        summing->pending_capacity = capacity;
+    if (!tn_array_reserve_from(&summing->pending, &summing->pending_capacity, 32, summing->pending_size, 1,
+                               sizeof *summing->pending)) {
+        summing->failed = true;
+        return;
     }
     summing->pending[summing->pending_size++] = (tn_summing_pending){term, set, steps};
 }

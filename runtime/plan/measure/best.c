@@ -4,10 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 
 #define NONE UINT32_MAX
+
+enum { PATHS = 8 }; /* that a place has room for at first: most are asked for few */
 
 /* A completion of a place: its tray, then the child's completion of that rank. */
 typedef struct path {
@@ -86,22 +89,9 @@ static bool before(const path *a, const path *b)
     return a->tray != b->tray ? a->tray < b->tray : a->rank < b->rank;
 }
 
-static bool reserve(path **items, size_t *room, size_t count)
-{
-    if (count < *room)
-        return true;
-    size_t more = *room * 2 + 8;
-    path *grown = realloc(*items, more * sizeof *grown);
-    if (!grown)
-        return false;
-    *items = grown;
-    *room = more;
-    return true;
-}
-
 static bool push(place *p, path added)
 {
-    if (!reserve(&p->heap, &p->heap_room, p->heap_count))
+    if (!tn_array_reserve_from(&p->heap, &p->heap_room, PATHS, p->heap_count, 1, sizeof *p->heap))
         return false;
     size_t i = p->heap_count++;
     for (; i > 0 && before(&added, &p->heap[(i - 1) / 2]); i = (i - 1) / 2)
@@ -136,14 +126,8 @@ static tn_status place_of(tn_best *best, uint32_t left, uint32_t state, uint32_t
         return tn_fail_memory(error);
     if (*index < before_count)
         return TN_OK;
-    if (*index >= best->place_room) {
-        size_t room = best->place_room * 2 + 256;
-        place *places = realloc(best->places, room * sizeof *places);
-        if (!places)
-            return tn_fail_memory(error);
-        best->places = places;
-        best->place_room = room;
-    }
+    if (!tn_array_reserve_from(&best->places, &best->place_room, 256, *index, 1, sizeof *best->places))
+        return tn_fail_memory(error);
     best->places[*index] = (place){.left = left, .state = state};
     best->place_count = *index + 1;
     return TN_OK;
@@ -257,7 +241,7 @@ static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there,
     if (p->left == 0 && p->found_count == 0) {
         path end = {.child = NONE};
         set_rest(best, p->state, end.value);
-        if (!reserve(&p->found, &p->found_room, 0))
+        if (!tn_array_reserve_from(&p->found, &p->found_room, PATHS, 0, 1, sizeof *p->found))
             return tn_fail_memory(error);
         p->found[p->found_count++] = end;
         p->opened = true;
@@ -270,7 +254,7 @@ static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there,
         p = &best->places[index];
         if (status != TN_OK || p->heap_count == 0)
             break;
-        if (!reserve(&p->found, &p->found_room, p->found_count))
+        if (!tn_array_reserve_from(&p->found, &p->found_room, PATHS, p->found_count, 1, sizeof *p->found))
             return tn_fail_memory(error);
         p->found[p->found_count] = pop(p);
         p->found_count++;

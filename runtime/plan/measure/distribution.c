@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -19,7 +20,7 @@ typedef struct spread {
 
 typedef struct level {
     spread *items;
-    size_t count;
+    size_t count, room;
 } level;
 
 /* So many trays from a state of one level to a state of the next. */
@@ -73,14 +74,8 @@ static tn_status too_many(tn_error *error)
 
 static bool add_arc(spreader *s, arc a)
 {
-    if (s->arc_count == s->arc_capacity) {
-        size_t capacity = s->arc_capacity * 2 + 1024;
-        arc *arcs = realloc(s->arcs, capacity * sizeof *arcs);
-        if (!arcs)
-            return false;
-        s->arcs = arcs;
-        s->arc_capacity = capacity;
-    }
+    if (!tn_array_reserve_from(&s->arcs, &s->arc_capacity, 1024, s->arc_count, 1, sizeof *s->arcs))
+        return false;
     s->arcs[s->arc_count++] = a;
     return true;
 }
@@ -292,11 +287,9 @@ static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended
         s->ended += from->count;
         if (s->ended > TN_DISTRIBUTION_CELLS)
             return too_many(error);
-        spread *items = realloc(ended->items, (ended->count + 1) * sizeof *items);
-        if (!items)
+        if (!tn_array_reserve(&ended->items, &ended->room, ended->count, 1, sizeof *ended->items))
             return tn_fail_memory(error);
-        ended->items = items;
-        spread *made = &items[ended->count++];
+        spread *made = &ended->items[ended->count++];
         if (!spread_new(made, 0, from->count, s->limbs))
             return tn_fail_memory(error);
         int64_t rest = tn_weighed_rest(s->weighed, from->state, 0);

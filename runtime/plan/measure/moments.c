@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -43,14 +44,8 @@ static void level_clear(level *l)
 static heap *heap_at(level *l, uint32_t state)
 {
     uint32_t before = l->numbers.count;
-    if (before == l->room) {
-        size_t room = l->room * 2 + 64;
-        heap *heaps = realloc(l->heaps, room * sizeof *heaps);
-        if (!heaps)
-            return NULL;
-        l->heaps = heaps;
-        l->room = room;
-    }
+    if (!tn_array_reserve(&l->heaps, &l->room, before, 1, sizeof *l->heaps))
+        return NULL;
     uint32_t index = tn_number(&l->numbers, state);
     if (index == UINT32_MAX)
         return NULL;

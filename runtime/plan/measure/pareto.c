@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -42,14 +43,8 @@ static void front_clear(front *f)
 static bool add_point(front *f, const int64_t *value, const mpz_t plans, uint64_t times, tn_tray tray, uint32_t child,
                       uint32_t child_point)
 {
-    if (f->count == f->room) {
-        size_t room = f->room * 2 + 16;
-        point *points = realloc(f->points, room * sizeof *points);
-        if (!points)
-            return false;
-        f->points = points;
-        f->room = room;
-    }
+    if (!tn_array_reserve_from(&f->points, &f->room, 16, f->count, 1, sizeof *f->points))
+        return false;
     point *p = &f->points[f->count++];
     *p = (point){.tray = tray, .child = child, .child_point = child_point};
     memcpy(p->value, value, sizeof p->value);
@@ -122,14 +117,8 @@ static tn_status number_of(fronts *all, uint32_t left, uint32_t state, uint32_t 
         return tn_fail_memory(error);
     if (*index < before)
         return TN_OK;
-    if (*index >= all->room) {
-        size_t room = all->room * 2 + 256;
-        front *items = realloc(all->items, room * sizeof *items);
-        if (!items)
-            return tn_fail_memory(error);
-        all->items = items;
-        all->room = room;
-    }
+    if (!tn_array_reserve_from(&all->items, &all->room, 256, *index, 1, sizeof *all->items))
+        return tn_fail_memory(error);
     all->items[*index] = (front){0};
     all->count = *index + 1;
     return TN_OK;
