@@ -4,6 +4,7 @@ DESTDIR ?=
 CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
+TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(JOBS)
 
 .PHONY: help packages build demo check check-long check-parts check-editor check-report lint package check-package bench fuzz install uninstall clean
 
@@ -35,11 +36,11 @@ demo: build
 	@tools/demo build/tartan demo
 
 check: build
-	@ctest --test-dir build --output-on-failure -j $(JOBS) -LE LONG
+	@$(TEST) -LE LONG
 
 # An issue's full numbers; make check has a fixed share of them.
 check-long: build
-	@ctest --test-dir build --output-on-failure -j $(JOBS) -L LONG --no-tests=error
+	@$(TEST) -L LONG --no-tests=error
 
 check-parts: packages
 	@tools/check-parts
