@@ -1,6 +1,6 @@
 /* What `tartan draw` is told, and its sheets of plans and rules. */
-#ifndef TARTAN_CLI_PLAN_DRAW_H
-#define TARTAN_CLI_PLAN_DRAW_H
+#ifndef TARTAN_CLI_DRAW_DRAW_H
+#define TARTAN_CLI_DRAW_DRAW_H
 
 #include "cli/plan/plan_input.h"
 #include "cli/plan/sampled.h"

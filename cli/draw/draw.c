@@ -1,5 +1,5 @@
 /* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
-#include "cli/plan/draw.h"
+#include "cli/draw/draw.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
 #include "cli/mesh/draw_surface.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/draw/draw.h"
 #include "cli/measure/best_search.h"
-#include "cli/plan/draw.h"
 #include "cli/plan/sheet.h"
 #include "driver/open/digits.h"
 #include "runtime/base/picture.h"
