@@ -6,6 +6,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "driver/open/digits.h"
+#include "runtime/plan/library/ranking.h"
 
 bool tn_best_search_open(tn_best_search *search, tn_job *job, const tn_ready_library *ready,
                          const tn_option_list *wanted)
@@ -35,9 +36,8 @@ void tn_best_search_give(tn_best_search *search, uint64_t count, bool mirror, tn
     const tn_library *library = search->ready->library;
     tn_error error;
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(library) + 1));
-    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
-    mpz_t rank;
-    mpz_init(rank);
+    tn_ranking *ranking = NULL;
+    tn_status status = trays ? tn_ranking_new(library, &ranking, &error) : tn_fail_memory(&error);
     bool found = true;
     tn_progress progress;
     tn_progress_watch(&progress, "looking for the best", tn_interrupt_waiting());
@@ -49,14 +49,13 @@ void tn_best_search_give(tn_best_search *search, uint64_t count, bool mirror, tn
             tn_progress_unwatch(&progress, tn_interrupt_waiting());
         if (status != TN_OK || !found || (mirror && !tn_library_mirror_first(library, trays, length)))
             continue;
-        tn_library_rank(library, trays, length, rank);
-        status = take(to, &(tn_best_plan){trays, length, values, rank}, &error);
+        status = take(to, &(tn_best_plan){trays, length, values, tn_ranking_next(ranking, trays, length)}, &error);
         given++;
     }
     tn_progress_unwatch(&progress, tn_interrupt_waiting());
     if (status != TN_OK)
         tn_job_fail(search->job, &error);
-    mpz_clear(rank);
+    tn_ranking_free(ranking);
     free(trays);
 }
 
