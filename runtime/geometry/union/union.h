@@ -14,24 +14,13 @@
 #include "runtime/geometry/mesh.h"
 #include "runtime/geometry/union/cut_box.h"
 
-/* Two cells whose faces share area; a < b. */
-typedef struct tn_contact {
-    uint32_t a, b;
-    double area;
-} tn_contact;
-
 typedef struct tn_union {
-    tn_mesh mesh;         /* triangles; face_group is the cell that each is of, group_count their number; no names */
-    tn_contact *contacts; /* ordered by a, then b */
-    size_t contact_count;
+    tn_mesh mesh;   /* triangles; face_group is the cell that each is of, group_count their number; no names */
     size_t doubled; /* vertices that were doubled */
 } tn_union;
 
 /* E_SOLID_TOO_FINE where details are so small against the whole that triangles would have no area. */
 tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error);
-
-/* Only how cells touch: less work. mesh is empty. */
-tn_status tn_union_contacts(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error);
 
 void tn_union_clear(tn_union *result);
 

@@ -1,5 +1,5 @@
 /* Plane by plane: the faces that look to the high side less those that look to the low side against them, and the other
- * way round. Faces of one kind do not overlap, since boxes do not; what two opposite ones share is their contact.
+ * way round. Faces of one kind do not overlap, since boxes do not.
  *
  * Faces are convex. One is taken from another by cutting off, edge by edge, what lies outside the edge; so pieces stay
  * convex, and each of their corners is a corner of a face or where two lines of faces cross. */
@@ -229,21 +229,8 @@ static void keep(planes *p, piece one)
         p->left[p->left_count++] = one;
 }
 
-static double area_of(const planes *p, int axis, piece one)
-{
-    int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    double sum = 0;
-    const int64_t *o = p->grid->vertices[p->cut[one.first].point.vertex].at;
-    for (uint32_t k = 1; k + 1 < one.count; k++) {
-        const int64_t *a = p->grid->vertices[p->cut[one.first + k].point.vertex].at,
-                      *b = p->grid->vertices[p->cut[one.first + k + 1].point.vertex].at;
-        sum += (double)(a[u] - o[u]) * (double)(b[v] - o[v]) - (double)(a[v] - o[v]) * (double)(b[u] - o[u]);
-    }
-    return sum / 2;
-}
-
-/* Leaves of a piece what is outside a face; returns the area that they share. */
-static double take_away(planes *p, const flat *face, piece one)
+/* Leaves of a piece what is outside a face. */
+static void take_away(planes *p, const flat *face, piece one)
 {
     size_t before = p->left_count;
     piece rest = one, outside;
@@ -253,20 +240,11 @@ static double take_away(planes *p, const flat *face, piece one)
         if (result == CUT_OUTSIDE) { /* they only touch, if that: it stays as it was */
             p->left_count = before;
             keep(p, one);
-            return 0;
+            return;
         }
         if (result == CUT_BOTH)
             keep(p, outside);
     }
-    return p->grid->failed ? 0 : area_of(p, (int)face->axis, rest);
-}
-
-static void add_contact(planes *p, uint32_t a, uint32_t b, double area)
-{
-    tn_grid *grid = p->grid;
-    tn_contact contact = {a < b ? a : b, a < b ? b : a, area * grid->step * grid->step};
-    if (room(p, &grid->contacts, sizeof contact, grid->contact_count, &grid->contact_capacity))
-        grid->contacts[grid->contact_count++] = contact;
 }
 
 /* Bounds of a piece, as far as they are known: rounded. */
@@ -284,15 +262,14 @@ static bool apart(const planes *p, piece one, const flat *face)
     return left || right || below || above;
 }
 
-static void subtract(planes *p, const flat *from, const flat *face)
+static void subtract(planes *p, const flat *face)
 {
-    double area = 0;
     p->left_count = 0;
     for (size_t i = 0; i < p->piece_count && !p->grid->failed; i++) {
         if (apart(p, p->pieces[i], face))
             keep(p, p->pieces[i]);
         else
-            area += take_away(p, face, p->pieces[i]);
+            take_away(p, face, p->pieces[i]);
     }
     piece *pieces = p->pieces;
     size_t capacity = p->piece_capacity;
@@ -301,8 +278,6 @@ static void subtract(planes *p, const flat *from, const flat *face)
     p->piece_capacity = p->left_capacity;
     p->left = pieces;
     p->left_capacity = capacity;
-    if (area > 0 && from->high)
-        add_contact(p, from->cell, face->cell, area);
 }
 
 static void start_pieces(planes *p, const flat *of)
@@ -357,7 +332,7 @@ static void cover(planes *p, const flat *faces, size_t count, const flat *others
             first++;
         for (size_t k = first; k < other_count && others[k].low_u <= face->high_u; k++)
             if (others[k].high_u >= face->low_u && others[k].low_v <= face->high_v && others[k].high_v >= face->low_v)
-                subtract(p, face, &others[k]);
+                subtract(p, &others[k]);
         end_pieces(p, face);
     }
 }

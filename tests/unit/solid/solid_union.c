@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
+#include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
@@ -182,15 +183,18 @@ static size_t count_pieces(const tn_mesh *mesh)
     return pieces;
 }
 
-/* Cells that share area, however little. */
-static size_t count_parts(const tn_union *u, const tn_cut_box *cells, size_t count)
+static size_t count_parts(const tn_cut_box *cells, size_t count)
 {
+    tn_contacts contacts;
+    tn_error error = {0};
     uint32_t *parent = malloc((count + 1) * sizeof *parent);
     size_t parts = 0;
     for (uint32_t i = 0; i < count; i++)
         parent[i] = i;
-    for (size_t i = 0; i < u->contact_count; i++)
-        parent[root(parent, u->contacts[i].a)] = root(parent, u->contacts[i].b);
+    assert_int_equal(tn_contacts_find(cells, count, &contacts, &error), TN_OK);
+    for (size_t i = 0; i < contacts.count; i++)
+        parent[root(parent, contacts.items[i].a)] = root(parent, contacts.items[i].b);
+    tn_contacts_clear(&contacts);
     for (uint32_t i = 0; i < count; i++)
         parts += cells[i].face_count > 0 && root(parent, i) == i;
     free(parent);
@@ -269,9 +273,9 @@ static void check_design(uint64_t seed)
     check_symmetry(&design, cells);
     check_edges(&u.mesh);
     check_umbrellas(&u.mesh);
-    if (u.doubled == 0 && count_pieces(&u.mesh) != count_parts(&u, cells, count))
+    if (u.doubled == 0 && count_pieces(&u.mesh) != count_parts(cells, count))
         fail_msg("design %llu: %zu pieces, %zu parts", (unsigned long long)seed, count_pieces(&u.mesh),
-                 count_parts(&u, cells, count));
+                 count_parts(cells, count));
     double volume = volume_of(&u.mesh);
     if (!(fabs(volume - moments.volume) <= 1e-9 * (1 + moments.volume)))
         fail_msg("design %llu: the mesh holds %.17g, the cells %.17g", (unsigned long long)seed, volume,
