@@ -98,8 +98,9 @@ static tn_status warn_detached(const reporting *r, tn_error *error)
     uint32_t n = r->built->built.box_count, left = 0;
     bool *touches = calloc(n + 1u, sizeof *touches);
     tn_contacts contacts = {0};
-    tn_status status =
-        touches ? tn_contacts_find(r->built->cells, r->built->cell_count, &contacts, error) : tn_fail_memory(error);
+    tn_status status = touches
+                           ? tn_contacts_find(r->built->cells, r->built->cell_count, TN_CONTACT_LEAST, &contacts, error)
+                           : tn_fail_memory(error);
     for (size_t i = 0; i < contacts.count && status == TN_OK; i++)
         touches[contacts.items[i].a % n] = touches[contacts.items[i].b % n] = true;
     for (size_t i = 0; i < r->built->cell_count; i++)

@@ -75,9 +75,9 @@ static void take(pairs *found, const tn_design *design, uint32_t a, uint32_t b, 
         add_pair(found, (pair){stage, b, a, image});
 }
 
-static tn_bounds bounds_of(const tn_solid_box *box)
+static tn_box_bounds bounds_of(const tn_solid_box *box)
 {
-    return (tn_bounds){{box->low[0], box->low[1], box->low[2]}, {box->high[0], box->high[1], box->high[2]}};
+    return (tn_box_bounds){{box->low[0], box->low[1], box->low[2]}, {box->high[0], box->high[1], box->high[2]}};
 }
 
 /* All i <= j whose boxes overlap, box j in its image. */
@@ -87,7 +87,7 @@ static void match(pairs *found, const tn_design *design, const tn_box_tree *tree
     for (uint32_t b = 0, a; b < design->box_count && !found->failed; b++) {
         tn_solid_box other = design->boxes[b];
         mirror(&other, image);
-        tn_bounds bounds = bounds_of(&other);
+        tn_box_bounds bounds = bounds_of(&other);
         tn_box_tree_search(tree, &bounds, &search);
         while (tn_box_search_next(&search, &a))
             take(found, design, a, b, &other, stage, image);
@@ -111,7 +111,7 @@ static void match_all(pairs *found, const tn_design *design, const tn_box_tree *
 static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *error)
 {
     tn_box_tree tree = {0};
-    tn_bounds *bounds = malloc((design->box_count + 1u) * sizeof *bounds);
+    tn_box_bounds *bounds = malloc((design->box_count + 1u) * sizeof *bounds);
     for (uint32_t i = 0; bounds && i < design->box_count; i++)
         bounds[i] = bounds_of(&design->boxes[i]);
     tn_status status = bounds ? tn_box_tree_make(bounds, design->box_count, &tree, error) : tn_fail_memory(error);

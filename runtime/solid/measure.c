@@ -296,7 +296,7 @@ static tn_status count_parts(const tn_built *built, tn_contacts *contacts, doubl
 static tn_status measure_parts(const tn_built *built, double *values, tn_error *error)
 {
     tn_contacts contacts;
-    tn_status status = tn_contacts_find(built->cells, built->cell_count, &contacts, error);
+    tn_status status = tn_contacts_find(built->cells, built->cell_count, TN_CONTACT_LEAST, &contacts, error);
     if (status == TN_OK)
         status = count_parts(built, &contacts, values, error);
     tn_contacts_clear(&contacts);

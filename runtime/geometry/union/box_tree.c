@@ -8,25 +8,25 @@
 
 #define LEAF 8u /* boxes of a leaf: looking at them takes about as long as looking at two more nodes */
 
-static double twice_middle(const tn_bounds *box, int axis)
+static double twice_middle(const tn_box_bounds *box, int axis)
 {
     return box->low[axis] + box->high[axis];
 }
 
 static bool comes_before(const void *context, uint32_t a, uint32_t b, int axis)
 {
-    const tn_bounds *boxes = context;
+    const tn_box_bounds *boxes = context;
     double p = twice_middle(&boxes[a], axis), q = twice_middle(&boxes[b], axis);
     return p < q || (p == q && a < b);
 }
 
 /* The bounds of a run, and the axis along which its middles spread most. */
-static int bound(const tn_box_tree *tree, uint32_t first, uint32_t end, tn_bounds *bounds)
+static int bound(const tn_box_tree *tree, uint32_t first, uint32_t end, tn_box_bounds *bounds)
 {
-    tn_bounds middles = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    tn_box_bounds middles = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     *bounds = middles;
     for (uint32_t i = first; i < end; i++) {
-        const tn_bounds *box = &tree->boxes[tree->order[i]];
+        const tn_box_bounds *box = &tree->boxes[tree->order[i]];
         for (int k = 0; k < 3; k++) {
             double middle = twice_middle(box, k);
             bounds->low[k] = box->low[k] < bounds->low[k] ? box->low[k] : bounds->low[k];
@@ -58,7 +58,7 @@ static void make_node(tn_box_tree *tree, uint32_t node, uint32_t level, uint32_t
     make_node(tree, 2 * node + 2, level + 1, middle, end);
 }
 
-tn_status tn_box_tree_make(const tn_bounds *boxes, uint32_t count, tn_box_tree *tree, tn_error *error)
+tn_status tn_box_tree_make(const tn_box_bounds *boxes, uint32_t count, tn_box_tree *tree, tn_error *error)
 {
     *tree = (tn_box_tree){.boxes = boxes, .count = count};
     for (uint32_t run = count; run > LEAF; run = (run + 1) / 2)
@@ -80,7 +80,7 @@ void tn_box_tree_clear(tn_box_tree *tree)
     *tree = (tn_box_tree){0};
 }
 
-static bool meets(const tn_bounds *p, const tn_bounds *q)
+static bool meets(const tn_box_bounds *p, const tn_box_bounds *q)
 {
     return p->low[0] <= q->high[0] && q->low[0] <= p->high[0] && p->low[1] <= q->high[1] && q->low[1] <= p->high[1] &&
            p->low[2] <= q->high[2] && q->low[2] <= p->high[2];
@@ -94,7 +94,7 @@ static void wait(tn_box_search *s, uint32_t node, uint32_t level, uint32_t first
     s->nodes[s->waiting++].end = end;
 }
 
-void tn_box_tree_search(const tn_box_tree *tree, const tn_bounds *box, tn_box_search *search)
+void tn_box_tree_search(const tn_box_tree *tree, const tn_box_bounds *box, tn_box_search *search)
 {
     search->tree = tree;
     search->box = *box;

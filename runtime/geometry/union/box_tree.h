@@ -8,24 +8,24 @@
 
 #include "runtime/base/error.h"
 
-typedef struct tn_bounds {
+typedef struct tn_box_bounds {
     double low[3], high[3];
-} tn_bounds;
+} tn_box_bounds;
 
 typedef struct tn_box_tree {
-    const tn_bounds *boxes;
-    uint32_t *order;  /* the boxes, each leaf's side by side */
-    tn_bounds *nodes; /* node n has the children 2n + 1 and 2n + 2 */
+    const tn_box_bounds *boxes;
+    uint32_t *order;      /* the boxes, each leaf's side by side */
+    tn_box_bounds *nodes; /* node n has the children 2n + 1 and 2n + 2 */
     uint32_t count, levels;
 } tn_box_tree;
 
-tn_status tn_box_tree_make(const tn_bounds *boxes, uint32_t count, tn_box_tree *tree, tn_error *error);
+tn_status tn_box_tree_make(const tn_box_bounds *boxes, uint32_t count, tn_box_tree *tree, tn_error *error);
 void tn_box_tree_clear(tn_box_tree *tree);
 
 /* Asks for the boxes that share a point with one, their borders among it; in the same order each time. */
 typedef struct tn_box_search {
     const tn_box_tree *tree;
-    tn_bounds box;
+    tn_box_bounds box;
     uint32_t at, end; /* of the leaf's run that is looked at */
     uint32_t waiting; /* nodes that are still to be looked at */
     struct {
@@ -33,7 +33,7 @@ typedef struct tn_box_search {
     } nodes[34]; /* of each level one at most waits */
 } tn_box_search;
 
-void tn_box_tree_search(const tn_box_tree *tree, const tn_bounds *box, tn_box_search *search);
+void tn_box_tree_search(const tn_box_tree *tree, const tn_box_bounds *box, tn_box_search *search);
 bool tn_box_search_next(tn_box_search *search, uint32_t *found);
 
 #endif

@@ -17,8 +17,8 @@ typedef struct polygon {
 
 typedef struct touching {
     const tn_cut_box *cells;
-    uint32_t *cell;    /* of each box: those of which something is left */
-    tn_bounds *bounds; /* of boxes, in whole steps */
+    uint32_t *cell;        /* of each box: those of which something is left */
+    tn_box_bounds *bounds; /* of boxes, in whole steps */
     uint32_t count;
     double least; /* area */
     tn_contacts *contacts;
@@ -77,18 +77,19 @@ static double area_of(const polygon *p)
     return twice / 2;
 }
 
+/* Below 0: nothing. */
 static double shared_area(const touching *t, uint32_t below, uint32_t above, int axis)
 {
     const tn_cut_box *p = &t->cells[t->cell[below]], *q = &t->cells[t->cell[above]];
     const tn_cut_box_face *top = face_at(p, 2 * axis + 1), *bottom = face_at(q, 2 * axis);
     if (!top || !bottom)
-        return 0;
+        return -1;
     polygon a, b;
     flatten(p, top, axis, &a);
     flatten(q, bottom, axis, &b);
     for (uint32_t k = 0; k < b.count && a.count >= 3; k++)
         keep_left(&a, b.at[k], b.at[(k + 1) % b.count]);
-    return area_of(&a);
+    return a.count < 3 ? -1 : fmax(0, area_of(&a));
 }
 
 /* ---- pairs */
@@ -96,7 +97,7 @@ static double shared_area(const touching *t, uint32_t below, uint32_t above, int
 /* The axis across which two boxes meet, if what they share of it can have area; `below` is the lower one. */
 static bool meet(const touching *t, uint32_t i, uint32_t j, int *across, uint32_t *below)
 {
-    const tn_bounds *p = &t->bounds[i], *q = &t->bounds[j];
+    const tn_box_bounds *p = &t->bounds[i], *q = &t->bounds[j];
     int levels = 0;
     for (int k = 0; k < 3; k++) {
         bool over = p->high[k] == q->low[k], under = q->high[k] == p->low[k];
@@ -116,7 +117,7 @@ static bool add_pair(touching *t, uint32_t i, uint32_t j)
     if (!meet(t, i, j, &axis, &below))
         return true;
     double area = shared_area(t, below, i + j - below, axis);
-    if (!(area >= t->least && area > 0))
+    if (!(area >= t->least))
         return true;
     tn_contacts *c = t->contacts;
     if (!tn_array_reserve(&c->items, &c->capacity, c->count, 1, sizeof *c->items))
@@ -141,7 +142,7 @@ static tn_status find_all(touching *t, tn_error *error)
     return status == TN_OK && !room ? tn_fail_memory(error) : status;
 }
 
-tn_status tn_contacts_find(const tn_cut_box *cells, size_t count, tn_contacts *contacts, tn_error *error)
+tn_status tn_contacts_find(const tn_cut_box *cells, size_t count, double least, tn_contacts *contacts, tn_error *error)
 {
     double step = tn_cut_boxes_step(cells, count), low[3], high[3], square = 0;
     touching t = {.cells = cells, .contacts = contacts};
@@ -161,7 +162,7 @@ tn_status tn_contacts_find(const tn_cut_box *cells, size_t count, tn_contacts *c
     tn_cut_boxes_bounds(cells, count, low, high);
     for (int k = 0; k < 3; k++)
         square += (high[k] - low[k]) * (high[k] - low[k]);
-    t.least = 1e-12 * square;
+    t.least = least * square;
     if (status == TN_OK && t.count)
         status = find_all(&t, error);
     free(t.cell);

@@ -18,9 +18,12 @@ typedef struct tn_contacts {
     size_t count, capacity;
 } tn_contacts;
 
-/* Each pair once, in no order that means anything. Less area than 1e-12 of the squared diagonal of all cells is no
- * contact. */
-tn_status tn_contacts_find(const tn_cut_box *cells, size_t count, tn_contacts *contacts, tn_error *error);
+/* Less area than this share of the squared diagonal of all cells is no contact. */
+#define TN_CONTACT_LEAST 1e-12
+
+/* Each pair once, in no order that means anything. `least`: the share of area that is a contact, TN_CONTACT_LEAST; with
+ * 0 faces that touch along a line may be among them, as rounding has it. */
+tn_status tn_contacts_find(const tn_cut_box *cells, size_t count, double least, tn_contacts *contacts, tn_error *error);
 void tn_contacts_clear(tn_contacts *contacts);
 
 #endif

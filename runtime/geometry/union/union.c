@@ -1,11 +1,13 @@
 /* The boundary of a union of cells: calls what finds planes, triangles and vertices. */
 #include "runtime/geometry/union/union.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "runtime/geometry/union/union_parts.h"
 
-enum { ROUNDS = 64 }; /* two or three are what random designs take */
+/* Rounds: two or three are what random designs take. Steps: 2^52 of them from 0, then 2^44, 2^36. */
+enum { ROUNDS = 64, STEPS = 3 };
 
 void tn_union_clear(tn_union *result)
 {
@@ -13,25 +15,33 @@ void tn_union_clear(tn_union *result)
     *result = (tn_union){0};
 }
 
-tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
+static tn_status make(const tn_cut_box *cells, size_t count, double step, tn_union *result, tn_error *error)
 {
-    tn_grid grid = {.step = tn_cut_boxes_step(cells, count)};
-    *result = (tn_union){0};
+    tn_grid grid = {.step = step};
     tn_grid_planes(&grid, cells, count);
     tn_status status = grid.failed ? tn_fail_memory(error) : TN_OK;
     bool again = true;
     for (int round = 0; status == TN_OK && again; round++) { /* each time with other edges */
-        if (round == ROUNDS) {
-            status = tn_union_too_fine(error);
-            break;
-        }
         tn_mesh_clear(&result->mesh);
-        status = tn_grid_triangles(&grid, &result->mesh, error);
+        status = round < ROUNDS ? tn_grid_triangles(&grid, &result->mesh, error) : tn_union_too_fine(error);
         if (status == TN_OK)
             status = tn_grid_separate(&grid, &result->mesh, &result->doubled, &again, error);
     }
-    result->mesh.group_count = (uint32_t)count;
     tn_grid_clear(&grid);
+    return status;
+}
+
+/* Edges of one step have no middle to be split at: with longer steps their ends are one vertex. */
+tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
+{
+    double step = tn_cut_boxes_step(cells, count);
+    tn_status status = TN_LIMIT;
+    *result = (tn_union){0};
+    for (int longer = 0; longer < STEPS && status == TN_LIMIT; longer++) {
+        tn_union_clear(result);
+        status = make(cells, count, ldexp(step, 8 * longer), result, error);
+    }
+    result->mesh.group_count = (uint32_t)count;
     return status;
 }
 

@@ -4,7 +4,8 @@
  * Coordinates are taken as whole numbers of a step, at most 2^52 of them from 0, so that a double holds each. Which
  * side of a line a point is on is decided exactly, where two lines cross is rounded once, to a step; so the boundary is
  * closed for every input, and no triangle is without area. Where cells touch along edges or at corners only, they come
- * apart: vertices are doubled, so that an edge has two triangles and a vertex one umbrella.
+ * apart: vertices are doubled, so that an edge has two triangles and a vertex one umbrella. Where that takes a vertex
+ * between two that are a step apart, the whole is made again with longer steps.
  *
  * A tn_union owns its arrays; clear it in any case.
  */

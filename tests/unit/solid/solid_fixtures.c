@@ -100,7 +100,7 @@ static void check_union(const tn_built *built, const json_t *wanted, double volu
     assert_near(volume_of(&u.mesh), volume, 1e-9);
     tn_union_clear(&u);
     tn_contacts contacts;
-    assert_int_equal(tn_contacts_find(built->cells, built->cell_count, &contacts, &error), TN_OK);
+    assert_int_equal(tn_contacts_find(built->cells, built->cell_count, TN_CONTACT_LEAST, &contacts, &error), TN_OK);
     assert_int_equal(contacts.count, json_integer_value(json_object_get(wanted, "contacts")));
     tn_contacts_clear(&contacts);
     assert_int_equal(tn_built_measure(built, UINT64_MAX, values, &error), TN_OK);
