@@ -1,6 +1,6 @@
 /* The mapping and the union on designs that the test makes, half of them on coarse lattices, where everything
  * coincides: no two boxes overlap, correcting again changes nothing, every mesh is closed, a manifold, and holds the
- * volume of the cells. */
+ * volume of the cells, which is what random points say. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -258,6 +258,42 @@ static void check_parts(const tn_mesh *mesh, const tn_cut_box *cells, size_t cou
     fail_msg("design %llu: %zu pieces, %zu parts", (unsigned long long)seed, pieces, most);
 }
 
+/* Is the point in what is left of a box, in its image? */
+static bool holds(const tn_design *design, uint32_t i, uint32_t image, const double point[3])
+{
+    const tn_solid_box *box = &design->boxes[i];
+    double beyond = -box->distance;
+    bool inside = !box->void_;
+    for (int k = 0; k < 3; k++) {
+        double p = image >> k & 1 ? -point[k] : point[k];
+        inside = inside && box->low[k] < p && p < box->high[k];
+        beyond += box->normal[k] * (p - (box->low[k] + box->high[k]) / 2);
+    }
+    return inside && (!box->clipped || beyond <= 0);
+}
+
+/* Random points lie in the share of the space that the volume is of it, and in one cell at most. */
+static void check_points(const tn_design *design, const tn_cut_box *cells, size_t count, double volume, uint64_t seed)
+{
+    enum { POINTS = 4000 };
+    double low[3], high[3], point[3], space = 1, hits = 0;
+    tn_cut_boxes_bounds(cells, count, low, high);
+    for (int k = 0; k < 3; k++)
+        space *= high[k] - low[k];
+    for (int n = 0; n < POINTS; n++) {
+        int inside = 0;
+        for (int k = 0; k < 3; k++)
+            point[k] = low[k] + (high[k] - low[k]) * uniform();
+        for (uint32_t i = 0; i < count; i++)
+            inside += holds(design, i % design->box_count, tn_design_image(design, i / design->box_count), point);
+        assert_true(inside <= 1);
+        hits += inside;
+    }
+    double share = volume / space, spread = sqrt(share * (1 - share) / POINTS);
+    if (fabs(hits / POINTS - share) > 6 * spread + 1e-9)
+        fail_msg("design %llu: points say %g of the space, cells %g", (unsigned long long)seed, hits / POINTS, share);
+}
+
 static void check_design(uint64_t seed)
 {
     tn_design design, again;
@@ -280,6 +316,8 @@ static void check_design(uint64_t seed)
     if (tn_union_make(cells, count, &u, &error) != TN_OK)
         fail_msg("design %llu: %s", (unsigned long long)seed, error.message);
     check_symmetry(&design, cells);
+    if (seed % 16 < 2 && u.mesh.face_count)
+        check_points(&design, cells, count, moments.volume, seed);
     check_edges(&u.mesh);
     check_umbrellas(&u.mesh);
     if (u.doubled == 0)
