@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/geometry/union/box_tree.h"
 #include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
@@ -202,21 +203,44 @@ static bool near_box(const tn_cut_box *cell, const double p[3], double reach)
     return cell->face_count > 0 && square <= reach * reach;
 }
 
+/* The first other cell whose box is within reach of a point, or UINT32_MAX. */
+static uint32_t cell_near(const tn_built *built, const tn_box_tree *tree, uint32_t but, const double p[3], double reach)
+{
+    tn_box_bounds around;
+    tn_box_search search;
+    uint32_t found, first = UINT32_MAX;
+    for (int k = 0; k < 3; k++) {
+        around.low[k] = p[k] - reach;
+        around.high[k] = p[k] + reach;
+    }
+    tn_box_tree_search(tree, &around, &search);
+    while (tn_box_search_next(&search, &found))
+        if (found != but && found < first && near_box(&built->cells[found], p, reach))
+            first = found;
+    return first;
+}
+
 tn_status tn_built_inward(const tn_built *built, uint32_t **others, tn_error *error)
 {
     double reach = 1e-6 * find_bounds(built).diagonal, middle[3];
+    tn_box_tree tree = {0};
+    tn_box_bounds *boxes = malloc((built->cell_count + 1) * sizeof *boxes);
     *others = malloc((built->cell_count + 1) * sizeof **others);
-    if (!*others)
-        return tn_fail_memory(error);
-    for (uint32_t i = 0; i < built->cell_count; i++) {
-        (*others)[i] = UINT32_MAX;
-        if (!cap_middle(&built->cells[i], middle))
-            continue;
-        for (uint32_t k = 0; k < built->cell_count && (*others)[i] == UINT32_MAX; k++)
-            if (k != i && near_box(&built->cells[k], middle, reach))
-                (*others)[i] = k;
+    for (size_t i = 0; boxes && i < built->cell_count; i++) {
+        const tn_cut_box *c = &built->cells[i];
+        boxes[i] = (tn_box_bounds){{c->low[0], c->low[1], c->low[2]}, {c->high[0], c->high[1], c->high[2]}};
     }
-    return TN_OK;
+    tn_status status =
+        *others && boxes ? tn_box_tree_make(boxes, (uint32_t)built->cell_count, &tree, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; i < built->cell_count && status == TN_OK; i++)
+        (*others)[i] = cap_middle(&built->cells[i], middle) ? cell_near(built, &tree, i, middle, reach) : UINT32_MAX;
+    tn_box_tree_clear(&tree);
+    free(boxes);
+    if (status != TN_OK) {
+        free(*others);
+        *others = NULL;
+    }
+    return status;
 }
 
 static tn_status measure_inward(const tn_built *built, double *values, tn_error *error)

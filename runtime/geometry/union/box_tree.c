@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/select_nth.h"
 
 #define LEAF 8u /* boxes of a leaf: looking at them takes about as long as looking at two more nodes */
@@ -136,4 +137,26 @@ bool tn_box_search_next(tn_box_search *s, uint32_t *found)
         if (!next_leaf(s))
             return false;
     }
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const uint32_t *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+bool tn_box_tree_list(const tn_box_tree *tree, const tn_box_bounds *box, tn_box_hits *hits)
+{
+    tn_box_search search;
+    uint32_t found;
+    hits->count = 0;
+    tn_box_tree_search(tree, box, &search);
+    while (tn_box_search_next(&search, &found)) {
+        if (!tn_array_reserve(&hits->items, &hits->capacity, hits->count, 1, sizeof *hits->items))
+            return false;
+        hits->items[hits->count++] = found;
+    }
+    if (hits->count > 1)
+        qsort(hits->items, hits->count, sizeof *hits->items, by_number);
+    return true;
 }

@@ -36,4 +36,13 @@ typedef struct tn_box_search {
 void tn_box_tree_search(const tn_box_tree *tree, const tn_box_bounds *box, tn_box_search *search);
 bool tn_box_search_next(tn_box_search *search, uint32_t *found);
 
+/* All of them, in the order of their numbers. The list is used again and again: starts all zero, free `items`
+ * afterwards. False: out of memory. */
+typedef struct tn_box_hits {
+    uint32_t *items;
+    size_t count, capacity;
+} tn_box_hits;
+
+bool tn_box_tree_list(const tn_box_tree *tree, const tn_box_bounds *box, tn_box_hits *hits);
+
 #endif

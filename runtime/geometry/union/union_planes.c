@@ -40,8 +40,7 @@ typedef struct planes {
     size_t cut_count, cut_capacity;
     piece *pieces, *left;
     size_t piece_count, piece_capacity, left_count, left_capacity;
-    uint32_t *hits; /* faces of the other side that may lie against what is at hand; a stack of lists */
-    size_t hit_count, hit_capacity;
+    tn_box_hits hits; /* faces of the other side that may lie against what is at hand; a stack of lists */
 } planes;
 
 static bool room(planes *p, void *items, size_t size, size_t count, size_t *capacity)
@@ -297,7 +296,7 @@ static void cover_few(planes *p, const flat *of, const flat *others, piece one, 
     if (room(p, &p->pieces, sizeof one, p->piece_count, &p->piece_capacity))
         p->pieces[p->piece_count++] = one;
     for (size_t i = first; i < first + count && !p->grid->failed; i++)
-        subtract(p, &others[p->hits[i]]);
+        subtract(p, &others[p->hits.items[i]]);
     for (size_t i = 0; i < p->piece_count && !p->grid->failed; i++)
         tn_grid_add_ring(p->grid, p->cut + p->pieces[i].first, p->pieces[i].count, of->cell, 2 * of->axis + of->high);
 }
@@ -334,7 +333,7 @@ static int wider_way(const planes *p, const flat *others, size_t first, size_t c
     for (int k = 0; k < 2; k++) {
         int64_t low = INT64_MAX, high = INT64_MIN;
         for (size_t i = first; i < first + count; i++) {
-            int64_t at = low_of(&others[p->hits[i]], k);
+            int64_t at = low_of(&others[p->hits.items[i]], k);
             low = at < low ? at : low;
             high = at > high ? at : high;
         }
@@ -348,9 +347,10 @@ static bool halve(planes *p, const flat *others, piece one, size_t first, size_t
 {
     int second = wider_way(p, others, first, count);
     size_t middle = first + count / 2;
-    tn_select_nth(p->hits, (uint32_t)first, (uint32_t)(first + count), (uint32_t)middle, second, starts_before, others);
+    tn_select_nth(p->hits.items, (uint32_t)first, (uint32_t)(first + count), (uint32_t)middle, second, starts_before,
+                  others);
     for (size_t i = middle; i < first + count && i < middle + 8; i++) {
-        const flat *face = &others[p->hits[i]];
+        const flat *face = &others[p->hits.items[i]];
         const tn_ring_corner *edge = low_edge(p, face, second);
         if (edge && cut(p, (int)face->axis, face->w, one, edge, &halves[0], &halves[1]) == CUT_BOTH)
             return true;
@@ -367,13 +367,13 @@ static void cover_piece(planes *p, const flat *of, const flat *others, piece one
         return;
     }
     for (int h = 0; h < 2; h++) {
-        size_t begin = p->hit_count;
+        size_t begin = p->hits.count;
         for (size_t i = first; i < first + count; i++)
-            if (!apart(p, halves[h], &others[p->hits[i]]) &&
-                room(p, &p->hits, sizeof *p->hits, p->hit_count, &p->hit_capacity))
-                p->hits[p->hit_count++] = p->hits[i];
-        cover_piece(p, of, others, halves[h], begin, p->hit_count - begin, depth + 1);
-        p->hit_count = begin;
+            if (!apart(p, halves[h], &others[p->hits.items[i]]) &&
+                room(p, &p->hits.items, sizeof *p->hits.items, p->hits.count, &p->hits.capacity))
+                p->hits.items[p->hits.count++] = p->hits.items[i];
+        cover_piece(p, of, others, halves[h], begin, p->hits.count - begin, depth + 1);
+        p->hits.count = begin;
     }
 }
 
@@ -415,26 +415,6 @@ static tn_box_bounds bounds_of(const flat *face)
                            {(double)face->high_u, (double)face->high_v, 0}};
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* Lists the faces of the other side that may touch one, in their order. */
-static void find_hits(planes *p, const flat *face, const tn_box_tree *tree)
-{
-    const tn_box_bounds bounds = bounds_of(face);
-    tn_box_search search;
-    uint32_t other;
-    p->hit_count = 0;
-    tn_box_tree_search(tree, &bounds, &search);
-    while (tn_box_search_next(&search, &other) && room(p, &p->hits, sizeof other, p->hit_count, &p->hit_capacity))
-        p->hits[p->hit_count++] = other;
-    if (p->hit_count > 1)
-        qsort(p->hits, p->hit_count, sizeof *p->hits, by_number);
-}
-
 /* Takes the faces of the other side from each of one side. */
 static void cover(planes *p, const flat *faces, size_t count, const flat *others, size_t other_count)
 {
@@ -446,8 +426,9 @@ static void cover(planes *p, const flat *faces, size_t count, const flat *others
         p->grid->failed = true;
     for (size_t i = 0; i < count && !p->grid->failed; i++) {
         piece one = whole_piece(p, &faces[i]);
-        find_hits(p, &faces[i], &tree);
-        cover_piece(p, &faces[i], others, one, 0, p->hit_count, 0);
+        const tn_box_bounds face = bounds_of(&faces[i]);
+        p->grid->failed |= !tn_box_tree_list(&tree, &face, &p->hits);
+        cover_piece(p, &faces[i], others, one, 0, p->hits.count, 0);
     }
     tn_box_tree_clear(&tree);
     free(bounds);
@@ -479,5 +460,5 @@ void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count)
     free(p.cut);
     free(p.pieces);
     free(p.left);
-    free(p.hits);
+    free(p.hits.items);
 }
