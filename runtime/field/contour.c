@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "runtime/field/contour_parts.h"
 
@@ -96,20 +97,28 @@ static tn_status drop_unused(tn_mesh *mesh, tn_error *error)
     return TN_OK;
 }
 
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error)
 {
+    static tn_status (*const stages[])(tn_contouring *, tn_error *) = {tn_contour_signs, tn_contour_roots,
+                                                                       tn_contour_cells, tn_contour_sharp_cells};
     *contour = (tn_contour){.mesh.watch = field->module->watch};
     for (int axis = 0; axis < 3; axis++)
         contour->spacing = fmax(contour->spacing, (grid->high[axis] - grid->low[axis]) / (grid->count[axis] - 1));
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};
     tn_status status = tn_contouring_begin(&c, NULL, error);
-    if (status == TN_OK)
-        status = tn_contour_signs(&c, error);
-    if (status == TN_OK)
-        status = tn_contour_roots(&c, error);
-    if (status == TN_OK)
-        status = tn_contour_cells(&c, error);
+    for (int i = 0; i < 3 && status == TN_OK; i++) {
+        double begun = now();
+        status = stages[i == 2 && options->sharp ? 3 : i](&c, error);
+        contour->seconds[i] = now() - begun;
+    }
     if (status == TN_OK)
         tn_contouring_count(&c);
     if (status == TN_OK && options->jumps_open)

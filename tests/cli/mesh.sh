@@ -123,5 +123,11 @@ normals = [list(map(float, line[1:])) for line in lines if line[0] == "vn"]
 caps = [n for v, n in zip(vertices, normals) if v[2] > 6.9 and v[0] ** 2 + v[1] ** 2 < 2]
 assert len(caps) > 20 and all(n[2] > 0.999 for n in caps), len(caps)
 PYTHON
+# ---- sharp edges
+printf 'surface block = max(max(abs(x) - 4.1, abs(y) - 3.2), abs(z) - 2.3) grid 30' >block.field
+golden sharp "tartan mesh $scratch/block.field --sharp"
+golden sharp_crossing "tartan mesh primitives --surface klein --grid 30 --sharp --stats json"
+"$TARTAN" mesh block.field --times --stats json | grep -q '"seconds": {"samples": 0' || fail "no times"
+exits 2 "$TARTAN" mesh table --sharp
 golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
 finish
