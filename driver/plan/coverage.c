@@ -271,19 +271,22 @@ static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
 {
     uint32_t at = 0;
     uint32_t *offsets = malloc(((size_t)s->trees[0].count + s->trees[1].count + 1) * sizeof *offsets);
-    const tn_part *parts = s->trees[0].parts;
+    const tn_parts *tree = &s->trees[0];
+    const tn_part *parts = tree->parts;
     unsigned depth = 0;
     tn_status status = offsets ? TN_OK : tn_fail_memory(error);
     while (status == TN_OK) {
-        if (!tn_part_unwritten(&s->trees[0], at))
+        if (!tn_part_is_step(tree, at))
             status = measure_part(m, s, at, depth, offsets, error);
         if (parts[at].first != TN_NO_PART) {
+            depth += !tn_part_is_step(tree, at);
             at = parts[at].first;
-            depth++;
             continue;
         }
-        for (; at != 0 && parts[at].next == TN_NO_PART; depth--)
+        while (at != 0 && parts[at].next == TN_NO_PART) {
             at = parts[at].parent;
+            depth -= !tn_part_is_step(tree, at);
+        }
         if (at == 0)
             break;
         at = parts[at].next;

@@ -15,7 +15,7 @@ static uint32_t do_cell(const cells *all, const tn_cell_row *row, uint32_t bit, 
 {
     const uint8_t *triangles = tn_contour_table[mask];
     uint32_t count = 0;
-    if (!out && !all->c->options->jumps_open)
+    if (!out && (!all->c->options->jumps_open || all->c->options->survey))
         return triangles[0];
     for (uint32_t t = 0; t < triangles[0]; t++) {
         uint32_t corner[3];
@@ -55,16 +55,24 @@ static tn_status do_layer(void *context, unsigned thread, size_t item, tn_error 
     return TN_OK;
 }
 
-tn_status tn_contour_make_room(tn_contouring *c, uint64_t count, tn_error *error)
+static tn_status check_count(const tn_contouring *c, uint64_t count, tn_error *error)
 {
     uint64_t most = c->options->triangles ? c->options->triangles : TN_TRIANGLES_MAX;
-    tn_mesh *mesh = &c->out->mesh;
     if (count > most) {
         tn_fail(error, TN_LIMIT, E_FIELD_TRIANGLES, "the mesh has %llu triangles; the limit is %llu",
                 (unsigned long long)count, (unsigned long long)most);
         tn_error_help(error, "take a coarser --grid, or raise --max-triangles");
         return TN_LIMIT;
     }
+    return TN_OK;
+}
+
+tn_status tn_contour_make_room(tn_contouring *c, uint64_t count, tn_error *error)
+{
+    tn_mesh *mesh = &c->out->mesh;
+    tn_status status = check_count(c, count, error);
+    if (status != TN_OK)
+        return status;
     mesh->face_count = (size_t)count;
     mesh->corners = malloc((3 * (size_t)count + 1) * sizeof *mesh->corners);
     mesh->face_first = malloc(((size_t)count + 1) * sizeof *mesh->face_first);
@@ -84,10 +92,12 @@ tn_status tn_contour_cells(tn_contouring *c, tn_error *error)
     tn_status status = tn_crew_run(c->crew, layers, 1, do_layer, &all, error);
     for (uint32_t z = 0; z < layers; z++)
         all.layer_first[z + 1] += all.layer_first[z];
-    if (status == TN_OK)
+    if (status == TN_OK && c->options->survey)
+        status = check_count(c, all.layer_first[layers], error);
+    else if (status == TN_OK)
         status = tn_contour_make_room(c, all.layer_first[layers], error);
     all.corners = c->out->mesh.corners;
-    if (status == TN_OK)
+    if (status == TN_OK && !c->options->survey)
         status = tn_crew_run(c->crew, layers, 1, do_layer, &all, error);
     free(all.layer_first);
     return status;

@@ -36,7 +36,7 @@ tn_status tn_contouring_begin(tn_contouring *c, const double *z, tn_error *error
     c->crew = tn_crew_new(c->threads, c->field->module->watch);
     c->words = (n[0] + 63) / 64;
     c->signs = calloc((size_t)n[1] * n[2] * c->words, sizeof *c->signs);
-    c->first = malloc((size_t)n[1] * n[2] * sizeof *c->first);
+    c->first = calloc((size_t)n[1] * n[2], sizeof *c->first);
     c->layer_jumps = calloc(n[2], sizeof *c->layer_jumps);
     c->layer_moved = calloc(n[2], sizeof *c->layer_moved);
     for (int axis = 0; axis < 3; axis++) {
@@ -114,7 +114,7 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
         contour->spacing = fmax(contour->spacing, (grid->high[axis] - grid->low[axis]) / (grid->count[axis] - 1));
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};
     tn_status status = tn_contouring_begin(&c, NULL, error);
-    for (int i = 0; i < 3 && status == TN_OK; i++) {
+    for (int i = 0; i < 3 && status == TN_OK; i += i == 0 && options->survey ? 2 : 1) {
         double begun = now();
         status = stages[i == 2 && options->sharp ? 3 : i](&c, error);
         contour->seconds[i] = now() - begun;

@@ -16,6 +16,7 @@ typedef struct tn_contour_options {
     bool open;          /* the mesh ends at the box */
     bool jumps_open;    /* leave out triangles that touch a jump */
     bool sharp;         /* sharp edges and corners: points are added, and triangles may cross */
+    bool survey;        /* no mesh: only what the samples say, and whether it would pass a limit */
     uint64_t samples;   /* the most, 0: TN_SAMPLES_MAX */
     uint64_t triangles; /* the most, 0: TN_TRIANGLES_MAX */
 } tn_contour_options;
