@@ -17,6 +17,7 @@
 #define CELL 150.0   /* of several, in points */
 #define SINGLE 340.0 /* of one alone */
 #define DPI 144u
+#define ENLARGED 2.0    /* at most, what would be small beside others */
 #define BATCH_CELLS 32u /* an image takes 360 kB */
 
 /* What the eye sees of a mesh. */
@@ -70,7 +71,7 @@ typedef struct batch {
     const extent *extents;
     const sheet *s;
     uint32_t side;                 /* of an image, in pixels */
-    double scale;                  /* points a unit, or 0: each fills its cell */
+    double largest;                /* side of what is drawn */
     uint32_t *images[BATCH_CELLS]; /* owned */
 } batch;
 
@@ -79,7 +80,7 @@ static tn_status make_image(void *context, unsigned thread, size_t item, tn_erro
     (void)thread;
     batch *b = context;
     const extent *e = &b->extents[item];
-    double pixel = 72.0 / b->s->dpi, scale = b->scale > 0 ? b->scale : b->s->cell / side_of(e);
+    double pixel = 72.0 / b->s->dpi, scale = b->s->cell / fmax(side_of(e), b->largest / ENLARGED);
     tn_render_frame frame = {.width = b->side,
                              .height = b->side,
                              .left = (e->low[0] + e->high[0]) / 2 - b->s->cell / scale / 2,
@@ -120,14 +121,14 @@ static double largest_side(const extent *extents, size_t count)
 static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const extent *extents, size_t count,
                             const sheet *s, const tn_meshes_picture *picture, tn_error *error)
 {
-    double pixel = 72.0 / s->dpi, scale = picture->own_scales ? 0 : s->cell / largest_side(extents, count);
+    double pixel = 72.0 / s->dpi, largest = largest_side(extents, count);
     uint32_t side = (uint32_t)ceil(s->cell / pixel);
     tn_crew *crew = tn_crew_new(0, NULL);
     tn_status status = crew ? TN_OK : tn_fail_memory(error);
     tn_type_face(cr, 9, false);
     cairo_set_source_rgb(cr, 0, 0, 0);
     for (size_t first = 0; first < count && status == TN_OK; first += BATCH_CELLS) {
-        batch b = {.meshes = meshes + first, .extents = extents + first, .s = s, .side = side, .scale = scale};
+        batch b = {.meshes = meshes + first, .extents = extents + first, .s = s, .side = side, .largest = largest};
         size_t here = count - first < BATCH_CELLS ? count - first : BATCH_CELLS;
         status = tn_crew_run(crew, here, 1, make_image, &b, error);
         for (size_t i = 0; i < here && status == TN_OK; i++) {
