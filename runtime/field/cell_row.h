@@ -13,6 +13,7 @@ typedef struct tn_cell_row {
     const uint64_t *signs[4];
     uint32_t first[4][3];    /* the next vertex of each row of edges, at the word at hand */
     uint64_t crossing[4][3]; /* of the word at hand */
+    uint64_t corner[8];      /* a bit a cell of the word: is this corner inside? */
 } tn_cell_row;
 
 static inline void tn_cell_row_open(const tn_contouring *c, uint32_t y, uint32_t z, tn_cell_row *row)
@@ -24,31 +25,27 @@ static inline void tn_cell_row_open(const tn_contouring *c, uint32_t y, uint32_t
     }
 }
 
-/* The cells of a word that have both kinds of corners. */
-static inline uint64_t tn_cells_mixed(const tn_contouring *c, const tn_cell_row *row, size_t word)
+/* Looks at a word: the corners of its cells, and the edges along each axis that cross; those along y go from rows 0 and
+ * 2, along z from 0 and 1. False where all corners are alike, so that nothing crosses. */
+static inline bool tn_cell_row_look(const tn_contouring *c, tn_cell_row *row, size_t word)
 {
     uint64_t any = 0, all = ~(uint64_t)0;
     for (int k = 0; k < 4; k++) {
         uint64_t next = word + 1 < c->words ? row->signs[k][word + 1] << 63 : 0;
-        uint64_t here = row->signs[k][word], beside = here >> 1 | next;
-        any |= here | beside;
-        all &= here & beside;
+        row->corner[2 * k] = row->signs[k][word];
+        row->corner[2 * k + 1] = row->signs[k][word] >> 1 | next;
+        any |= row->corner[2 * k] | row->corner[2 * k + 1];
+        all &= row->corner[2 * k] & row->corner[2 * k + 1];
     }
-    uint32_t edges = c->grid->count[0] - 1;
-    size_t left = edges > 64 * word ? edges - 64 * word : 0;
-    uint64_t exist = left >= 64 ? ~(uint64_t)0 : ((uint64_t)1 << left) - 1;
-    return any & ~all & exist;
-}
-
-/* The edges along each axis that cross in this word; those along y go from rows 0 and 2, along z from 0 and 1. */
-static inline void tn_cell_row_cross(const tn_contouring *c, tn_cell_row *row, size_t word)
-{
+    if (any == all)
+        return false;
     for (int k = 0; k < 4; k++)
         row->crossing[k][0] = tn_crossing_x(c, row->signs[k], word);
     for (int k = 0; k < 4; k += 2)
         row->crossing[k][1] = row->signs[k][word] ^ row->signs[k + 1][word];
     for (int k = 0; k < 2; k++)
         row->crossing[k][2] = row->signs[k][word] ^ row->signs[k + 2][word];
+    return true;
 }
 
 static inline void tn_cell_row_pass(tn_cell_row *row)
@@ -62,16 +59,25 @@ static inline void tn_cell_row_pass(tn_cell_row *row)
     }
 }
 
-static inline unsigned tn_cell_mask(const tn_contouring *c, const tn_cell_row *row, size_t word, uint32_t bit)
+/* The cells of the word at hand that have both kinds of corners. */
+static inline uint64_t tn_cells_mixed(const tn_contouring *c, const tn_cell_row *row, size_t word)
+{
+    uint64_t any = 0, all = ~(uint64_t)0;
+    for (int k = 0; k < 8; k++) {
+        any |= row->corner[k];
+        all &= row->corner[k];
+    }
+    uint32_t edges = c->grid->count[0] - 1;
+    size_t left = edges > 64 * word ? edges - 64 * word : 0;
+    uint64_t exist = left >= 64 ? ~(uint64_t)0 : ((uint64_t)1 << left) - 1;
+    return any & ~all & exist;
+}
+
+static inline unsigned tn_cell_mask(const tn_cell_row *row, uint32_t bit)
 {
     unsigned mask = 0;
-    for (unsigned k = 0; k < 4; k++) {
-        uint64_t here = row->signs[k][word] >> bit & 1;
-        uint64_t beside = bit < 63              ? row->signs[k][word] >> (bit + 1) & 1
-                          : word + 1 < c->words ? row->signs[k][word + 1] & 1
-                                                : 0;
-        mask |= (unsigned)here << (2 * k) | (unsigned)beside << (2 * k + 1);
-    }
+    for (unsigned k = 0; k < 8; k++)
+        mask |= (unsigned)(row->corner[k] >> bit & 1) << k;
     return mask;
 }
 

@@ -184,11 +184,12 @@ static tn_status do_layer(void *context, unsigned thread, size_t item, tn_error 
         tn_cell_row row;
         tn_cell_row_open(c, y, (uint32_t)item, &row);
         for (size_t word = 0; word < c->words; word++) {
-            tn_cell_row_cross(c, &row, word);
+            if (!tn_cell_row_look(c, &row, word))
+                continue;
             for (uint64_t mixed = tn_cells_mixed(c, &row, word); mixed; mixed &= mixed - 1) {
                 uint32_t bit = (uint32_t)__builtin_ctzll(mixed);
                 cell in = {&row, bit, {(uint32_t)(64 * word) + bit, y, (uint32_t)item}, 0, 0};
-                in.mask = tn_cell_mask(c, &row, word, bit);
+                in.mask = tn_cell_mask(&row, bit);
                 if (!do_cell(s, &s->layers[item], &in))
                     return tn_fail_memory(error);
             }
