@@ -107,4 +107,15 @@ closed = all(edges[b, a] == 1 == n for (a, b), n in edges.items())
 print(closed, abs(volume - wanted / 10**27) < F(1, 10**6))
 PY
 )" 'True True'
+# Questions about plans leave what a file says of houses alone, or say that it is about houses.
+golden library_of_houses 'tartan enumerate cottage -l cottages'
+golden rule_of_houses 'tartan export cottage --regex --rule far-bed'
+golden where_of_houses 'tartan count cottage --where "cell(kitchen)"'
+golden where_of_plans 'tartan count cottage --where "quantity(any) = 2" | tail -n 8'
+golden where_in_houses 'tartan count cottage -l cottages --where "quantity(any) = 2"'
+golden coverage 'tartan test cottage --coverage'
+golden prolog 'tartan export cottage --prolog | tail -n 2'
+exits 0 "$TARTAN" report cottage -o "$scratch/report"
+[ -s "$scratch/report/index.html" ] || fail 'no report of plans that houses are built on'
+
 finish
