@@ -76,8 +76,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             tn_gene_tree_clear(&pair[0]);
             tn_gene_tree_clear(&pair[1]);
         }
-        tn_field_parents_free(parents);
     }
+    tn_field_parents_free(parents);
     free(text);
     return 0;
 }
