@@ -9,6 +9,7 @@
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/place/measure.h"
+#include "runtime/place/search/search.h"
 #include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
@@ -77,7 +78,6 @@ void fuzz_growth(const tn_module *module)
     grow_module(module);
 }
 
-/* Small limits, and both ways of looking ahead come to the same. */
 /* What was placed of a kit is measured, and its conditions are asked. */
 static void fuzz_measures(const tn_module *module, const tn_place_rules *rules, const tn_placed_model *model)
 {
@@ -102,11 +102,36 @@ static tn_status make_rules(const tn_module *module, tn_place_rules *rules)
                                    : tn_place_rules_make(module, rules, NULL);
 }
 
+/* Every model of a kit is searched for, as far as a few models go. */
+static void fuzz_search(const tn_module *module)
+{
+    for (uint32_t i = 0; i < module->KIT_MODEL_count; i++) {
+        tn_place_rules rules;
+        tn_placed_model model;
+        tn_watch watch;
+        if (tn_place_rules_of_model(module, i, &rules, NULL) != TN_OK)
+            return;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
+        const tn_kit_model_record *space = rules.space;
+        double cells = (double)(space->high_x - space->low_x) * (double)(space->high_y - space->low_y) *
+                       (double)(space->high_z - space->low_z);
+        if (cells < 1e6) { /* more take long to count */
+            tn_place_options options = {.part_limit = 30, .search_limit = 20, .threads = 1, .watch = &watch};
+            tn_place_search(&rules, &options, &model, NULL);
+            tn_placed_model_clear(&model);
+        }
+        tn_place_rules_clear(&rules);
+    }
+}
+
+/* Small limits, and both ways of looking ahead come to the same. */
 void fuzz_place(const tn_module *module)
 {
     tn_place_rules rules;
     if (make_rules(module, &rules) != TN_OK)
         return;
+    fuzz_search(module);
     tn_placed_model models[2];
     tn_status found[2];
     for (int way = 0; way < 2; way++) {
