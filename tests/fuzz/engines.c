@@ -8,6 +8,7 @@
 #include "runtime/house/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/measure.h"
 #include "runtime/place/search/search.h"
 #include "runtime/solid/measure.h"
@@ -102,6 +103,22 @@ static tn_status make_rules(const tn_module *module, tn_place_rules *rules)
                                    : tn_place_rules_make(module, rules, NULL);
 }
 
+/* Buildings of a few parts of a kit: both ways of splitting the work come to the same. */
+static void fuzz_count(const tn_module *module)
+{
+    const tn_place_rules rules = {.module = module};
+    for (uint32_t parts = 1; module->KIT_PART_count > 0 && module->KIT_PART_count < 4 && parts < 3; parts++) {
+        tn_building_counts counts[2];
+        tn_watch watch;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
+        tn_status status = tn_count_buildings(&rules, NULL, parts, false, 1, &watch, &counts[0], NULL);
+        if (status == TN_OK && tn_count_buildings(&rules, NULL, parts, true, 2, &watch, &counts[1], NULL) == TN_OK &&
+            counts[0].fixed != counts[1].fixed)
+            fuzz_broken("one thread counts as many buildings as two");
+    }
+}
+
 /* Every model of a kit is searched for, as far as a few models go. */
 static void fuzz_search(const tn_module *module)
 {
@@ -132,6 +149,7 @@ void fuzz_place(const tn_module *module)
     if (make_rules(module, &rules) != TN_OK)
         return;
     fuzz_search(module);
+    fuzz_count(module);
     tn_placed_model models[2];
     tn_status found[2];
     for (int way = 0; way < 2; way++) {

@@ -1,5 +1,5 @@
-/* Compiling a kit, placing it, measuring what was placed, and searching for other models, with each allocation failing
- * once: an error every time, and nothing left behind. */
+/* Compiling a kit, placing it, measuring what was placed, searching for other models and counting buildings, with each
+ * allocation failing once: an error every time, and nothing left behind. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "driver/open/open.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/measure.h"
 #include "runtime/place/search/search.h"
 #include "tests/support/failing_memory.h"
@@ -68,6 +69,12 @@ static tn_status run(void)
                     tn_kit_condition_holds(opened.module, opened.module->KIT_CONDITION_records[0].holds, &measured));
     if (status == TN_OK)
         status = search(opened.module, &error);
+    tn_building_counts counts = {0};
+    if (status == TN_OK)
+        status =
+            tn_count_buildings(&(tn_place_rules){.module = opened.module}, NULL, 3, false, 1, NULL, &counts, &error);
+    if (status == TN_OK)
+        assert_true(counts.buildings > 0 && counts.buildings < counts.fixed);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&model);
     tn_place_rules_clear(&rules);
