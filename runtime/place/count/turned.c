@@ -19,6 +19,7 @@ typedef struct turning {
     const tn_lattice *l;
     uint32_t parts, turns;
     int32_t axis[2]; /* twice where it stands along x and z, in cells */
+    int32_t *axes;   /* such numbers for which some part has its image on the lattice, up to steps of it */
     uint8_t *marks;  /* [slot]: of an orbit's lowest: it was seen */
     size_t *chosen;  /* slots of the parts that are there */
     size_t *untried; /* for each number of chosen orbits */
@@ -170,6 +171,8 @@ static tn_status count_about(turning *t)
     for (size_t slot = first; slot < first + layer && status == TN_OK; slot++) {
         int32_t corner[3];
         tn_slot_look(t->l, slot, corner);
+        if (tn_watch_stopped_at(t->watch, slot))
+            return tn_fail_stopped(t->watch, t->error);
         bool near = true; /* half of the longest chain of joints from the axis */
         for (int k = 0; k < 3; k += 2)
             near &= 2 * (int64_t)abs(corner[k]) <= (int64_t)t->parts * t->l->most[k] + 4 * (int64_t)t->l->most[k];
@@ -177,6 +180,33 @@ static tn_status count_about(turning *t)
             status = count_from(t, slot);
     }
     return status;
+}
+
+static bool is_listed(const int32_t *axes, size_t count, int32_t axis)
+{
+    for (size_t i = 0; i < count; i++)
+        if (axes[i] == axis)
+            return true;
+    return false;
+}
+
+/* An image's corner is the axis's number less the corner and the extent, and a multiple of the step like the corner. Of
+ * quarter turns (turn_slot) half the sum of the two numbers takes that place, and half their difference is such a
+ * multiple: up to steps of the lattice the two are equal. */
+static size_t list_axes(turning *t)
+{
+    size_t count = 0;
+    int32_t step = t->l->step[0];
+    for (uint32_t look = 0; look < t->l->look_count; look++) {
+        for (int k = 0; k < 3; k += 2) {
+            int32_t rest = t->l->looks[look].size[k] % step;
+            if (is_listed(t->axes, count, rest))
+                continue;
+            t->axes[count++] = rest;
+            t->axes[count++] = rest + step;
+        }
+    }
+    return count;
 }
 
 tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
@@ -189,14 +219,21 @@ tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t tu
     t.marks = calloc(lattice->slot_count, sizeof *t.marks);
     t.chosen = calloc(parts + IMAGES, sizeof *t.chosen);
     t.untried = calloc(t.room * ((size_t)parts + 1), sizeof *t.untried);
-    if (!t.marks || !t.chosen || !t.untried)
+    t.axes = calloc(4 * (size_t)lattice->look_count, sizeof *t.axes);
+    if (!t.marks || !t.chosen || !t.untried || !t.axes)
         status = tn_fail_memory(error);
-    for (t.axis[0] = 0; t.axis[0] < 2 * lattice->step[0]; t.axis[0]++)
-        for (t.axis[1] = 0; t.axis[1] < 2 * lattice->step[2] && status == TN_OK; t.axis[1]++)
-            if (turns == 2 || (t.axis[0] + t.axis[1]) % 2 == 0)
+    size_t axes = status == TN_OK ? list_axes(&t) : 0;
+    for (size_t i = 0; i < axes && status == TN_OK; i++) {
+        for (size_t j = 0; j < axes && status == TN_OK; j++) {
+            t.axis[0] = t.axes[i];
+            t.axis[1] = t.axes[j];
+            if (turns == 2 || i == j)
                 status = count_about(&t);
+        }
+    }
     *count = t.count;
     free(t.marks);
+    free(t.axes);
     free(t.chosen);
     free(t.untried);
     return status;
