@@ -102,7 +102,10 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job_begin(&job, settings);
     const house_settings *own = settings_of(&job);
     if (tn_house_files_known(&job, &own->outputs) && tn_job_open(&job, settings->operands.items[0])) {
-        const tn_house_settings houses = {own->library, (uint32_t)own->max_states.value, max_trays(&job)};
+        const tn_house_settings houses = {
+            .library = own->library,
+            .max_length = max_trays(&job),
+            .plans = {.max_states = (uint32_t)own->max_states.value, .max_length = (uint32_t)max_trays(&job)}};
         if (tn_is_house_number(text))
             tn_job_use_house(&job, &houses, text, write_files);
         else

@@ -34,10 +34,8 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
         tn_form_ready(module, n->record->form, n->schema, &n->form);
         status = tn_house_variants_new(&n->form, n->record, 0, &n->variants, &error);
     }
-    const tn_library_options options = {.max_states = settings->max_states,
-                                        .max_length = (uint32_t)settings->max_length};
     if (status == TN_OK)
-        status = tn_library_new(n->schema, n->record->plans, &options, &n->plans, &error);
+        status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->plans, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     return status == TN_OK;
@@ -48,6 +46,16 @@ void tn_numbered_close(tn_numbered *n)
     tn_house_variants_free(n->variants);
     tn_library_free(n->plans);
     tn_schema_free(n->schema);
+}
+
+bool tn_job_takes_houses(tn_job *job, const char *output)
+{
+    const char *ending = output ? strrchr(output, '.') : NULL;
+    if (!ending || (strcmp(ending, ".sqlite") != 0 && strcmp(ending, ".sqlite3") != 0 && strcmp(ending, ".db") != 0))
+        return true;
+    tn_diagnostic *d = tn_job_usage(job, "houses are written as lines, not into a database");
+    tn_help(tn_job_diagnostics(job), d, "give the file another ending, such as .txt");
+    return false;
 }
 
 void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
@@ -135,6 +143,17 @@ static tn_status too_many_plans(const mpz_t plans, tn_error *error)
 
 tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error)
 {
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, kept);
+    tn_status status = mpz_cmp_ui(kept, TN_HOUSE_PLANS_MAX) > 0 ? too_many_plans(kept, error)
+                                                                : tn_numbered_plans_until(n, visit, context, error);
+    mpz_clear(kept);
+    return status;
+}
+
+tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error)
+{
     tn_cursor *cursor = NULL;
     const tn_tray *trays;
     uint32_t length;
@@ -142,8 +161,7 @@ tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context,
     mpz_t from, to;
     mpz_inits(from, to, NULL);
     tn_library_kept(n->plans, TN_ALL_LENGTHS, to);
-    tn_status status = mpz_cmp_ui(to, TN_HOUSE_PLANS_MAX) > 0 ? too_many_plans(to, error)
-                                                              : tn_cursor_new(n->plans, from, to, &cursor, error);
+    tn_status status = tn_cursor_new(n->plans, from, to, &cursor, error);
     while (status == TN_OK && !stop && tn_cursor_next(cursor, &trays, &length))
         status = visit(n, context, trays, length, &stop, error);
     tn_cursor_free(cursor);

@@ -4,12 +4,13 @@
 
 #include "cli/common/job.h"
 #include "runtime/house/house.h"
+#include "runtime/plan/library/library.h"
 
 /* What the options say of the library of houses and of its plans. */
 typedef struct tn_house_settings {
     const char *library; /* NULL: the only one */
-    uint32_t max_states;
     size_t max_length;
+    tn_library_options plans;
 } tn_house_settings;
 
 /* Counts the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
@@ -20,6 +21,20 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const c
  * drawn with the same probability. */
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
                           uint64_t seed, const char *output);
+
+/* The houses [from, to) by rank, at most `limit` where `limited`. */
+typedef struct tn_house_range {
+    const char *from, *to; /* digits; NULL: the first, all */
+    uint64_t limit;
+    bool limited;
+} tn_house_range;
+
+/* Writes the lines of the houses of the library, or of those on one plan, in the order of their ranks. */
+void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
+                        const char *output);
+
+/* Houses are lines of text: reports an output that is named as a database. */
+bool tn_job_takes_houses(tn_job *job, const char *output);
 
 /* Writes the name #P:V of a house. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line);

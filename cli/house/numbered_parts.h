@@ -28,6 +28,8 @@ tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, 
 typedef tn_status tn_plan_visit(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
                                 tn_error *error);
 tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error);
+/* However many there are: for what stops, or shows what it has. */
+tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error);
 
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);

@@ -105,11 +105,11 @@ static tn_status sample_houses(tn_numbered *n, const tn_plan *plan, size_t wante
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
                           uint64_t seed, const char *output)
 {
-    tn_numbered n;
+    tn_numbered n = {0};
     tn_error error = {0};
     tn_output out;
     tn_plan on = {0};
-    if (tn_numbered_open(&n, job, settings)) {
+    if (tn_job_takes_houses(job, output) && tn_numbered_open(&n, job, settings)) {
         tn_status status = plan ? tn_numbered_plan(&n, plan, settings->max_length, &on, &error) : TN_OK;
         if (status != TN_OK) {
             tn_numbered_bad_text(job, &error, "PLAN", plan);

@@ -233,7 +233,10 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const vary_settings *settings = (const vary_settings *)common;
     size_t max_trays = settings->max_length.given ? (size_t)settings->max_length.value : TN_HOUSE_TRAYS_DEFAULT;
-    const tn_house_settings houses = {settings->library, (uint32_t)settings->max_states.value, max_trays};
+    const tn_house_settings houses = {
+        .library = settings->library,
+        .max_length = max_trays,
+        .plans = {.max_states = (uint32_t)settings->max_states.value, .max_length = (uint32_t)max_trays}};
     tn_job job;
     tn_numbered n;
     tn_job_begin(&job, common);

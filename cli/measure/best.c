@@ -1,14 +1,9 @@
 /* tartan best: the best plans of a library by measures, in order. */
 #include <stdlib.h>
 
-#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/progress.h"
-#include "cli/measure/wishes.h"
+#include "cli/measure/best_search.h"
 #include "cli/plan/plan_output.h"
-#include "cli/plan/sheet.h"
-#include "driver/open/digits.h"
-#include "runtime/plan/measure/best.h"
 
 enum { BEST_DEFAULT = 10, BEST_MAX = 1000000 };
 
@@ -29,53 +24,31 @@ static const best_settings *settings_of(const tn_job *job)
  * writes. */
 typedef struct sink {
     tn_job *job;
-    const tn_ready_library *ready;
-    const tn_wishes *wishes;
-    const tn_weighed *weighed;
+    const tn_best_search *search;
     tn_plan_writer *writer; /* NULL: `output` */
     tn_output output;
     bool json, draws;
-    tn_plan_sheet sheet;
     tn_buffer text;
     tn_buffer values; /* as text: many plans in a row have the same */
     int64_t written[TN_WEIGHED_MAX];
 } sink;
 
-static const char *measure_name(const sink *s, uint32_t k)
-{
-    const tn_module *module = s->ready->schema->module;
-    return tn_text(module, module->MEASURE_records[s->wishes->measures[k]].name);
-}
-
-/* "3.  cost 87,880, area 304 ft2" */
-static tn_status add_drawn(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
-                           tn_error *error)
-{
-    tn_buffer caption = {0};
-    bool ok = tn_buffer_printf(&caption, "%zu.  ", s->sheet.count + 1);
-    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(&caption, "%s%s ", k ? ", " : "", measure_name(s, k)) &&
-             tn_wishes_text(s->wishes, s->weighed, k, values[k], &caption);
-    if (ok)
-        return tn_sheet_add(&s->sheet, trays, length, mpz_get_str(NULL, 10, rank), NULL, caption.data, error);
-    free(caption.data);
-    return tn_fail_memory(error);
-}
-
 static bool write_values(sink *s, const int64_t *values)
 {
-    bool list = s->wishes->count > 1;
+    const tn_wishes *wishes = &s->search->wishes;
+    bool list = wishes->count > 1;
     s->values.size = 0;
     bool ok = tn_buffer_printf(&s->values, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
-    for (uint32_t k = 0; ok && k < s->wishes->count; k++) {
+    for (uint32_t k = 0; ok && k < wishes->count; k++) {
         ok = k == 0 || tn_buffer_printf(&s->values, s->json ? "," : "  ");
         s->written[k] = values[k];
         if (!s->json) {
-            ok = ok && tn_wishes_text(s->wishes, s->weighed, k, values[k], &s->values);
+            ok = ok && tn_wishes_text(wishes, s->search->weighed, k, values[k], &s->values);
             continue;
         }
         ok = ok && tn_buffer_printf(&s->values, "\"") &&
-             tn_wishes_exact(s->wishes, s->weighed, k, values[k], &s->values) && tn_buffer_printf(&s->values, "\"");
+             tn_wishes_exact(wishes, s->search->weighed, k, values[k], &s->values) &&
+             tn_buffer_printf(&s->values, "\"");
     }
     return ok && (!s->json || !list || tn_buffer_printf(&s->values, "]"));
 }
@@ -83,27 +56,26 @@ static bool write_values(sink *s, const int64_t *values)
 static bool put_values(sink *s, const int64_t *values)
 {
     bool same = s->values.size > 0;
-    for (uint32_t k = 0; same && k < s->wishes->count; k++)
+    for (uint32_t k = 0; same && k < s->search->wishes.count; k++)
         same = values[k] == s->written[k];
     return (same || write_values(s, values)) && tn_buffer_append(&s->text, s->values.data, s->values.size);
 }
 
-static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const int64_t *values, const mpz_t rank,
-                          tn_error *error)
+static tn_status put_plan(void *to, const tn_best_plan *plan, tn_error *error)
 {
-    if (s->draws)
-        return add_drawn(s, trays, length, values, rank, error);
+    sink *s = to;
+    const tn_schema *schema = s->search->ready->schema;
     if (s->writer)
-        return tn_plan_writer_write(s->writer, rank, trays, length, error);
+        return tn_plan_writer_write(s->writer, plan->rank, plan->trays, plan->length, error);
     s->text.size = 0;
-    char *digits = mpz_get_str(NULL, 10, rank);
-    bool ok = digits && put_values(s, values);
+    char *digits = mpz_get_str(NULL, 10, plan->rank);
+    bool ok = digits && put_values(s, plan->values);
     if (s->json)
         ok = ok && tn_buffer_printf(&s->text, ",\"rank\":\"%s\",\"trays\":", digits) &&
-             tn_plan_write_trays(s->ready->schema, trays, length, &s->text) && tn_buffer_printf(&s->text, "}\n");
+             tn_plan_write_trays(schema, plan->trays, plan->length, &s->text) && tn_buffer_printf(&s->text, "}\n");
     else
         ok = ok && tn_buffer_printf(&s->text, "  rank %s\n", digits) &&
-             tn_plan_write_line(s->ready->schema, trays, length, &s->text) && tn_buffer_printf(&s->text, "\n");
+             tn_plan_write_line(schema, plan->trays, plan->length, &s->text) && tn_buffer_printf(&s->text, "\n");
     free(digits);
     if (!ok)
         return tn_fail_memory(error);
@@ -111,83 +83,33 @@ static tn_status put_plan(sink *s, const tn_tray *trays, uint32_t length, const 
     return TN_OK;
 }
 
-/* A plan whose mirror image is kept and of lower rank is left out where pairs count once. */
-static bool is_wanted(const sink *s, const tn_tray *trays, uint32_t length)
-{
-    return !settings_of(s->job)->mirror || tn_library_mirror_first(s->ready->library, trays, length);
-}
-
-static void give(sink *s, tn_best *best, uint64_t wanted)
-{
-    tn_error error;
-    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(s->ready->library) + 1));
-    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
-    mpz_t rank;
-    mpz_init(rank);
-    bool found = true;
-    tn_progress progress;
-    tn_progress_watch(&progress, "looking for the best", tn_interrupt_waiting());
-    for (uint64_t given = 0; status == TN_OK && found && given < wanted;) {
-        int64_t values[TN_WEIGHED_MAX];
-        uint32_t length;
-        status = tn_best_next(best, trays, &length, values, &found, &error);
-        if (given == 0) /* the first takes longest; from then on lines are written */
-            tn_progress_unwatch(&progress, tn_interrupt_waiting());
-        if (status != TN_OK || !found || !is_wanted(s, trays, length))
-            continue;
-        tn_library_rank(s->ready->library, trays, length, rank);
-        status = put_plan(s, trays, length, values, rank, &error);
-        given++;
-    }
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    if (status != TN_OK)
-        tn_job_fail(s->job, &error);
-    mpz_clear(rank);
-    free(trays);
-}
-
 enum { NOTES = 3, NOTE_SIZE = 256 };
 
-/* "the 10 of 5,000 plans with the least cost, then most area" */
-static bool write_aim(const sink *s, char *note)
+static void draw_best(tn_best_search *search, uint64_t wanted)
 {
-    mpz_t kept;
-    mpz_init(kept);
-    tn_library_kept(s->ready->library, TN_ALL_LENGTHS, kept);
-    char *digits = tn_digits(kept, true);
-    tn_buffer text = {0};
-    bool ok = digits && tn_buffer_printf(&text, "the %zu of %s plans with the ", s->sheet.count, digits);
-    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(&text, "%s%s %s", k ? ", then the " : "", s->wishes->most[k] ? "most" : "least",
-                              measure_name(s, k));
-    if (ok)
-        snprintf(note, NOTE_SIZE, "%s", text.data);
-    free(text.data);
-    free(digits);
-    mpz_clear(kept);
-    return ok;
-}
-
-static void draw_sheet(const sink *s)
-{
-    const tn_module *module = s->ready->schema->module;
+    tn_job *job = search->job;
+    const tn_ready_library *ready = search->ready;
+    const tn_module *module = ready->schema->module;
     char aim[NOTE_SIZE] = "", hash[33], library[NOTE_SIZE], rules[NOTE_SIZE];
     const char *notes[NOTES] = {aim, library, rules};
     tn_error error;
-    tn_library_hash(s->ready->library, hash);
+    tn_plan_sheet sheet = {0};
+    tn_best_search_sheet(search, wanted, settings_of(job)->mirror, &sheet);
+    tn_library_hash(ready->library, hash);
     snprintf(library, sizeof library, "library %s", hash);
-    tn_sheet_note_rules(s->job, rules, sizeof rules);
-    const tn_draw_options options = {.title = tn_text(module, s->ready->record->name),
-                                     .doc = tn_text(module, s->ready->record->doc),
+    tn_sheet_note_rules(job, rules, sizeof rules);
+    const tn_draw_options options = {.title = tn_text(module, ready->record->name),
+                                     .doc = tn_text(module, ready->record->doc),
                                      .number_name = "rank",
                                      .notes = notes,
                                      .note_count = NOTES};
-    tn_status status = write_aim(s, aim) ? TN_OK : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = tn_plans_draw(s->ready->schema, s->sheet.plans, s->sheet.count, &options,
-                               &(tn_picture){.path = settings_of(s->job)->written.output}, &error);
+    tn_status status = tn_best_search_aim(search, sheet.count, aim, sizeof aim) ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK && job->exit_code == TN_EXIT_DONE)
+        status = tn_plans_draw(ready->schema, sheet.plans, sheet.count, &options,
+                               &(tn_picture){.path = settings_of(job)->written.output}, &error);
     if (status != TN_OK)
-        tn_job_fail(s->job, &error);
+        tn_job_fail(job, &error);
+    tn_sheet_clear(&sheet);
 }
 
 /* A picture by its name; text goes out here, so that values can stand with the plans; the other formats as `sample`
@@ -206,43 +128,31 @@ static bool open_sink(sink *s, uint64_t wanted)
     s->json = format == TN_FORMAT_JSON;
     bool text = s->json || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !settings->output);
     return s->draws || (text ? tn_job_output(s->job, settings->output, &s->output)
-                             : tn_job_plan_writer(s->job, s->ready, settings, "best", &s->writer));
+                             : tn_job_plan_writer(s->job, s->search->ready, settings, "best", &s->writer));
 }
 
-static void close_sink(sink *s)
+static void write_best(sink *s, tn_best_search *search, uint64_t wanted)
 {
-    if (s->draws && s->job->exit_code == TN_EXIT_DONE)
-        draw_sheet(s);
-    else if (s->writer)
+    tn_best_search_give(search, wanted, settings_of(s->job)->mirror, put_plan, s);
+    if (s->writer)
         tn_job_plan_close(s->job, s->writer);
-    else if (!s->draws)
+    else
         tn_job_commit(s->job, &s->output);
+    free(s->text.data);
+    free(s->values.data);
 }
 
 static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wanted)
 {
-    tn_wishes wishes;
-    tn_weighed *weighed = NULL;
-    tn_best *best = NULL;
-    tn_error error;
-    if (!tn_wishes_read(job, ready, &settings_of(job)->wanted, 1, &wishes))
-        return;
-    tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
-    if (status == TN_OK)
-        status = tn_best_new(weighed, wishes.most, &best, &error);
-    sink s = {.job = job, .ready = ready, .wishes = &wishes, .weighed = weighed};
-    tn_job_show(job);
-    if (status != TN_OK) {
-        tn_job_fail(job, &error);
-    } else if (open_sink(&s, wanted)) {
-        give(&s, best, wanted);
-        close_sink(&s);
+    tn_best_search search;
+    sink s = {.job = job, .search = &search};
+    if (tn_best_search_open(&search, job, ready, &settings_of(job)->wanted) && open_sink(&s, wanted)) {
+        if (s.draws)
+            draw_best(&search, wanted);
+        else
+            write_best(&s, &search, wanted);
     }
-    tn_sheet_clear(&s.sheet);
-    free(s.text.data);
-    free(s.values.data);
-    tn_best_free(best);
-    tn_weighed_free(weighed);
+    tn_best_search_close(&search);
 }
 
 static int run(const tn_command *command, const tn_settings *common)

@@ -8,13 +8,14 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/plan/plan_output.h"
+#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 
 typedef struct enumerate_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_written_settings written;
-    const char *from, *to;
+    const char *from, *to, *plan;
     tn_option_number limit;
     bool mirror;
 } enumerate_settings;
@@ -207,6 +208,40 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+static void enumerate_plans(tn_job *job, const tn_ready_library *ready)
+{
+    const enumerate_settings *settings = settings_of(job);
+    enumeration e = {.job = job, .ready = ready, .limited = settings->limit.given, .limit = settings->limit.value};
+    char *made = describe(settings);
+    mpz_inits(e.rank, e.to, e.first, NULL);
+    if (find_range(&e) && made && tn_job_plan_writer(job, ready, &settings->written, made, &e.writer))
+        enumerate(&e);
+    mpz_clears(e.rank, e.to, e.first, NULL);
+    free(made);
+}
+
+/* Is the library that is named one of houses, or a plan given whose houses are wanted? */
+static bool is_about_houses(const tn_job *job)
+{
+    const enumerate_settings *settings = settings_of(job);
+    const char *name = settings->plans.library;
+    return settings->plan || (name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD);
+}
+
+static void enumerate_houses(tn_job *job)
+{
+    const enumerate_settings *s = settings_of(job);
+    const tn_house_settings houses = tn_job_houses(&s->plans);
+    const tn_house_range range = {s->from, s->to, s->limit.value, s->limit.given};
+    bool lines = s->written.format == TN_FORMAT_AUTO || s->written.format == TN_FORMAT_LINES;
+    if (!lines || s->mirror || s->written.columns || s->written.csv_safe || s->written.resume) {
+        tn_diagnostic *d = tn_job_usage(job, "houses are written as lines, all of them");
+        tn_help(tn_job_diagnostics(job), d, "leave out --format, --columns, --csv-safe, --mirror and --resume");
+        return;
+    }
+    tn_job_list_houses(job, &houses, s->plan, &range, s->written.output);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -214,16 +249,11 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job job;
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (check_options(&job) && tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
-        enumeration e = {
-            .job = &job, .ready = &ready, .limited = settings->limit.given, .limit = settings->limit.value};
-        char *made = describe(settings);
-        mpz_inits(e.rank, e.to, e.first, NULL);
-        if (find_range(&e) && made && tn_job_plan_writer(&job, &ready, &settings->written, made, &e.writer))
-            enumerate(&e);
-        mpz_clears(e.rank, e.to, e.first, NULL);
-        free(made);
-    }
+    bool open = check_options(&job) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
+    if (open && is_about_houses(&job))
+        enumerate_houses(&job);
+    else if (open && tn_job_opened_library(&job, &settings->plans, &ready))
+        enumerate_plans(&job, &ready);
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -234,6 +264,7 @@ static const tn_option options[] = {
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
+    TEXT("plan", 0, "PLAN", plan, "the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
@@ -247,12 +278,15 @@ static const tn_option options[] = {
 const tn_command tn_command_enumerate = {
     .name = "enumerate",
     .summary = "write all plans of a library",
-    .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]",
+    .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]\nFILE --library HOUSES [--plan PLAN] [--from RANK] "
+             "[--to RANK] [--limit N]",
     .description =
         "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. "
         "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
         "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
-        "the plans written so far are kept, and a note says from which rank to continue.",
+        "the plans written so far are kept, and a note says from which rank to continue.\n\n"
+        "With --library HOUSES, or --plan, houses are written as house lines, plan by plan. Ranks are then among all "
+        "houses of the library, or among those on the plan.",
     .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -67,9 +67,8 @@ static tn_library_options options_of(const tn_plan_settings *plans)
 
 tn_house_settings tn_job_houses(const tn_plan_settings *plans)
 {
-    return (tn_house_settings){.library = plans->library,
-                               .max_states = (uint32_t)plans->max_states.value,
-                               .max_length = tn_job_max_length(plans)};
+    return (tn_house_settings){
+        .library = plans->library, .max_length = tn_job_max_length(plans), .plans = options_of(plans)};
 }
 
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)

@@ -26,10 +26,12 @@ typedef struct measuring {
     tn_covered *covered;
 } measuring;
 
+/* A test of a rule or a library of plans: what measures come to and what houses are is another matter. */
 static bool is_own_test(const measuring *m, size_t b)
 {
     const tn_test_block *block = &m->opened->compilation.program->tests[b];
-    return !block->imported && block->schema == m->schema_index && !m->left_out[b];
+    bool of_rules = !block->is_measure && !block->of_houses;
+    return of_rules && !block->imported && block->schema == m->schema_index && !m->left_out[b];
 }
 
 /* ---- the two sets of functions */
@@ -112,7 +114,7 @@ static tn_status cover_tests(measuring *m, tn_error *error)
     if (!m->tested || !m->left_out)
         return tn_fail_memory(error);
     for (size_t b = 0; b < program->test_count; b++)
-        all += clauses_of(m, &program->tests[b]);
+        all += is_own_test(m, b) ? clauses_of(m, &program->tests[b]) : 0;
     uint32_t *functions = calloc(all + 1, sizeof *functions);
     if (!functions)
         return tn_fail_memory(error);
@@ -271,19 +273,22 @@ static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
 {
     uint32_t at = 0;
     uint32_t *offsets = malloc(((size_t)s->trees[0].count + s->trees[1].count + 1) * sizeof *offsets);
-    const tn_part *parts = s->trees[0].parts;
+    const tn_parts *tree = &s->trees[0];
+    const tn_part *parts = tree->parts;
     unsigned depth = 0;
     tn_status status = offsets ? TN_OK : tn_fail_memory(error);
     while (status == TN_OK) {
-        if (!tn_part_unwritten(&s->trees[0], at))
+        if (!tn_part_is_step(tree, at))
             status = measure_part(m, s, at, depth, offsets, error);
         if (parts[at].first != TN_NO_PART) {
+            depth += !tn_part_is_step(tree, at);
             at = parts[at].first;
-            depth++;
             continue;
         }
-        for (; at != 0 && parts[at].next == TN_NO_PART; depth--)
+        while (at != 0 && parts[at].next == TN_NO_PART) {
             at = parts[at].parent;
+            depth -= !tn_part_is_step(tree, at);
+        }
         if (at == 0)
             break;
         at = parts[at].next;

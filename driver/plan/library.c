@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/house/judge.h"
+
 /* The names of things in a file, for choosing among them. */
 typedef struct names {
     const char **texts;
@@ -48,6 +50,28 @@ static tn_status no_memory(tn_opened *opened)
     return status;
 }
 
+/* Is the name that of a library or a rule about houses, where one about plans is asked for? Then that is said. */
+static bool report_of_houses(tn_opened *opened, const char *what, const char *name)
+{
+    const tn_module *module = opened->module;
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    bool is_library = strcmp(what, "library") == 0;
+    uint32_t found = is_library ? tn_house_library_find(module, name) : tn_house_rule_find(module, name);
+    if (found == TN_NO_RECORD)
+        return false;
+    tn_diagnostic *d =
+        tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                       "`%.80s` is a %s about houses, and a %s about plans is needed here", name, what, what);
+    if (is_library)
+        tn_help(diagnostics, d,
+                "its plans are those of `%.80s`; `tartan count`, `sample`, `unrank`, `house` and `vary` take "
+                "`--library %.80s`",
+                tn_text(module, module->LIBRARY_records[module->HOUSE_LIBRARY_records[found].plans].name), name);
+    else
+        tn_help(diagnostics, d, "`tartan explain` and `tartan match` ask it about the lines of houses");
+    return true;
+}
+
 /* Finds `name` among the names; a name not there is reported with what there is. */
 static tn_status pick(tn_opened *opened, const names *list, const char *what, const char *name, uint32_t *index)
 {
@@ -57,6 +81,8 @@ static tn_status pick(tn_opened *opened, const names *list, const char *what, co
             return TN_OK;
         }
     }
+    if (report_of_houses(opened, what, name))
+        return TN_INVALID;
     tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
     char text[240];
     join(list, text, sizeof text);

@@ -12,6 +12,8 @@ golden length "tartan explain sheds.plan '3m door | 3m - | 3m - | 3m - | 6m -' -
 golden rule "tartan explain sheds.plan '3m - | 6m - | 3m door' --rule wide-end --rule door-pair"
 golden rules_alone "tartan explain parts.plan 'low red 1m | high grey 1m | low grey 2m | high red 1m | low blue 3m' --full"
 golden rules_unmatched "tartan explain parts.plan 'high grey 1m | low blue 1m | high grey 1m' --full"
+golden steps "tartan explain steps.plan '2m x'"
+golden steps_kept "tartan explain steps.plan '2m y' --full"
 golden json "tartan explain sheds.plan '6m - | 3m -' --library sheds --json"
 golden file "printf '3m door\n6m -\n' | tartan explain sheds.plan --plan - --library sheds --nearest 0"
 golden bad_plan "tartan explain sheds.plan '3m dor' --library sheds"

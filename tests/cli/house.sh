@@ -107,4 +107,28 @@ closed = all(edges[b, a] == 1 == n for (a, b), n in edges.items())
 print(closed, abs(volume - wanted / 10**27) < F(1, 10**6))
 PY
 )" 'True True'
+# Houses in the order of their ranks: the number of each is its place.
+golden listed 'tartan enumerate cottage -l cottages --limit 2'
+golden listed_on_plan "tartan enumerate cottage --plan '#10' --from 3 --to 5"
+golden listed_past 'tartan enumerate cottage -l cottages --trays 3..3 --from 300000'
+golden listed_backwards 'tartan enumerate cottage -l cottages --from 5 --to 3'
+golden listed_json 'tartan enumerate cottage -l cottages --format json'
+golden count_trays 'tartan count cottage -l cottages --trays 3..3'
+is 'houses on a plan' "$("$TARTAN" enumerate cottage --plan '#10' | sort -u | wc -l)" \
+    "$("$TARTAN" count cottage --plan '#10' --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')"
+is 'a house by its rank' "$("$TARTAN" enumerate cottage -l cottages --from 4999999 --limit 1)" \
+    "$("$TARTAN" unrank cottage -l cottages 4999999)"
+golden listed_nowhere "tartan enumerate cottage -l cottages --limit 1 -o $scratch/houses.sqlite"
+
+# Questions about plans leave what a file says of houses alone, or say that it is about houses.
+golden library_of_houses 'tartan complete cottage -l cottages "?"'
+golden rule_of_houses 'tartan export cottage --regex --rule far-bed'
+golden where_of_houses 'tartan count cottage --where "cell(kitchen)"'
+golden where_of_plans 'tartan count cottage --where "quantity(any) = 2" | tail -n 8'
+golden where_in_houses 'tartan count cottage -l cottages --where "quantity(any) = 2"'
+golden coverage 'tartan test cottage --coverage'
+golden prolog 'tartan export cottage --prolog | tail -n 2'
+exits 0 "$TARTAN" report cottage -o "$scratch/report"
+[ -s "$scratch/report/index.html" ] || fail 'no report of plans that houses are built on'
+
 finish

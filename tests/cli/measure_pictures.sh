@@ -59,5 +59,11 @@ golden complete_most_json 'tartan complete measures.plan -l strips "room | store
 golden complete_two_wishes 'tartan complete measures.plan -l strips "room | ?" --most area --then-least cost'
 golden json_picture "tartan count measures.plan -l strips --by area --json -o $scratch/x.svg"
 golden count_picture "tartan count measures.plan -l strips -o $scratch/x.svg"
+"$TARTAN" draw "$plan" --best 4 -l strips --least cost --then-most all-beds -o "$scratch/drawn.svg"
+cmp "$scratch/best.svg" "$scratch/drawn.svg" || fail '`draw --best` draws other plans than `best`'
+golden best_without_measure "tartan draw measures.plan --best 4 -l strips -o $scratch/x.svg"
+golden measure_without_best "tartan draw measures.plan -l strips --least cost -o $scratch/x.svg"
+golden best_and_sample "tartan draw measures.plan --best 4 --sample 4 -l strips --least cost -o $scratch/x.svg"
+golden many_best "tartan draw measures.plan --best 5001 -l strips --least cost -o $scratch/x.svg"
 golden many_drawn "tartan best measures.plan 5001 -l strips --least cost -o $scratch/x.svg"
 finish

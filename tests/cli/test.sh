@@ -17,6 +17,7 @@ golden coverage_library 'tartan test failing.plan --coverage 2>/dev/null'
 golden coverage_json 'tartan test todo.plan failing.plan --coverage --json 2>/dev/null'
 golden json 'tartan test sheds.plan --json'
 golden coverage_module "tartan build sheds.plan -o $scratch/sheds.tnb; tartan test --coverage $scratch/sheds.tnb"
+golden coverage_steps 'tartan test steps.plan --coverage --library bays'
 golden coverage_limit 'tartan test parts.plan --coverage --max-states 3'
 
 # What coverage counts is what `count` says where the part is written as one that never matches.

@@ -107,30 +107,6 @@ static bool count_expansion(tn_check *check, tn_span span)
 
 /* ---- quantifiers */
 
-/* What `v` stands for as one value of a field. */
-static tn_ast_expr *value_expr(tn_rule_expansion *expansion, const tn_ast_expr *quantifier,
-                               const tn_checked_field *field, uint32_t v)
-{
-    tn_arena *arena = expansion->check->arena;
-    const tn_checked_value *value = &field->values[v];
-    tn_ast_expr *expr = TN_NEW(arena, tn_ast_expr);
-    tn_ast_word *word = TN_NEW(arena, tn_ast_word), *depth = TN_NEW(arena, tn_ast_word);
-    if (!expr || !word || !depth)
-        return NULL;
-    bool length = field->kind == TN_FIELD_LENGTH;
-    *word = (tn_ast_word){.node.span = quantifier->name->node.span,
-                          .kind = length ? TN_WORD_LENGTH : TN_WORD_NAME,
-                          .text = value->name,
-                          .value = value->length};
-    *depth = (tn_ast_word){
-        .node.span = word->node.span, .kind = TN_WORD_LENGTH, .text = value->measure, .value = value->length};
-    *expr = (tn_ast_expr){
-        .node.span = word->node.span, .kind = length ? TN_EXPR_NUMBER : TN_EXPR_FIGURE, .depth = 1, .name = word};
-    if (field->kind == TN_FIELD_ZONE && value->has_depth)
-        expr->detail = depth;
-    return expr;
-}
-
 /* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
 static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
 {
@@ -182,8 +158,10 @@ static bool quantify(tn_rule_expansion *expansion, const tn_ast_expr *quantifier
     const tn_bound_name *outer = expansion->bindings;
     bool good = true;
     for (uint32_t v = 0; good && v < field->value_count; v++) {
-        tn_bound_name binding = {
-            .outer = outer, .word = name, .value = value_expr(expansion, quantifier, field, v), .is_value = true};
+        tn_bound_name binding = {.outer = outer,
+                                 .word = name,
+                                 .value = tn_value_expression(expansion, quantifier, field, v),
+                                 .field = field};
         expansion->bindings = &binding;
         good = binding.value && quantify(expansion, quantifier, (const tn_ast_word *)name->node.next, field, parts);
         expansion->bindings = outer;
@@ -210,27 +188,15 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
     return joined(expansion, expr->kind == TN_EXPR_SOME ? TN_EXPR_OR : TN_EXPR_AND, expr, parts);
 }
 
-/* Both sides are bound values: decided at once. */
-static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr, const tn_ast_expr *left,
-                           const tn_ast_expr *right)
+/* A comparison with the value of a quantifier: decided at once. NULL where none is. */
+static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
-    bool lengths = left->kind == TN_EXPR_NUMBER && right->kind == TN_EXPR_NUMBER;
-    bool same = lengths ? left->name->value == right->name->value
-                        : strcmp(left->name->text, right->name->text) == 0 &&
-                              (left->detail ? left->detail->value : -1) == (right->detail ? right->detail->value : -1);
-    bool less = lengths && left->name->value < right->name->value;
-    if (!lengths && expr->op != TN_EQUAL && expr->op != TN_UNEQUAL) {
-        tn_check *check = expansion->check;
-        tn_diagnostic *d =
-            tn_report(check->diagnostics, E_BAD_ARGUMENT, expr->node.span, "these values cannot be compared by size");
-        tn_help(check->diagnostics, d, "lengths are compared by order; names and zones by `=` and `!=`");
-        return broken(expansion, expr);
-    }
-    bool truths[] = {[TN_LESS] = less,     [TN_AT_MOST] = less || same, [TN_EQUAL] = same,
-                     [TN_UNEQUAL] = !same, [TN_AT_LEAST] = !less,       [TN_GREATER] = !less && !same};
+    tn_expr_kind decided;
+    if (!tn_decide_values(expansion, expr, &decided))
+        return NULL;
     tn_ast_expr *made = shallow(expansion, expr);
     if (made) {
-        made->kind = truths[expr->op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
+        made->kind = decided;
         made->parts = tn_ast_empty();
     }
     return made;
@@ -412,15 +378,6 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     return shallow(expansion, expr);
 }
 
-static const tn_ast_expr *bound_value(const tn_rule_expansion *expansion, const tn_ast_node *node)
-{
-    const tn_ast_expr *expr = (const tn_ast_expr *)node;
-    if (expr->kind != TN_EXPR_NAME)
-        return NULL;
-    tn_bound_name bound = tn_bound(expansion, expr->name);
-    return bound.value && bound.is_value ? bound.value : NULL;
-}
-
 static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     if (expr->rule && expr->rule->hidden) /* written out already */
@@ -434,10 +391,9 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
     case TN_EXPR_EACH:
         return expand_quantifier(expansion, expr);
     case TN_EXPR_COMPARE: {
-        const tn_ast_expr *left = bound_value(expansion, expr->parts.first),
-                          *right = bound_value(expansion, expr->parts.last);
-        if (left && right)
-            return decide(expansion, expr, left, right);
+        tn_ast_expr *decided = decide(expansion, expr);
+        if (decided)
+            return decided;
         break;
     }
     case TN_EXPR_FIGURE: {

@@ -11,8 +11,8 @@ typedef struct tn_bound_name {
     const struct tn_bound_name *outer;
     const tn_ast_word *word;
     tn_ast_expr *value;
-    bool is_value;               /* of a quantifier */
-    struct tn_checked_rule *let; /* of a `let`, or NULL */
+    const tn_checked_field *field; /* of a quantifier: the value's, else NULL */
+    struct tn_checked_rule *let;   /* of a `let`, or NULL */
 } tn_bound_name;
 
 typedef struct tn_rule_expansion {
@@ -32,6 +32,13 @@ tn_ast_list tn_expand_items(tn_rule_expansion *expansion, tn_ast_list items);
 tn_ast_cond *tn_expand_condition(tn_rule_expansion *expansion, const tn_ast_cond *cond);
 /* The one number or length that an expression of constants comes to, as a word; NULL: reported at `place`. */
 const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr *value, tn_span place);
+
+/* expand_values.c: what the name of a quantifier stands for as value number `value` of a field (NULL: no memory) ... */
+tn_ast_expr *tn_value_expression(tn_rule_expansion *expansion, const tn_ast_expr *quantifier,
+                                 const tn_checked_field *field, uint32_t value);
+/* ... and a comparison of such a value with another, or with a word of its field: TRUE, FALSE, or BROKEN, which is
+ * reported. false where neither side is one, or the other is no value: then it is a comparison of sums. */
+bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *comparison, tn_expr_kind *decided);
 
 /* expand_key.c: a text that is the same for equal expressions. */
 const char *tn_expression_key(tn_check *check, const tn_checked_schema *schema, const char *name, tn_ast_list parts);

@@ -390,17 +390,21 @@ void tn_check_libraries(tn_check *check)
 
 /* ---- what the command line asks */
 
-/* The library named, or the only one of the file itself, or the only one at all; NULL where that is not clear: the
- * command says so. */
+/* The library named, or the only one of plans of the file itself, or the only one at all; NULL where that is not clear:
+ * the command says so. Libraries of houses are asked for by name. */
 static tn_checked_library *asked_library(const tn_check *check)
 {
     const tn_checked *result = check->result;
     tn_checked_library *own = NULL, *any = NULL;
-    size_t owns = 0;
+    size_t owns = 0, all = 0;
     for (size_t i = 0; i < result->library_count; i++) {
-        tn_checked_library *library = any = result->libraries[i];
+        tn_checked_library *library = result->libraries[i];
         if (check->asked->library && strcmp(library->name, check->asked->library) == 0)
             return library;
+        if (library->form)
+            continue;
+        any = library;
+        all++;
         if (library->unit + 1 < check->imports->count)
             continue;
         own = library;
@@ -408,7 +412,7 @@ static tn_checked_library *asked_library(const tn_check *check)
     }
     if (check->asked->library)
         return NULL;
-    return owns == 1 ? own : owns == 0 && result->library_count == 1 ? any : NULL;
+    return owns == 1 ? own : owns == 0 && all == 1 ? any : NULL;
 }
 
 static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr *expr, size_t number)

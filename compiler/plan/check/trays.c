@@ -78,11 +78,14 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
             return;
     if (schema->broken || schema->forbid_count == 0 || has_legal_tray(schema))
         return;
+    bool known = schema->base && schema->base->broken; /* said of the older schema */
+    schema->broken = true;
+    if (known)
+        return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_NOTHING_LEGAL, schema->ast->name->node.span,
                                  "schema `%s` forbids every tray", schema->name);
     tn_note(check->diagnostics, d, &schema->forbids[schema->forbid_count - 1]->span, "the last `forbid` is here");
     tn_help(check->diagnostics, d, "leave one `forbid` out, or narrow it with more items");
-    schema->broken = true;
 }
 
 /* ---- numbers */

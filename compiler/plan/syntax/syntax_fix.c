@@ -140,6 +140,8 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
 /* The same of words of the language. */
 static const char *word_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
+    if (strcmp(found, "`as`") == 0 && tn_expects(e, "`require`"))
+        return "only `prune` gives its clauses names; name the rule instead: `rule fit = ...`, then `require fit`";
     if (strcmp(found, "`of`") == 0 && tn_expects(e, "`*`"))
         return "a share is written `30% * trays`";
     if (strcmp(found, "`to`") == 0 && !tn_expects(e, "`..`"))

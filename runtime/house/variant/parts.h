@@ -67,4 +67,18 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);
 /* Adds the houses with the functions at hand: faces that clauses cannot tell apart are multiplied cell by cell. */
 tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error);
 
+/* Who looks at the houses. `count` is shown how many there are of a section, and then of functions; it takes them all
+ * at once (*taken), or is shown fewer at a time. `visit` is shown houses one by one, without tiles. *stop ends the
+ * going through. */
+typedef enum tn_house_part { PART_SECTION, PART_FUNCTIONS } tn_house_part;
+typedef struct tn_house_visitor {
+    void (*count)(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts, bool *taken);
+    tn_status (*visit)(tn_house_variants *v, void *context, bool *stop, tn_error *error);
+    void *context;
+} tn_house_visitor;
+
+/* Shows the houses on a plan in the order of their numbers. */
+tn_status tn_variants_go_through(tn_house_variants *variants, const tn_tray *trays, size_t length,
+                                 const tn_house_visitor *visitor, tn_error *error);
+
 #endif

@@ -6,16 +6,6 @@
 #include "runtime/house/variant/memo.h"
 #include "runtime/house/variant/section.h"
 
-/* Who looks at the houses. `count` is shown how many there are of a section, and then of functions; it takes them all
- * at once (*taken), or is shown fewer at a time. `visit` is shown houses one by one, without tiles. *stop ends the
- * going through. */
-typedef enum tn_house_part { PART_SECTION, PART_FUNCTIONS } tn_house_part;
-typedef struct visitor {
-    void (*count)(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts, bool *taken);
-    tn_status (*visit)(tn_house_variants *v, void *context, bool *stop, tn_error *error);
-    void *context;
-} visitor;
-
 /* ---- wheels */
 
 void tn_wheels_clear(tn_wheels *w)
@@ -144,7 +134,7 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
     return status;
 }
 
-static tn_status go_through_faces(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
+static tn_status go_through_faces(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop, tn_error *error)
 {
     bool kept = false, fit = false;
     tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
@@ -192,7 +182,8 @@ static size_t skip_rest(tn_house_variants *v)
     return v->turn_end;
 }
 
-static tn_status go_through_functions(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
+static tn_status go_through_functions(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop,
+                                      tn_error *error)
 {
     bool kept = false, possible = false;
     if (!tn_array_resize(&v->tiles, v->house.cell_count + 1, sizeof *v->tiles))
@@ -254,11 +245,12 @@ static tn_status count_section(tn_house_variants *v, tn_house_counts *counts, tn
         mpz_set(counts->houses, known->houses);
         return TN_OK;
     }
-    tn_status status = go_through_functions(v, &(visitor){.count = add_counts, .context = counts}, &stop, error);
+    tn_status status =
+        go_through_functions(v, &(tn_house_visitor){.count = add_counts, .context = counts}, &stop, error);
     return status == TN_OK ? tn_sections_keep(v->sections, &v->house, counts, error) : status;
 }
 
-static tn_status go_through_section(tn_house_variants *v, const visitor *seen_by, bool *stop, tn_error *error)
+static tn_status go_through_section(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop, tn_error *error)
 {
     tn_house_counts counts;
     bool taken = false;
@@ -284,8 +276,8 @@ static tn_status begin_plan(tn_house_variants *v, const tn_tray *trays, size_t l
     return TN_OK;
 }
 
-static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t length, const visitor *seen_by,
-                            tn_error *error)
+tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, size_t length,
+                                 const tn_house_visitor *seen_by, tn_error *error)
 {
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     bool stop = false;
@@ -304,143 +296,10 @@ static tn_status go_through(tn_house_variants *v, const tn_tray *trays, size_t l
 
 /* ---- what is asked of them */
 
-static void multiply_tiles(const tn_house_variants *v, mpz_t product)
-{
-    mpz_set_ui(product, 1);
-    for (size_t i = 0; i < v->house.cell_count; i++)
-        mpz_mul_ui(product, product, v->tiles[i]);
-}
-
 tn_status tn_house_variants_count(tn_house_variants *v, const tn_tray *trays, size_t length, tn_house_counts *counts,
                                   tn_error *error)
 {
-    return go_through(v, trays, length, &(visitor){.count = add_counts, .context = counts}, error);
-}
-
-typedef struct seeking {
-    mpz_t left, here;
-    const tn_house *wanted; /* for a rank; NULL: the house at `left` */
-    bool found;
-} seeking;
-
-static bool same_section(const tn_house *a, const tn_house *b)
-{
-    return memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0 && a->cell_count == b->cell_count &&
-           a->face_count == b->face_count;
-}
-
-static bool same_functions(const tn_house *a, const tn_house *b)
-{
-    bool same = true;
-    for (size_t i = 0; same && i < a->cell_count; i++)
-        same = a->cells[i].function == b->cells[i].function;
-    return same;
-}
-
-/* Passes over a part of the houses, if the wanted one is not among them. */
-static void pass_over(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
-                      bool *taken)
-{
-    seeking *s = context;
-    if (!s->wanted) {
-        *taken = mpz_cmp(s->left, counts->houses) >= 0;
-        if (*taken)
-            mpz_sub(s->left, s->left, counts->houses);
-        return;
-    }
-    *taken = part == PART_SECTION ? !same_section(&v->house, s->wanted) : !same_functions(&v->house, s->wanted);
-    if (*taken)
-        mpz_add(s->left, s->left, counts->houses);
-}
-
-/* Which tile each cell has, of the `left`-th combination: the last cell's changes first. */
-static tn_status stop_at(tn_house_variants *v, void *context, bool *stop, tn_error *error)
-{
-    seeking *s = context;
-    (void)error;
-    multiply_tiles(v, s->here);
-    if (mpz_cmp(s->left, s->here) >= 0) {
-        mpz_sub(s->left, s->left, s->here);
-        return TN_OK;
-    }
-    for (size_t i = v->house.cell_count; i-- > 0;)
-        v->house.cells[i].variant = mpz_fdiv_q_ui(s->left, s->left, v->tiles[i]);
-    *stop = s->found = true;
-    return TN_OK;
-}
-
-static bool same_faces(const tn_house *a, const tn_house *b)
-{
-    bool same = true;
-    for (size_t i = 0; same && i < a->face_count; i++)
-        same = a->faces[i].kind == b->faces[i].kind;
-    return same;
-}
-
-static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_error *error)
-{
-    seeking *s = context;
-    (void)error;
-    multiply_tiles(v, s->here);
-    if (!same_faces(&v->house, s->wanted)) {
-        mpz_add(s->left, s->left, s->here);
-        return TN_OK;
-    }
-    mpz_set_ui(s->here, 0);
-    for (size_t i = 0; i < v->house.cell_count; i++) {
-        mpz_mul_ui(s->here, s->here, v->tiles[i]);
-        mpz_add_ui(s->here, s->here, s->wanted->cells[i].variant);
-    }
-    mpz_add(s->left, s->left, s->here);
-    *stop = s->found = true;
-    return TN_OK;
-}
-
-/* A house is asked for by a number that a plan with so many houses does not have. */
-static tn_status too_few(const mpz_t houses, tn_error *error)
-{
-    char *digits = mpz_get_str(NULL, 10, houses);
-    tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "this plan has only %.80s houses in the library",
-                               digits ? digits : "some of these");
-    if (digits)
-        tn_error_help(error, "its houses have the numbers from 0 on, less than %.80s", digits);
-    free(digits);
-    return status;
-}
-
-tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t variant,
-                               tn_house *house, tn_error *error)
-{
-    seeking s = {0};
-    *house = (tn_house){0};
-    mpz_init_set(s.left, variant);
-    mpz_init(s.here);
-    tn_status status =
-        go_through(v, trays, length, &(visitor){.count = pass_over, .visit = stop_at, .context = &s}, error);
-    if (status == TN_OK && s.found) {
-        *house = v->house;
-        v->house = (tn_house){0};
-    } else if (status == TN_OK) {
-        mpz_sub(s.here, variant, s.left);
-        status = too_few(s.here, error);
-    }
-    mpz_clears(s.left, s.here, NULL);
-    return status;
-}
-
-tn_status tn_house_variants_rank(tn_house_variants *v, const tn_house *house, mpz_t variant, tn_error *error)
-{
-    seeking s = {.wanted = house};
-    mpz_inits(s.left, s.here, NULL);
-    tn_status status = go_through(v, house->trays, house->length,
-                                  &(visitor){.count = pass_over, .visit = stop_here, .context = &s}, error);
-    mpz_set(variant, s.left);
-    if (status == TN_OK && !s.found) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
-        tn_error_help(error, "`tartan explain` says which clauses drop it");
-    }
-    mpz_clears(s.left, s.here, NULL);
-    return status;
+    return tn_variants_go_through(v, trays, length, &(tn_house_visitor){.count = add_counts, .context = counts}, error);
 }
 
 /* ---- making */

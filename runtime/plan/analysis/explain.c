@@ -440,7 +440,7 @@ uint32_t tn_explanation_largest(const tn_explanation *explanation)
     for (uint32_t i = 0; i < explanation->node_count; i++) {
         uint32_t size = matched_size(explanation, &explanation->nodes[i]);
         const tn_why *why = &explanation->nodes[i];
-        if (size <= most || under_not(explanation, i) || tn_part_unwritten(&explanation->trees[why->tree], why->part))
+        if (size <= most || under_not(explanation, i) || tn_part_is_step(&explanation->trees[why->tree], why->part))
             continue;
         best = i;
         most = size;

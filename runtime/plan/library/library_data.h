@@ -157,4 +157,7 @@ void tn_effects_free(tn_effect *effects, size_t count);
 /* Fills rows, nearly, alive, before, generated and passed (tables.c). */
 tn_status tn_library_tables(tn_library *library, tn_error *error);
 
+/* sum := plans that start in `state` with a tray before `tray`, `left` trays to come after it. */
+void tn_plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum);
+
 #endif

@@ -24,8 +24,7 @@ static void few_plans_before(const tn_library *library, const uint32_t *next, tn
     mpz_add_ui(sum, sum, (mp_limb_t)plans);
 }
 
-/* sum := plans that start in `state` with a tray before `tray`, `left` trays to come after it. */
-static void plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
+void tn_plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
 {
     const tn_dfa *kept = library->kept;
     const tn_count_row *row = &library->rows[left];
@@ -53,7 +52,7 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
     mpz_set(rank, library->before[length]);
     uint32_t state = 0;
     for (size_t i = 0; i < length; i++) {
-        plans_before(library, state, trays[i], (uint32_t)(length - 1 - i), sum);
+        tn_plans_before(library, state, trays[i], (uint32_t)(length - 1 - i), sum);
         mpz_add(rank, rank, sum);
         state = tn_library_step(library, state, trays[i]);
     }
@@ -61,7 +60,7 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
     return true;
 }
 
-/* As plans_before, nearly, and divided like the nearly row. */
+/* As tn_plans_before, nearly, and divided like the nearly row. */
 static double nearly_before(const tn_library *library, const double *nearly, const uint32_t *next, tn_tray tray)
 {
     double sum = 0;
@@ -95,7 +94,7 @@ static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t lef
     const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
     const tn_count_row *row = &library->rows[left];
     tn_tray tray = guess_tray(library, next, left, rest);
-    plans_before(library, state, tray, left, sum);
+    tn_plans_before(library, state, tray, left, sum);
     while (mpz_cmp(sum, rest) > 0) {
         tray--;
         mpz_set_ui(one, 0);

@@ -476,13 +476,16 @@ void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
     copy_text(word, strlen(word), text, size);
 }
 
+bool tn_part_is_step(const tn_parts *parts, uint32_t part)
+{
+    uint32_t parent = parts->parts[part].parent, root = parts->parts[part].root;
+    return parent != TN_NO_PART && tn_module_place(parts->module, root) &&
+           same_place(parts->module, root, parts->parts[parent].root);
+}
+
 bool tn_part_unwritten(const tn_parts *parts, uint32_t part)
 {
-    uint32_t parent = parts->parts[part].parent;
-    const tn_module *module = parts->module;
-    return parent != TN_NO_PART && parts->parts[parent].kind == TN_PART_SUM &&
-           tn_module_place(module, parts->parts[part].root) &&
-           same_place(module, parts->parts[part].root, parts->parts[parent].root);
+    return tn_part_is_step(parts, part) && parts->parts[parts->parts[part].parent].kind == TN_PART_SUM;
 }
 
 uint32_t tn_part_size(const tn_parts *parts, uint32_t part)

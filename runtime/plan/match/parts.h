@@ -70,6 +70,10 @@ void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
  * sum without `of` adds up)? */
 bool tn_part_unwritten(const tn_parts *parts, uint32_t part);
 
+/* Is the part's place in the source its parent's too: a step of what is written as one (`implies`, `every`, `tray` with
+ * numbers)? */
+bool tn_part_is_step(const tn_parts *parts, uint32_t part);
+
 /* The RULE record whose function (of either judgement) this is, or UINT32_MAX. */
 uint32_t tn_function_rule(const tn_module *module, uint32_t function);
 

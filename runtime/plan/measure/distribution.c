@@ -7,6 +7,7 @@
 #include "runtime/base/array.h"
 #include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/amount.h"
 
 #define DENSE_MAX (INT64_C(1) << 22) /* values side by side: beyond, they are sorted */
 
@@ -46,8 +47,8 @@ typedef struct spreader {
     pair *pairs;
     mp_limb_t *numbers;
     size_t pair_room;
-    uint64_t cells; /* of the level that is made */
-    uint64_t ended; /* of the plans that have ended */
+    uint64_t words; /* of the level that is made */
+    uint64_t ended; /* words of the plans that have ended */
 } spreader;
 
 static void level_clear(level *l)
@@ -60,14 +61,26 @@ static void level_clear(level *l)
     *l = (level){0};
 }
 
-static tn_status too_many(tn_error *error)
+/* "in steps of 1 ft2" */
+static tn_status too_many(const spreader *s, tn_error *error)
 {
+    tn_buffer step = {0};
+    tn_amount_unit unit = tn_amount_unit_of(s->library->schema, tn_weighed_power(s->weighed, 0));
+    bool ok = tn_amount_write(unit, tn_weighed_unit(s->weighed, 0), &step);
     tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES,
-            "the measure has too many different values: more than %llu pairs of state and value",
-            (unsigned long long)TN_DISTRIBUTION_CELLS);
+            "measure `%.60s` has too many different values: in steps of %.40s they take more than %llu MB",
+            tn_weighed_name(s->weighed, 0), ok ? step.data : "?",
+            (unsigned long long)(TN_DISTRIBUTION_WORDS * sizeof(uint64_t) / 1000000));
     tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units; or give "
                          "fewer trays with --trays");
+    free(step.data);
     return TN_LIMIT;
+}
+
+/* Words of so many pairs of state and value: more than there may be are too many in any case. */
+static uint64_t words_of(const spreader *s, uint64_t pairs)
+{
+    return pairs > TN_DISTRIBUTION_WORDS ? pairs : pairs * (s->limbs + 1);
 }
 
 /* ---- one level */
@@ -243,15 +256,15 @@ static tn_status gather(spreader *s, const level *from, size_t first, size_t *ne
         cells += source->count;
     }
     *next = last;
-    if (cells > TN_DISTRIBUTION_CELLS)
-        return too_many(error);
     bool dense = high - low < DENSE_MAX && (uint64_t)(high - low) / 64 <= cells;
+    if (words_of(s, dense ? (uint64_t)(high - low) : cells) > TN_DISTRIBUTION_WORDS)
+        return too_many(s, error);
     bool ok = dense ? gather_dense(s, from, first, last, low, (size_t)(high - low) + 1, made)
                     : gather_sorted(s, from, first, last, (size_t)cells, made);
-    s->cells += made->count;
+    s->words += words_of(s, made->count);
     if (!ok)
         return tn_fail_memory(error);
-    return s->cells <= TN_DISTRIBUTION_CELLS ? TN_OK : too_many(error);
+    return s->words <= TN_DISTRIBUTION_WORDS ? TN_OK : too_many(s, error);
 }
 
 static tn_status next_level(spreader *s, const level *from, uint32_t n, level *to, tn_error *error)
@@ -263,7 +276,7 @@ static tn_status next_level(spreader *s, const level *from, uint32_t n, level *t
         targets += a == 0 || s->arcs[a].target != s->arcs[a - 1].target;
     if (status == TN_OK && !(to->items = calloc(targets + 1, sizeof *to->items)))
         status = tn_fail_memory(error);
-    s->cells = 0;
+    s->words = 0;
     for (size_t a = 0; status == TN_OK && a < s->arc_count;) {
         status = gather(s, from, a, &a, &to->items[to->count], error);
         to->count++;
@@ -284,9 +297,9 @@ static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended
         const spread *from = &l->items[i];
         if (!tn_weighed_alive(s->weighed, 0, from->state))
             continue;
-        s->ended += from->count;
-        if (s->ended > TN_DISTRIBUTION_CELLS)
-            return too_many(error);
+        s->ended += words_of(s, from->count);
+        if (s->ended > TN_DISTRIBUTION_WORDS)
+            return too_many(s, error);
         if (!tn_array_reserve(&ended->items, &ended->room, ended->count, 1, sizeof *ended->items))
             return tn_fail_memory(error);
         spread *made = &ended->items[ended->count++];

@@ -4,7 +4,9 @@
 
 #include "runtime/plan/measure/weighed.h"
 
-#define TN_DISTRIBUTION_CELLS UINT64_C(16000000) /* pairs of state and value at a time */
+/* Words that are held at a time, of 8 bytes: for each pair of state and value the value, and its number of plans, which
+ * in long plans has many words. */
+#define TN_DISTRIBUTION_WORDS UINT64_C(64000000)
 
 typedef struct tn_distribution {
     size_t count;   /* values, ascending */
@@ -17,7 +19,7 @@ typedef struct tn_distribution {
 void tn_distribution_init(tn_distribution *distribution);
 void tn_distribution_clear(tn_distribution *distribution);
 
-/* Of the first measure; `distribution` is initialised. E0832 past TN_DISTRIBUTION_CELLS. */
+/* Of the first measure; `distribution` is initialised. E0832 past TN_DISTRIBUTION_WORDS. */
 tn_status tn_distribution_make(tn_distribution *distribution, tn_weighed *weighed, tn_error *error);
 
 /* Value i in nanometres to the power; `value` is initialised. */

@@ -352,6 +352,11 @@ uint32_t tn_weighed_count(const tn_weighed *w)
     return w->count;
 }
 
+const char *tn_weighed_name(const tn_weighed *w, uint32_t measure)
+{
+    return tn_text(w->library->schema->module, w->weights[measure].record->name);
+}
+
 mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)
 {
     return w->weights[measure].sum->unit;

@@ -29,6 +29,7 @@ void tn_weighed_free(tn_weighed *weighed);
 
 const tn_library *tn_weighed_library(const tn_weighed *weighed);
 uint32_t tn_weighed_count(const tn_weighed *weighed);
+const char *tn_weighed_name(const tn_weighed *weighed, uint32_t measure);
 mpq_srcptr tn_weighed_unit(const tn_weighed *weighed, uint32_t measure); /* a step, in nanometres to its power */
 uint32_t tn_weighed_power(const tn_weighed *weighed, uint32_t measure);
 int64_t tn_weighed_start(const tn_weighed *weighed, uint32_t measure); /* steps before the first tray */

@@ -433,6 +433,25 @@ static tn_status check_clause(const writing *w, const tn_clause_record *clause, 
     return status;
 }
 
+/* What clauses of these libraries say that is no rule of its own. Those of libraries of houses are not about plans. */
+static tn_status put_clauses(writing *w, tn_error *error)
+{
+    const tn_module *module = w->module;
+    bool *asked = calloc((size_t)module->FUNCTION_count + 1, sizeof *asked);
+    tn_status status = asked ? TN_OK : tn_fail_memory(error);
+    for (uint32_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
+        const tn_library_record *library = &module->LIBRARY_records[l];
+        bool ours = &module->SCHEMA_records[library->schema] == w->schema->record;
+        for (uint32_t i = 0; ours && i < library->clause_count; i++)
+            asked[module->CLAUSE_records[library->clause_first + i].holds] = true;
+    }
+    for (uint32_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++)
+        if (asked[f] && tn_function_rule(module, f) == UINT32_MAX)
+            status = put_function(w, f, error);
+    free(asked);
+    return status;
+}
+
 static tn_status put_libraries(writing *w, tn_error *error)
 {
     const tn_module *module = w->module;
@@ -460,14 +479,7 @@ static tn_status put_libraries(writing *w, tn_error *error)
            "    plan_of(Trays, W), W = w(N, _), trays_of(Library, Min, Max), Min =< N, N =< Max,\n"
            "    \\+ ( require_clause(Library, _, Part), \\+ call(Part, W, 0, N) ),\n"
            "    \\+ ( prune_clause(Library, _, Part), call(Part, W, 0, N) ).\n\n");
-    /* what clauses say that is no rule of its own */
-    for (uint32_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++) {
-        const tn_function_record *record = &module->FUNCTION_records[f];
-        bool ours = record->kind == TN_FUNCTION_HOLDS && &module->SCHEMA_records[record->schema] == w->schema->record;
-        if (ours && tn_function_rule(module, f) == UINT32_MAX)
-            status = put_function(w, f, error);
-    }
-    return status;
+    return status == TN_OK ? put_clauses(w, error) : status;
 }
 
 static void put_lengths(writing *w)

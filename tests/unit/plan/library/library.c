@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/plan/library/ranking.h"
 #include "tests/support/test_library.h"
 
 typedef struct brute_count {
@@ -100,6 +101,27 @@ static void check_counts(const test_library *made, uint32_t length, const brute_
     mpz_clear(number);
 }
 
+/* Plans in any order, many with a beginning like that of the one before. */
+static void check_ranking(const test_library *made, uint64_t kept)
+{
+    tn_ranking *ranking;
+    tn_error error;
+    mpz_t rank;
+    test_ok(tn_ranking_new(made->library, &ranking, &error), &error);
+    mpz_init(rank);
+    for (uint64_t i = 0; i < 2 * kept; i++) {
+        tn_tray trays[8];
+        uint32_t length;
+        mpz_set_ui(rank, i < kept ? i : i * 37 % kept);
+        assert_true(tn_library_unrank(made->library, rank, trays, &length));
+        mpz_srcptr found = tn_ranking_next(ranking, trays, length);
+        assert_true(found && mpz_cmp(found, rank) == 0);
+        assert_null(tn_ranking_next(ranking, trays, (size_t)tn_library_max(made->library) + 1));
+    }
+    mpz_clear(rank);
+    tn_ranking_free(ranking);
+}
+
 static void check_effects(const test_library *made, const brute_count *all)
 {
     mpz_t out, only;
@@ -180,6 +202,7 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
     uint32_t length;
     assert_false(tn_cursor_next(cursor, &trays, &length));
     check_counts(made, TN_ALL_LENGTHS, &all);
+    check_ranking(made, all.kept);
     check_effects(made, &all);
     check_matches(made, &all);
     tn_cursor_free(cursor);

@@ -1,0 +1,232 @@
+/* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
+#include "cli/draw/draw.h"
+#include "cli/common/option_rows.h"
+#include "cli/common/subject.h"
+#include "cli/mesh/draw_surface.h"
+#include "cli/solid/solid.h"
+#include "runtime/plan/picture/draw.h"
+
+static const tn_draw_settings *settings_of(const tn_job *job)
+{
+    return (const tn_draw_settings *)job->settings;
+}
+
+static bool is_sampled(const tn_draw_settings *settings)
+{
+    return settings->sample.given || settings->sampled.per_length.given;
+}
+
+static bool from_library(const tn_draw_settings *settings)
+{
+    return is_sampled(settings) || settings->best.given;
+}
+
+/* What --best goes with. */
+static bool check_best(tn_job *job)
+{
+    const tn_draw_settings *settings = settings_of(job);
+    if (settings->best.given && (is_sampled(settings) || settings->rules.count || settings->common.operands.count > 1))
+        tn_job_usage(job,
+                     "--best draws the best plans of a library: give it without --sample, --rule and a file of plans");
+    else if (settings->best.given && settings->best.value > tn_draw_max_plans(settings))
+        tn_help(tn_job_diagnostics(job),
+                tn_job_usage(job, "a picture shows at most %zu plans", tn_draw_max_plans(settings)),
+                "ask for fewer, or raise the limit with --max-plans");
+    else if (!settings->best.given && (settings->wanted.count || settings->mirror))
+        tn_job_usage(job, "--least, --most and --mirror say which plans are best: give --best N too");
+    else
+        return true;
+    return false;
+}
+
+static bool check_options(tn_job *job)
+{
+    const tn_draw_settings *settings = settings_of(job);
+    tn_canvas_format format;
+    tn_error error;
+    if (!settings->output)
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    else if (settings->rules.count && (is_sampled(settings) || settings->common.operands.count > 1))
+        tn_job_usage(job, "draw either rules or plans, not both");
+    else if (is_sampled(settings) && settings->common.operands.count > 1)
+        tn_job_usage(job, "draw either a file of plans or a --sample, not both");
+    else if (!is_sampled(settings) &&
+             (settings->sampled.seed.given || settings->sampled.length.given || settings->sampled.diverse))
+        tn_job_usage(job, "--seed, --length and --diverse say what is sampled: give --sample N too");
+    else if (!from_library(settings) && settings->plans.trays.given)
+        tn_job_usage(job, "--trays says which plans are taken from the library: give --sample N or --best N too");
+    else
+        return check_best(job);
+    return false;
+}
+
+/* ---- forms */
+
+/* Options that say something about one or two of the subjects only. */
+static bool check_use(tn_job *job)
+{
+    const tn_draw_settings *s = settings_of(job);
+    const tn_option_use uses[] = {
+        {s->rules.count > 0, TN_OF_PLANS, "rule"},
+        {s->plans.library != NULL, TN_OF_PLANS, "library"},
+        {s->sample.given, TN_OF_PLANS, "sample"},
+        {s->best.given, TN_OF_PLANS, "best"},
+        {s->sampled.per_length.given, TN_OF_PLANS, "per-length"},
+        {s->paper != NULL, TN_OF_PLANS, "paper"},
+        {s->scale.given, TN_OF_PLANS, "scale"},
+        {s->max_plans.given, TN_OF_PLANS, "max-plans"},
+        {s->columns.given, TN_OF_PLANS | TN_OF_SOLIDS, "columns"},
+        {s->solid != NULL, TN_OF_SOLIDS, "solid"},
+        {s->sheet, TN_OF_SOLIDS, "sheet"},
+        {s->before, TN_OF_SOLIDS, "before"},
+        {s->exploded, TN_OF_SOLIDS, "exploded"},
+        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
+        {s->azimuth.given, TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
+        {s->elevation.given, TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
+        {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
+        {s->surface != NULL, TN_OF_FIELDS, "surface"},
+        {s->grid.given, TN_OF_FIELDS, "grid"},
+    };
+    if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
+        return false;
+    if (s->sheet + s->before + s->exploded > 1) {
+        tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
+        return false;
+    }
+    return true;
+}
+
+static tn_camera camera_of(const tn_draw_settings *settings)
+{
+    tn_camera camera = tn_camera_default();
+    if (settings->azimuth.given)
+        camera.azimuth = settings->azimuth.value;
+    if (settings->elevation.given)
+        camera.elevation = settings->elevation.value;
+    if (settings->width.given)
+        camera.width = (double)settings->width.value;
+    return camera;
+}
+
+static void draw_solid(tn_job *job)
+{
+    const tn_draw_settings *s = settings_of(job);
+    tn_solid_drawing drawing = {.views = s->sheet      ? TN_SOLID_SHEET
+                                         : s->before   ? TN_SOLID_BEFORE
+                                         : s->exploded ? TN_SOLID_EXPLODED
+                                                       : TN_SOLID_VIEW,
+                                .camera = camera_of(s),
+                                .title = s->title,
+                                .columns = (uint32_t)s->columns.value,
+                                .dpi = (uint32_t)s->dpi.value,
+                                .most = (uint32_t)s->max_boxes.value};
+    tn_job_draw_solid(job, s->solid, &drawing, s->output);
+}
+
+static void draw_field(tn_job *job)
+{
+    const tn_draw_settings *s = settings_of(job);
+    tn_mesh_picture picture = {.camera = camera_of(s),
+                               .title = s->title,
+                               .dpi = (uint32_t)s->dpi.value,
+                               .threads = (int)s->plans.threads.value};
+    tn_job_draw_surface(job, s->surface, (uint32_t)s->grid.value, &picture, s->output);
+}
+
+static void draw_plans(tn_job *job)
+{
+    const char *path = from_library(settings_of(job)) ? NULL : tn_job_plans_path(job);
+    if (settings_of(job)->rules.count)
+        tn_job_draw_rules(job);
+    else if (path)
+        tn_job_draw_file(job, path);
+    else if (job->exit_code == TN_EXIT_DONE)
+        tn_job_draw_library(job);
+}
+
+static int run(const tn_command *command, const tn_settings *common)
+{
+    (void)command;
+    const tn_draw_settings *settings = (const tn_draw_settings *)common;
+    tn_job job;
+    tn_job_begin(&job, common);
+    if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
+        return tn_job_end(&job);
+    static void (*const draw[TN_SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
+    if (check_use(&job))
+        draw[tn_job_subject(&job)](&job);
+    return tn_job_end(&job);
+}
+
+#define SETTINGS tn_draw_settings
+static const tn_option options[] = {
+    TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
+    LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
+    OPTIONS_LIBRARY,
+    NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
+    NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
+    NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
+    NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
+    OPTION_DIVERSE,
+    NUMBER("best", 0, "N", best, 1, TN_SAMPLE_MAX, "draw the N best plans of the library, with their values"),
+    WISH("least", wanted, "with --best: the plans with the least MEASURE first"),
+    WISH("most", wanted, "with --best: the plans with the most MEASURE first"),
+    WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
+    WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
+    FLAG("mirror", 0, mirror, "with --best: leave out a plan whose mirror image is kept and of lower rank"),
+    TEXT("title", 0, "TEXT", title, "the sheet's title (default: the library's or schema's name)"),
+    TEXT("paper", 0, "SIZE", paper,
+         "a0 to a4, arch-a to arch-e, letter or tabloid (default: the smallest of three that holds all)"),
+    NUMBER("scale", 0, "N", scale, 1, 1000000, "draw at 1:N (default: the largest usual scale that fits)"),
+    NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
+    NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
+    NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
+    TEXT("surface", 0, "NAME", surface, "of fields: which surface (default: the last)"),
+    NUMBER("grid", 'n', "N", grid, 2, 8192,
+           "of fields: samples on the longest side of the box (default: what the file says, or 50)"),
+    TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
+    FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
+    FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),
+    FLAG("exploded", 0, exploded, "of a design of boxes: its boxes moved apart"),
+    REAL("azimuth", 0, "DEGREES", azimuth, "where a form is seen from, about the vertical (default -60)"),
+    REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
+    NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture of a form (default 480)"),
+    OPTION_MAX_BOXES(max_boxes),
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
+    OPTIONS_LIBRARY_LIMITS,
+};
+
+const tn_command tn_command_draw = {
+    .name = "draw",
+    .summary = "draw plans, rules or a form in space",
+    .usage = "FILE [PLANS] -o SHEET.svg\nFILE --sample N [--seed S] [--diverse] -o SHEET.pdf\nFILE --best N "
+             "--least MEASURE -o SHEET.svg\nFILE --rule NAME -o RULE.svg\n"
+             "FILE.solid [--solid NAME] [--sheet | --before | --exploded] -o FORM.svg\n"
+             "FILE.field [--surface NAME] [--grid N] -o FORM.png",
+    .description =
+        "Draws plans on one sheet: from a file, from standard input, sampled from the library, or its best by a "
+        "measure. Each plan is "
+        "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
+        "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
+        "pages as it needs; SVG and PNG are one sheet.\n\n"
+        "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
+        "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
+        "their zones.\n\n"
+        "A design of boxes (.solid) is drawn in space: shaded, each box and its images in one colour.\n\n"
+        "Of a field (.field), a surface is meshed and drawn, shaded: as a PNG of any number of triangles, as an SVG or "
+        "a PDF of at most 300,000.",
+    .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
+               "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
+               "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .ask_less = "draw fewer of them",
+    .operands = "a rule file and a file of plans",
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,193 @@
+/* Numbers of the houses on a plan: houses in a row from a number on, the house of a number, the number of a house. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/house/variant/parts.h"
+
+static void multiply_tiles(const tn_house_variants *v, mpz_t product)
+{
+    mpz_set_ui(product, 1);
+    for (size_t i = 0; i < v->house.cell_count; i++)
+        mpz_mul_ui(product, product, v->tiles[i]);
+}
+
+/* ---- houses from a number on */
+
+typedef struct listing {
+    mpz_t left, here; /* houses still to be passed over; houses with these faces */
+    tn_house_each *each;
+    void *context;
+    bool found;
+} listing;
+
+/* Passes over a part of the houses, if the first that is wanted is not among them. */
+static void pass_over(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
+                      bool *taken)
+{
+    listing *list = context;
+    (void)v;
+    (void)part;
+    *taken = mpz_cmp(list->left, counts->houses) >= 0;
+    if (*taken)
+        mpz_sub(list->left, list->left, counts->houses);
+}
+
+/* The next combination of tiles, the last cell's changing first; false after the last one. */
+static bool next_tiles(tn_house_variants *v)
+{
+    for (size_t i = v->house.cell_count; i-- > 0;) {
+        if (++v->house.cells[i].variant < v->tiles[i])
+            return true;
+        v->house.cells[i].variant = 0;
+    }
+    return false;
+}
+
+/* Gives the houses with these faces out, from the `left`-th combination of tiles on. */
+static tn_status give_tiles(tn_house_variants *v, void *context, bool *stop, tn_error *error)
+{
+    listing *list = context;
+    multiply_tiles(v, list->here);
+    if (mpz_cmp(list->left, list->here) >= 0) {
+        mpz_sub(list->left, list->left, list->here);
+        return TN_OK;
+    }
+    for (size_t i = v->house.cell_count; i-- > 0;)
+        v->house.cells[i].variant = mpz_fdiv_q_ui(list->left, list->left, v->tiles[i]);
+    tn_status status;
+    do {
+        list->found = true;
+        v->work = v->work_limit; /* there is a limit on the way to a house, none on how many there are */
+        status = list->each(list->context, &v->house, stop, error);
+    } while (status == TN_OK && !*stop && next_tiles(v));
+    return status;
+}
+
+tn_status tn_house_variants_each(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t from,
+                                 tn_house_each *each, void *context, tn_error *error)
+{
+    listing list = {.each = each, .context = context};
+    mpz_init_set(list.left, from);
+    mpz_init(list.here);
+    tn_status status = tn_variants_go_through(
+        v, trays, length, &(tn_house_visitor){.count = pass_over, .visit = give_tiles, .context = &list}, error);
+    mpz_clears(list.left, list.here, NULL);
+    return status;
+}
+
+static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    (void)house;
+    (void)error;
+    *stop = *(bool *)context = true;
+    return TN_OK;
+}
+
+/* A house is asked for by a number that a plan with so many houses does not have. */
+static tn_status too_few(const mpz_t houses, tn_error *error)
+{
+    char *digits = mpz_get_str(NULL, 10, houses);
+    tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "this plan has only %.80s houses in the library",
+                               digits ? digits : "some of these");
+    if (digits)
+        tn_error_help(error, "its houses have the numbers from 0 on, less than %.80s", digits);
+    free(digits);
+    return status;
+}
+
+tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t variant,
+                               tn_house *house, tn_error *error)
+{
+    bool found = false;
+    *house = (tn_house){0};
+    tn_status status = tn_house_variants_each(v, trays, length, variant, stop_at_once, &found, error);
+    if (status != TN_OK)
+        return status;
+    if (found) {
+        *house = v->house;
+        v->house = (tn_house){0};
+        return TN_OK;
+    }
+    tn_house_counts counts;
+    tn_house_counts_init(&counts);
+    status = tn_house_variants_count(v, trays, length, &counts, error);
+    if (status == TN_OK)
+        status = too_few(counts.houses, error);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+/* ---- the number of a house */
+
+typedef struct seeking {
+    mpz_t before, here;
+    const tn_house *wanted;
+    bool found;
+} seeking;
+
+static bool same_section(const tn_house *a, const tn_house *b)
+{
+    return memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0 && a->cell_count == b->cell_count &&
+           a->face_count == b->face_count;
+}
+
+static bool same_functions(const tn_house *a, const tn_house *b)
+{
+    bool same = true;
+    for (size_t i = 0; same && i < a->cell_count; i++)
+        same = a->cells[i].function == b->cells[i].function;
+    return same;
+}
+
+/* Counts a part of the houses at once, if the wanted one is not among them. */
+static void count_over(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
+                       bool *taken)
+{
+    seeking *s = context;
+    *taken = part == PART_SECTION ? !same_section(&v->house, s->wanted) : !same_functions(&v->house, s->wanted);
+    if (*taken)
+        mpz_add(s->before, s->before, counts->houses);
+}
+
+static bool same_faces(const tn_house *a, const tn_house *b)
+{
+    bool same = true;
+    for (size_t i = 0; same && i < a->face_count; i++)
+        same = a->faces[i].kind == b->faces[i].kind;
+    return same;
+}
+
+static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_error *error)
+{
+    seeking *s = context;
+    (void)error;
+    multiply_tiles(v, s->here);
+    if (!same_faces(&v->house, s->wanted)) {
+        mpz_add(s->before, s->before, s->here);
+        return TN_OK;
+    }
+    mpz_set_ui(s->here, 0);
+    for (size_t i = 0; i < v->house.cell_count; i++) {
+        mpz_mul_ui(s->here, s->here, v->tiles[i]);
+        mpz_add_ui(s->here, s->here, s->wanted->cells[i].variant);
+    }
+    mpz_add(s->before, s->before, s->here);
+    *stop = s->found = true;
+    return TN_OK;
+}
+
+tn_status tn_house_variants_rank(tn_house_variants *v, const tn_house *house, mpz_t variant, tn_error *error)
+{
+    seeking s = {.wanted = house};
+    mpz_inits(s.before, s.here, NULL);
+    tn_status status =
+        tn_variants_go_through(v, house->trays, house->length,
+                               &(tn_house_visitor){.count = count_over, .visit = stop_here, .context = &s}, error);
+    mpz_set(variant, s.before);
+    if (status == TN_OK && !s.found) {
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
+        tn_error_help(error, "`tartan explain` says which clauses drop it");
+    }
+    mpz_clears(s.before, s.here, NULL);
+    return status;
+}
