@@ -147,27 +147,37 @@ static void take_settings(tn_solid_check *check)
 
 /* ---- expressions */
 
-static bool constant(const tn_expression *expression, double *value)
+static bool names_measure(const tn_expression *e)
 {
-    tn_formula formula = {0};
-    tn_error error;
-    bool known = tn_expression_code(expression, &formula, &error) == TN_OK && tn_formula_is_constant(&formula, value);
-    tn_formula_clear(&formula);
-    return known;
+    bool names = e->op == TN_OP_TERM;
+    for (const tn_expression *operand = e->first; operand; operand = operand->next)
+        names = names || names_measure(operand);
+    return names;
+}
+
+static void warn_of_answer(tn_solid_check *check, const tn_solid_entry *entry)
+{
+    tn_solid_answer answer = tn_solid_requirement_answer(entry->expression);
+    if (answer == TN_SOLID_DEPENDS)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_REQUIREMENT_CONSTANT, entry->span, "this requirement %s holds",
+                                 answer == TN_SOLID_ALWAYS ? "always" : "never");
+    if (names_measure(entry->expression))
+        tn_help(check->diagnostics, d,
+                "whatever the design: sizes and counts are never below 0, and `support` is never above 1");
+    else
+        tn_help(check->diagnostics, d, "it is not about the design: name a measure, as in `parts = 1`");
 }
 
 static void check_expressions(tn_solid_check *check, const tn_solid_item *item)
 {
     for (const tn_solid_entry *entry = item->entries.first; entry; entry = entry->next) {
-        double value;
         size_t errors = check->diagnostics->error_count;
         tn_expression_check(check->diagnostics, &tn_solid_scope, entry->expression);
         if (check->diagnostics->error_count > errors) {
             check->solid->wrong = true;
-        } else if (item->kind == TN_SOLID_REQUIRES && constant(entry->expression, &value)) {
-            tn_diagnostic *d = tn_report(check->diagnostics, W_REQUIREMENT_CONSTANT, entry->span,
-                                         "this requirement %s holds", value != 0 ? "always" : "never");
-            tn_help(check->diagnostics, d, "it is not about the design: name a measure, as in `parts = 1`");
+        } else if (item->kind == TN_SOLID_REQUIRES) {
+            warn_of_answer(check, entry);
         }
     }
 }

@@ -195,4 +195,8 @@ void tn_format_solid(tn_format *format);
 /* Lists designs with their statements. */
 void tn_solid_list(tn_listing *listing);
 
+/* Does a requirement, of which nothing is wrong, hold of every design, or of none? */
+typedef enum tn_solid_answer { TN_SOLID_DEPENDS, TN_SOLID_ALWAYS, TN_SOLID_NEVER } tn_solid_answer;
+tn_solid_answer tn_solid_requirement_answer(const tn_expression *requirement);
+
 #endif
