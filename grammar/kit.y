@@ -53,6 +53,7 @@ static const tn_kit_nodes no_nodes = {0};
 %token SPACE "`space`" RULE "`rule`" AT "`at`" MODEL "`model`" TEST "`test`" EXPECT "`expect`" FILL "`fill`" MASS "`mass`"
 %token PRICE "`price`" IN "`in`" WITH "`with`" STOP "`stop`" TURN "`turn`" INSIDE "`inside`" START "`start`" BY "`by`"
 %token COLOUR "`colour`" REQUIRE "`require`" COUNT "`count`" X "`x`"
+%token MINIMIZE "`minimize`" MAXIMIZE "`maximize`" SEARCH "`search`" SYMMETRY "`symmetry`" STOCK "`stock`"
 %token COMMA "`,`" END "`;`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`" BAR "`|`"
 %token EQUALS "`=`" PLUS "`+`" MINUS "`-`" STAR "`*`" SLASH "`/`"
 %token BELOW "`<`" AT_MOST "`<=`" AT_LEAST "`>=`" ABOVE "`>`" UNEQUAL "`!=`" TO_DOTS "`..`" AND "`and`" OR "`or`" NOT "`not`"
@@ -66,8 +67,8 @@ static const tn_kit_nodes no_nodes = {0};
 %precedence SIGN
 
 %type <node> statement feature space alternative placed drawn_one line condition connector has
-%type <nodes> features names alternatives drawn several lines conditions lengths
-%type <text> doc part_name axis
+%type <nodes> features names alternatives drawn several lines conditions lengths stocks
+%type <text> doc part_name axis axis_word
 %type <length> length
 %type <vector> vector
 %type <expression> expression call
@@ -224,6 +225,23 @@ line
                                               if ($$) { $$->doc = $3; $$->at = $5; $$->other = $7; } }
     | COLOUR NUMBER                         { $$ = counted(parse, TN_KIT_COLOUR, @$, no_text, $2); }
     | REQUIRE conditions                    { $$ = node(parse, TN_KIT_REQUIRES, @$, no_text, $2); }
+    | MINIMIZE condition                    { $$ = node(parse, TN_KIT_MINIMIZES, @$, no_text, tn_kit_nodes_add(no_nodes, $2)); }
+    | MAXIMIZE condition                    { $$ = node(parse, TN_KIT_MAXIMIZES, @$, no_text, tn_kit_nodes_add(no_nodes, $2)); }
+    | SEARCH NAME                           { $$ = node(parse, TN_KIT_SEARCHES, @$, $2, no_nodes); }
+    | SEARCH NAME NUMBER                    { $$ = counted(parse, TN_KIT_SEARCHES, @$, $2, $3); }
+    | SYMMETRY TURN NUMBER                  { $$ = counted(parse, TN_KIT_REPEATS, @$, no_text, $3); }
+    | SYMMETRY NAME axis_word               { $$ = node(parse, TN_KIT_REPEATS, @$, $2, no_nodes); if ($$) $$->other = $3; }
+    | STOCK stocks                          { $$ = node(parse, TN_KIT_STOCKS, @$, no_text, $2); }
+    ;
+
+axis_word
+    : NAME
+    | X                                     { $$ = (tn_kit_text){"x", @1}; }
+    ;
+
+stocks
+    : part_name AT_MOST NUMBER              { $$ = tn_kit_nodes_add(no_nodes, counted(parse, TN_KIT_STOCKED, @$, $1, $3)); }
+    | stocks COMMA part_name AT_MOST NUMBER { $$ = tn_kit_nodes_add($1, counted(parse, TN_KIT_STOCKED, tn_span_join(@3, @5), $3, $5)); }
     ;
 
 axis
@@ -344,6 +362,9 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     case YYSYMBOL_AT: return found == YYSYMBOL_OPEN ? "a rule is at connectors: `rule wall at stud, tube = ...`" : "three lengths stand here: `at (0, 2 bricks, 0)`";
     case YYSYMBOL_START: return "write `start stud at (0, 0, 0) by wall;`";
     case YYSYMBOL_IN: return "a colour is a number of LDraw's: `3005 in 4`";
+    case YYSYMBOL_SEARCH: return "write `search beam 50;`, `search anneal 10000;`, `search exact;` or `search greedy;`";
+    case YYSYMBOL_SYMMETRY: return "write `symmetry turn 2;`, `symmetry turn 4;`, `symmetry mirror x;` or `symmetry mirror z;`";
+    case YYSYMBOL_STOCK: return "write how many of a part there are: `stock 3001 <= 20, 3004 <= 5;`";
     case YYSYMBOL_WITH: return "write the rule that goes on there: `3005 with wall`";
     default: break;
     }
@@ -353,7 +374,7 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
         found == YYSYMBOL_UNEQUAL)
         return "two comparisons are joined by `and`, or are two conditions with a comma between";
     if (found == YYSYMBOL_EQUALS)
-        return "a rule says where it is: `rule wall at stud, tube = ...`; conditions are joined by `and`, or by a comma";
+        return "a rule says where it is: `rule wall at stud, tube = ...`; conditions are joined by `and`, or by a comma; a stock is `stock 3001 <= 20`";
     if (found == YYSYMBOL_CLOSE_BRACE)
         return "what stands in a block ends with `;`, too";
     if (found == YYSYMBOL_YYEOF)

@@ -11,12 +11,13 @@
 #include "cli/common/option_rows.h"
 #include "driver/place/kit.h"
 #include "driver/place/shape.h"
+#include "runtime/place/search/search.h"
 
 typedef struct place_settings {
     tn_settings common;
     tn_option_list outputs;
     const char *program, *model;
-    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit;
+    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, search_limit, threads;
     int stats, engine;
     bool trace, header, keep_partial;
 } place_settings;
@@ -29,6 +30,7 @@ typedef struct placing {
     tn_place_rules rules;
     tn_placed_model model;
     uint32_t chosen; /* model of a kit */
+    tn_watch *watch; /* NULL once an interrupt was answered */
 } placing;
 
 static out_format format_of(const char *path)
@@ -101,7 +103,7 @@ static void write_picture(placing *p, const char *path)
     tn_error error;
     if (!has_shapes(p))
         return;
-    tn_status status = tn_placed_measure(p->rules.module, NULL, &p->model, tn_interrupt_waiting(), &measures, &error);
+    tn_status status = tn_placed_measure(p->rules.module, NULL, &p->model, p->watch, &measures, &error);
     if (status == TN_OK)
         status = tn_placed_draw(p->rules.module, &p->model, &measures, NULL, NULL, &(tn_picture){.path = path}, &error);
     if (status != TN_OK)
@@ -207,10 +209,12 @@ static tn_place_options options_of(placing *p)
                               .step_limit = s->step_limit.value,
                               .frame_limit = s->frame_limit.value,
                               .lookahead_limit = s->lookahead_limit.value,
+                              .search_limit = s->search_limit.value,
+                              .threads = (unsigned)s->threads.value,
                               .keep_steps = s->program != NULL,
                               .keep_filled = s->trace,
                               .interpret = s->engine == 1,
-                              .watch = tn_interrupt_waiting(),
+                              .watch = p->watch,
                               .report = s->trace ? report : NULL,
                               .context = p};
 }
@@ -239,14 +243,40 @@ static tn_status check_conditions(placing *p)
     tn_kit_tally tally = {0};
     if (!p->rules.space)
         return TN_OK;
-    tn_status status =
-        tn_placed_measure(p->rules.module, p->rules.space, &p->model, tn_interrupt_waiting(), &measured, &error);
+    tn_status status = tn_placed_measure(p->rules.module, p->rules.space, &p->model, p->watch, &measured, &error);
     if (status == TN_OK)
         status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, TN_KIT_HELP, &tally);
     else
         tn_job_fail(p->job, &error);
     tn_placed_measures_clear(&measured);
     return status;
+}
+
+/* A search looks at many models: what one derivation did is not asked for. */
+static bool check_search(placing *p)
+{
+    const place_settings *s = p->settings;
+    const char *option = s->trace ? "--trace" : s->program ? "--program" : s->engine ? "--engine" : NULL;
+    bool search = tn_place_needs_search(&p->rules);
+    if (search && option) {
+        tn_diagnostic *d = tn_job_usage(p->job, "%s is of models that are placed without a search", option);
+        tn_help(tn_job_diagnostics(p->job), d, "leave out `search`, `symmetry` and `stock` in the model to see it");
+    } else if (!search && (s->search_limit.given || s->threads.given)) {
+        tn_job_usage(p->job, "--%s is of a search, and the model has none",
+                     s->search_limit.given ? "search-limit" : "threads");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* The best until then is a model like any other. */
+static void interrupted(placing *p)
+{
+    tn_interrupt_answered();
+    p->watch = NULL;
+    tn_job_interrupted(p->job, "interrupted; the best of %" PRIu64 " models that were looked at is kept",
+                       p->model.counts.looked_at);
 }
 
 static void run_placing(placing *p)
@@ -262,10 +292,16 @@ static void run_placing(placing *p)
         tn_job_fail(p->job, &error);
         return;
     }
+    if (!check_search(p))
+        return;
     tn_place_options options = options_of(p);
     tn_job_show(p->job);
     status = tn_place_model(&p->job->opened, &p->rules, &options, &p->model);
-    if (status == TN_OK)
+    bool found = p->model.counts.looked_at > 0 && p->model.count > 0 && (status == TN_LIMIT || status == TN_STOPPED);
+    if (status == TN_STOPPED && found)
+        interrupted(p);
+    tn_job_status(p->job, status);
+    if (status == TN_OK || found)
         status = check_conditions(p);
     tn_job_status(p->job, status);
     if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0))
@@ -279,7 +315,7 @@ static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
-    placing p = {.job = &job, .settings = (const place_settings *)common};
+    placing p = {.job = &job, .settings = (const place_settings *)common, .watch = tn_interrupt_waiting()};
     tn_job_begin(&job, common);
     if (check_options(&job) && tn_job_open_joined(&job, common->operands.items, common->operands.count))
         run_placing(&p);
@@ -309,6 +345,9 @@ static const tn_option options[] = {
     NUMBER("frame-limit", 0, "N", frame_limit, 1, UINT32_MAX, "the most ( that are open at a time (default 1000000)"),
     NUMBER("lookahead-limit", 0, "N", lookahead_limit, 1, UINT64_MAX,
            "the most steps of one lookahead, and of symbols expanded without a step (default 1000000)"),
+    NUMBER("search-limit", 0, "N", search_limit, 1, UINT64_MAX,
+           "the most models that a search looks at or gives up (default 10000000)"),
+    OPTION_THREADS(threads),
     OPTION_WERROR,
 };
 

@@ -19,13 +19,34 @@ tn_status tn_place_summary(const tn_placed_model *model, FILE *out, tn_error *er
     return TN_OK;
 }
 
+typedef struct figure {
+    const char *name, *what;
+    uint64_t value;
+} figure;
+
+static void write_rows(const figure *rows, size_t count, bool json, FILE *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (json)
+            fprintf(out, "%s\"%s\":%" PRIu64, i ? "," : "{", rows[i].name, rows[i].value);
+        else
+            fprintf(out, "%12" PRIu64 "  %s\n", rows[i].value, rows[i].what);
+    }
+    if (json)
+        fputs("}\n", out);
+}
+
 void tn_place_stats(const tn_placed_model *model, bool json, FILE *out)
 {
     const tn_place_counts *c = &model->counts;
-    const struct {
-        const char *name, *what;
-        uint64_t value;
-    } rows[] = {
+    if (c->looked_at > 0) {
+        const figure searched[] = {{"elements", "parts placed", c->parts},
+                                   {"models", "models looked at", c->looked_at},
+                                   {"proved", "1: the rules allow no better one", c->proved}};
+        write_rows(searched, sizeof searched / sizeof *searched, json, out);
+        return;
+    }
+    const figure rows[] = {
         {"elements", "parts placed", c->parts},
         {"terminals", "steps taken", c->steps},
         {"expansions", "symbols expanded", c->expansions},
@@ -35,14 +56,7 @@ void tn_place_stats(const tn_placed_model *model, bool json, FILE *out)
         {"cells", "cells filled", c->cells},
         {"bounds", "bounds set", c->bounds},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (json)
-            fprintf(out, "%s\"%s\":%" PRIu64, i ? "," : "{", rows[i].name, rows[i].value);
-        else
-            fprintf(out, "%12" PRIu64 "  %s\n", rows[i].value, rows[i].what);
-    }
-    if (json)
-        fputs("}\n", out);
+    write_rows(rows, sizeof rows / sizeof *rows, json, out);
 }
 
 /* ---- traces */

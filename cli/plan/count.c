@@ -6,6 +6,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
+#include "cli/place/count_kit.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
 #include "driver/house/judge.h"
@@ -23,6 +24,7 @@ typedef struct count_settings {
     tn_option_number bins;
     bool watch;
     const char *output;
+    tn_count_kit_options kit;
 } count_settings;
 
 /* All counts of a library: one a length, and one (at the end) of all. */
@@ -347,6 +349,17 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
     return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
 }
 
+/* What only kits are asked. */
+static bool asks_kit(tn_job *job, const count_settings *settings)
+{
+    const tn_count_kit_options *kit = &settings->kit;
+    const char *option = kit->parts.given ? "parts" : kit->threads.given ? "threads" : kit->fixed ? "fixed" : "part";
+    if (!kit->parts.given && !kit->threads.given && !kit->fixed && kit->kinds.count == 0)
+        return false;
+    tn_job_usage(job, "--%s is of a kit: %.200s is none", option, settings->common.operands.items[0]);
+    return true;
+}
+
 static int count_once(const tn_settings *common, tn_files_read *read)
 {
     const count_settings *settings = (const count_settings *)common;
@@ -355,7 +368,13 @@ static int count_once(const tn_settings *common, tn_files_read *read)
     tn_job_begin(&job, common);
     job.read = read;
     bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
-    if (open && counts_houses(&job, settings)) {
+    if (open && job.opened.module->KIT_count > 0) {
+        tn_count_kit_options kit = settings->kit;
+        kit.json = settings->count.json;
+        tn_job_count_kit(&job, &kit, settings->output);
+    } else if (open && asks_kit(&job, settings)) {
+        return tn_job_end(&job);
+    } else if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
         tn_job_count_houses(&job, &houses, settings->plan, settings->count.json, settings->output);
     } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
@@ -384,6 +403,10 @@ static const tn_option options[] = {
          "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
+    NUMBER("parts", 0, "N", kit.parts, 1, 32, "of a kit: count the buildings of N parts"),
+    LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),
+    FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn"),
+    OPTION_THREADS(kit.threads),
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
@@ -394,7 +417,8 @@ const tn_command tn_command_count = {
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
              "[--json | -o HISTOGRAM.svg]\n"
-             "FILE --library HOUSES [--plan PLAN] [--json]",
+             "FILE --library HOUSES [--plan PLAN] [--json]\n"
+             "FILE.kit --parts N [--part NAME]... [--fixed] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
@@ -408,7 +432,9 @@ const tn_command tn_command_count = {
         "listing plans.\n\n"
         "For a library of houses (docs/houses.md) it counts the plans, those that have a house, the choices of section "
         "and functions, those with openings, and the houses. They are counted plan by plan; --plan counts those of one "
-        "plan.",
+        "plan.\n\n"
+        "For a kit (docs/kit-language.md) it counts buildings: sets of N parts that hang together by their connectors. "
+        "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

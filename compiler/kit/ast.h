@@ -36,7 +36,7 @@ typedef enum tn_kit_kind {
     TN_KIT_PART,      /* name, doc, inner: FILL, HAS, MASS, PRICE */
     TN_KIT_SPACE,     /* name, inner: one of a space */
     TN_KIT_RULE,      /* name, outer: NAMED connectors, inner: PLACES and DRAWN */
-    TN_KIT_MODEL,     /* name, doc, inner: INSIDE, START, COLOUR, REQUIRES */
+    TN_KIT_MODEL,     /* name, doc, inner: INSIDE, START, COLOUR, REQUIRES and what follows these */
     TN_KIT_TEST,      /* name: of a model, inner: CONDITION */
     /* of a part */
     TN_KIT_FILL,  /* size, at */
@@ -55,10 +55,16 @@ typedef enum tn_kit_kind {
     TN_KIT_PLACES, /* inner: PLACED, perhaps none; count[0]: weight */
     TN_KIT_PLACED, /* name: of a part; count[0]: colour; other: the rule to go on with; stops; at; count[1]: turns */
     /* of a model */
-    TN_KIT_INSIDE,   /* inner: one of a space */
-    TN_KIT_START,    /* name: of a connector, doc: its axis, at, other: a rule */
-    TN_KIT_COLOUR,   /* count[0] */
-    TN_KIT_REQUIRES, /* inner: CONDITION */
+    TN_KIT_INSIDE,    /* inner: one of a space */
+    TN_KIT_START,     /* name: of a connector, doc: its axis, at, other: a rule */
+    TN_KIT_COLOUR,    /* count[0] */
+    TN_KIT_REQUIRES,  /* inner: CONDITION */
+    TN_KIT_MINIMIZES, /* inner: one CONDITION, which is a number */
+    TN_KIT_MAXIMIZES,
+    TN_KIT_SEARCHES, /* name, count[0] */
+    TN_KIT_REPEATS,  /* count[0]: turns; or name: mirror, other: an axis */
+    TN_KIT_STOCKS,   /* inner: STOCKED */
+    TN_KIT_STOCKED,  /* name: of a part, count[0] */
     TN_KIT_CONDITION /* expression */
 } tn_kit_kind;
 

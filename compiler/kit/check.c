@@ -88,6 +88,7 @@ static void take_part(tn_kit *kit, const tn_kit_node *node)
     if (!part || !define(kit, &kit->parts, node, "the part", part))
         return;
     part->node = node;
+    part->index = kit->part_count;
     if (kit->part_count++ == TN_KIT_PARTS_MAX) {
         tn_diagnostic *d =
             tn_report(kit->diagnostics, E_KIT_TOO_MANY, node->span, "a kit has at most %d parts", TN_KIT_PARTS_MAX);

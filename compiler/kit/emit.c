@@ -310,12 +310,31 @@ static uint32_t emit_function(emitting *e, const tn_expression *expression)
     return e->status == TN_OK ? tn_formula_emit(e->builder, TN_FUNCTION_KIT, NULL, &e->formula) : 0;
 }
 
+static uint32_t emit_violation(emitting *e, const tn_expression *expression)
+{
+    if (e->status == TN_OK)
+        e->status = tn_expression_violation(expression, &e->formula, e->error);
+    return e->status == TN_OK ? tn_formula_emit(e->builder, TN_FUNCTION_KIT, NULL, &e->formula) : 0;
+}
+
+static void emit_stock(emitting *e, const tn_kit_node *stocks)
+{
+    for (const tn_kit_node *stocked = stocks ? stocks->inner.first : NULL; stocked; stocked = stocked->next) {
+        const tn_kit_part *part = tn_names_get(&e->kit->parts, stocked->name.text);
+        int64_t most;
+        tn_kit_whole(e->kit, &stocked->count[0], 0, UINT32_MAX, "a stock", &most);
+        tn_builder_add_KIT_STOCK(e->builder, &(tn_kit_stock_record){part->index, (uint32_t)most});
+    }
+}
+
 static void emit_conditions(emitting *e, const tn_kit_node *node, uint32_t flags)
 {
     for (const tn_kit_node *condition = node->inner.first; condition; condition = condition->next) {
         tn_span at = condition->span;
         uint32_t holds = emit_function(e, condition->expression);
-        tn_builder_add_KIT_CONDITION(e->builder, &(tn_kit_condition_record){holds, flags, at.file, at.begin, at.end});
+        uint32_t violation = flags ? TN_NO_RECORD : emit_violation(e, condition->expression);
+        tn_builder_add_KIT_CONDITION(e->builder,
+                                     &(tn_kit_condition_record){holds, flags, at.file, at.begin, at.end, violation});
     }
 }
 
@@ -347,7 +366,12 @@ static void emit_model(emitting *e, const tn_kit_model *model, uint32_t start, c
                                   .condition_first = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_CONDITION),
                                   .file = node->span.file,
                                   .begin = node->span.begin,
-                                  .end = node->span.end};
+                                  .end = node->span.end,
+                                  .search = model->search,
+                                  .search_amount = (uint32_t)model->amount,
+                                  .objective = TN_NO_RECORD,
+                                  .symmetry = model->symmetry,
+                                  .stock_first = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_STOCK)};
     for (const tn_kit_node *line = node->inner.first; line; line = line->next)
         if (line->kind == TN_KIT_REQUIRES)
             emit_conditions(e, line, 0);
@@ -355,6 +379,12 @@ static void emit_model(emitting *e, const tn_kit_model *model, uint32_t start, c
         if (test->kind == TN_KIT_TEST && strcmp(test->name.text, node->name.text) == 0)
             emit_conditions(e, test, TN_CONDITION_TEST);
     record.condition_count = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_CONDITION) - record.condition_first;
+    if (model->objective) {
+        record.objective = emit_function(e, model->objective->inner.first->expression);
+        record.flags = model->objective->kind == TN_KIT_MAXIMIZES ? TN_KIT_MAXIMIZE : 0;
+    }
+    emit_stock(e, model->stocks);
+    record.stock_count = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_STOCK) - record.stock_first;
     set_bounds(e->kit, &model->region, &record);
     tn_builder_add_KIT_MODEL(e->builder, &record);
 }

@@ -38,7 +38,7 @@ typedef struct tn_kit_part {
     double mass, price;
     tn_kit_box *boxes;
     tn_kit_joint *joints;
-    uint32_t box_count, joint_count;
+    uint32_t box_count, joint_count, index;
     struct tn_kit_part *next;
 } tn_kit_part;
 
@@ -63,7 +63,10 @@ typedef struct tn_kit_region {
 typedef struct tn_kit_model {
     const tn_kit_node *node, *inside;
     tn_kit_region region;
-    int64_t colour;
+    int64_t colour, amount; /* amount: of the search */
+    tn_kit_search search;
+    tn_symmetry symmetry;
+    const tn_kit_node *objective, *searches, *repeats, *stocks; /* or NULL */
     struct tn_kit_model *next;
 } tn_kit_model;
 
@@ -110,12 +113,15 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
 /* "did you mean" among the names of a table, or `otherwise`. */
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
 
-/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c) */
+/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c, search.c) */
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule);
 void tn_kit_check_model(tn_kit *kit, tn_kit_model *model);
+void tn_kit_check_conditions(tn_kit *kit, const tn_kit_node *node);
+void tn_kit_check_search(tn_kit *kit, tn_kit_model *model, const tn_kit_node *node);
+void tn_kit_check_searches(tn_kit *kit, const tn_kit_model *model);
 void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test);
 extern const tn_expression_scope tn_kit_scope;
 

@@ -141,6 +141,8 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
             strcmp(what, "a colour") == 0     ? "in 4"
             : strcmp(what, "a symmetry") == 0 ? "turns 4"
             : strcmp(what, "a turn") == 0     ? "turn 1"
+            : strcmp(what, "a stock") == 0    ? "stock 3001 <= 20"
+            : strcmp(what, "an amount") == 0  ? "search beam 50"
                                               : "4 x 2");
     return false;
 }

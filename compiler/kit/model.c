@@ -59,7 +59,7 @@ static void give_counts(tn_expression *e)
         e->op = TN_OP_TERM;
 }
 
-static void check_conditions(tn_kit *kit, const tn_kit_node *node)
+void tn_kit_check_conditions(tn_kit *kit, const tn_kit_node *node)
 {
     for (const tn_kit_node *condition = node->inner.first; condition; condition = condition->next) {
         tn_expression *e = condition->expression;
@@ -154,8 +154,10 @@ void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
             check_start(kit, node);
         } else if (node->kind == TN_KIT_COLOUR) {
             tn_kit_whole(kit, &node->count[0], 0, TN_PLACE_COLOUR_MAX, "a colour", &model->colour);
+        } else if (node->kind == TN_KIT_REQUIRES) {
+            tn_kit_check_conditions(kit, node);
         } else {
-            check_conditions(kit, node);
+            tn_kit_check_search(kit, model, node);
         }
     }
     if (model->inside)
@@ -166,6 +168,7 @@ void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
     if (!starts)
         lacks(kit, model, "starts nowhere",
               "write a connector, where it is, and a rule: `start stud at (0, 0, 0) by wall;`");
+    tn_kit_check_searches(kit, model);
 }
 
 void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test)
@@ -176,5 +179,5 @@ void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test)
         tn_kit_suggest(kit, d, &kit->models, test->name.text,
                        "a test is called by the model that it is about, in the same file");
     }
-    check_conditions(kit, test);
+    tn_kit_check_conditions(kit, test);
 }

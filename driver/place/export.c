@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/place/search/search.h"
 #include "runtime/place/space.h"
 
 enum { CELLS_MAX = 1 << 26 };
@@ -32,6 +33,10 @@ static tn_status check_step(const tn_step *step, const char *symbol, tn_error *e
 static tn_status check_rules(const tn_place_rules *rules, tn_error *error)
 {
     tn_status status = TN_OK;
+    if (tn_place_needs_search(rules))
+        return refuse(
+            error, "connection grammars have no search, images or stock", tn_text(rules->module, rules->space->name),
+            "leave `search`, `symmetry` and `stock` out of the model, or write an .ldr file by `tartan place`");
     for (uint32_t s = 0; s < rules->symbol_count && status == TN_OK; s++) {
         const tn_place_symbol *symbol = &rules->symbols[s];
         for (uint32_t a = 0; a < symbol->count && status == TN_OK; a++) {

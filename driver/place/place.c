@@ -2,6 +2,7 @@
 #include "driver/place/place.h"
 
 #include "driver/open/findings.h"
+#include "runtime/place/search/search.h"
 
 tn_span tn_place_step_span(const tn_place_rules *rules, uint32_t step)
 {
@@ -92,22 +93,43 @@ static void warn_of_forced(tn_opened *opened, const tn_place_rules *rules, const
     tn_help(list, d, "give the symbol a last alternative that always fits; --trace shows where");
 }
 
+static tn_status report_nothing(tn_opened *opened, const tn_place_rules *rules)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *d =
+        tn_report(list, E_PLACE_NOTHING, tn_place_alternative_span(rules, rules->symbols[rules->start].first),
+                  "%s comes to its end without placing a part", rules->space ? "the model" : "the grammar");
+    tn_help(list, d, "%s%s",
+            rules->space ? "a part needs room inside of the space where the model starts"
+                         : "a part is placed by 'Place(3001)'",
+            tn_place_needs_search(rules) ? "" : "; --trace shows which alternatives did not fit");
+    return TN_INVALID;
+}
+
+/* A model that is searched for; what was found until a limit stays. */
+static tn_status search_model(tn_opened *opened, const tn_place_rules *rules, const tn_place_options *options,
+                              tn_placed_model *model)
+{
+    tn_error error;
+    tn_status status = tn_place_search(rules, options, model, &error);
+    if (status == TN_OK && model->count == 0)
+        return report_nothing(opened, rules);
+    if (status != TN_OK && status != TN_STOPPED)
+        tn_report_error(&opened->compilation.diagnostics, &error, opened->path, NULL, 0);
+    return status;
+}
+
 tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const tn_place_options *options,
                          tn_placed_model *model)
 {
     tn_error error;
     tn_place_fault fault;
     tn_diagnostics *list = &opened->compilation.diagnostics;
+    if (tn_place_needs_search(rules))
+        return search_model(opened, rules, options, model);
     tn_status status = tn_place_derive(rules, options, model, &fault, &error);
-    if (status == TN_OK && model->count == 0) {
-        tn_diagnostic *d =
-            tn_report(list, E_PLACE_NOTHING, tn_place_alternative_span(rules, rules->symbols[rules->start].first),
-                      "%s comes to its end without placing a part", rules->space ? "the model" : "the grammar");
-        tn_help(list, d, "%s; --trace shows which alternatives did not fit",
-                rules->space ? "a part needs room inside of the space where the model starts"
-                             : "a part is placed by 'Place(3001)'");
-        return TN_INVALID;
-    }
+    if (status == TN_OK && model->count == 0)
+        return report_nothing(opened, rules);
     if (status == TN_OK)
         warn_of_forced(opened, rules, model);
     if (status == TN_OK || status == TN_STOPPED)

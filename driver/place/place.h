@@ -6,8 +6,9 @@
 #include "driver/open/open.h"
 #include "runtime/place/grow.h"
 
-/* As tn_place_derive; diagnostics are added to those of `opened`. A run that fails for want of room is made a second
- * time, to see what took it. Placing nothing is TN_INVALID too. */
+/* As tn_place_derive, or as tn_place_search for a model of a kit that needs it; diagnostics are added to those of
+ * `opened`. A run that fails for want of room is made a second time, to see what took it. Placing nothing is TN_INVALID
+ * too. */
 tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const tn_place_options *options,
                          tn_placed_model *model);
 

@@ -223,6 +223,27 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_KIT_LENGTH_MAX INT64_C(1000000000000) /* millionths of an LDU */
 #define TN_KIT_COUNTED_MAX 32u
 #define TN_CONDITION_TEST 1u /* of a test, not a requirement */
+#define TN_KIT_MAXIMIZE 1u   /* the objective is to be large */
+
+/* How the model of a kit is searched for, and how it repeats itself about the origin. */
+#define TN_SEARCH_MAX 1000000000u /* plans of a beam, rounds of annealing */
+#define TN_BEAM_MAX 10000u
+typedef enum tn_kit_search {
+    TN_SEARCH_GREEDY,
+    TN_SEARCH_BEAM,
+    TN_SEARCH_ANNEAL,
+    TN_SEARCH_EXACT,
+    TN_SEARCH_COUNT
+} tn_kit_search;
+typedef enum tn_symmetry {
+    TN_SYMMETRY_NONE,
+    TN_SYMMETRY_TURN_2,
+    TN_SYMMETRY_TURN_4,
+    TN_SYMMETRY_MIRROR_X,
+    TN_SYMMETRY_MIRROR_Z,
+    TN_SYMMETRY_COUNT
+} tn_symmetry;
+
 typedef enum tn_axis {
     TN_AXIS_UP,
     TN_AXIS_DOWN,

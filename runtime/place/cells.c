@@ -306,3 +306,22 @@ tn_status tn_cells_fill(tn_cells *cells, const tn_cell_box *box, tn_error *error
     } while (next_part(box, &part));
     return TN_OK;
 }
+
+void tn_cells_empty(tn_cells *cells, const tn_cell_box *box)
+{
+    chunk_part part;
+    if (!first_part(box, &part))
+        return;
+    do {
+        cell_chunk *chunk = find_chunk(cells, part.at);
+        if (!chunk)
+            continue;
+        cut_part(box, &part);
+        for (int y = part.y0; y < part.y1; y++) {
+            for (int z = part.z0; z < part.z1; z++) {
+                cells->filled -= (uint64_t)__builtin_popcountll(part.bits & chunk->row[y][z]);
+                chunk->row[y][z] &= ~part.bits;
+            }
+        }
+    } while (next_part(box, &part));
+}

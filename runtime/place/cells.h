@@ -42,4 +42,7 @@ bool tn_cells_first(tn_cells *cells, const tn_cell_box *box, int32_t cell[3]);
 /* Fills the box; cells that are filled stay so. TN_STOPPED where the watch says so. */
 tn_status tn_cells_fill(tn_cells *cells, const tn_cell_box *box, tn_error *error);
 
+/* Makes the box free again, which was free before it was filled. */
+void tn_cells_empty(tn_cells *cells, const tn_cell_box *box);
+
 #endif

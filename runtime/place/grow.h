@@ -19,6 +19,8 @@ typedef struct tn_placed_part {
 typedef struct tn_place_counts {
     uint64_t parts, steps, expansions, draws, tries, fallbacks;
     uint64_t cells, bounds;
+    uint64_t looked_at; /* models that a search looked at; 0 without one */
+    bool proved;        /* none of all the rules allow is better */
 } tn_place_counts;
 
 typedef struct tn_placed_model {
@@ -62,6 +64,8 @@ typedef struct tn_place_options {
     uint64_t step_limit;      /* 1,000,000,000 */
     uint64_t frame_limit;     /* 1,000,000 */
     uint64_t lookahead_limit; /* steps of one lookahead, and expansions without a step: 1,000,000 */
+    uint64_t search_limit;    /* models that a search looks at or gives up: 10,000,000 */
+    unsigned threads;         /* of a search; 0: as many as there are processors */
     bool keep_steps;
     bool keep_filled; /* to say what is in the way */
     bool interpret;   /* run every lookahead step by step rather than as tests that were worked out once */

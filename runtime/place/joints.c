@@ -46,16 +46,6 @@ static void find_kinds(const tn_module *module, const tn_placed_model *model, tn
 
 /* ---- connectors */
 
-/* Axes aside, in the order of turning. */
-static uint32_t turned_axis(uint32_t axis, uint32_t heading)
-{
-    static const uint32_t order[4] = {TN_AXIS_RIGHT, TN_AXIS_BACK, TN_AXIS_LEFT, TN_AXIS_FRONT};
-    for (uint32_t i = 0; i < 4; i++)
-        if (order[i] == axis)
-            return order[(i + heading) % 4];
-    return axis;
-}
-
 static uint32_t opposite(uint32_t axis)
 {
     return axis ^ 1u; /* up and down, left and right, front and back follow one another */
@@ -73,7 +63,7 @@ static void list_sockets(const tn_module *module, const tn_placed_model *model, 
             int32_t x, z;
             tn_heading_turn(frame->heading, (int32_t)from->x, (int32_t)from->z, &x, &z);
             *to = (socket){{frame->at[0] + x, frame->at[1] + (int32_t)from->y, frame->at[2] + z},
-                           turned_axis(from->axis, frame->heading),
+                           tn_axis_turn((tn_axis)from->axis, frame->heading),
                            from->type,
                            (uint32_t)i};
         }

@@ -17,14 +17,6 @@ typedef struct extent {
     uint64_t cells;
 } extent;
 
-static void widen(tn_cell_box *all, const tn_cell_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        all->low[k] = box->low[k] < all->low[k] ? box->low[k] : all->low[k];
-        all->high[k] = box->high[k] > all->high[k] ? box->high[k] : all->high[k];
-    }
-}
-
 /* Fills the cells of one part after those before it. */
 static tn_status fill_part(const tn_module *module, const tn_placed_model *model, tn_placed_measures *m, size_t i,
                            tn_cells *cells, extent *e, tn_error *error)
@@ -34,7 +26,7 @@ static tn_status fill_part(const tn_module *module, const tn_placed_model *model
     for (uint32_t b = 0; kind && b < kind->box_count; b++) {
         tn_cell_box box = tn_part_box_at(&module->PART_BOX_records[kind->box_first + b], &model->parts[i].frame);
         m->overlaps[i] |= tn_cells_any(cells, &box);
-        widen(&e->all, &box);
+        tn_cell_box_widen(&e->all, &box);
     }
     for (uint32_t b = 0; kind && b < kind->box_count && status == TN_OK; b++) {
         tn_cell_box box = tn_part_box_at(&module->PART_BOX_records[kind->box_first + b], &model->parts[i].frame);
@@ -87,11 +79,32 @@ static uint32_t find_floating(const tn_module *module, const tn_placed_model *mo
 
 /* ---- sums */
 
+void tn_placed_sums(const tn_module *module, const uint64_t *used, double terms[TN_PLACED_TERM_COUNT])
+{
+    terms[TN_PLACED_MASS] = terms[TN_PLACED_PRICE] = 0;
+    for (uint32_t i = 0; i < module->KIT_PART_count; i++) {
+        terms[TN_PLACED_MASS] += module->KIT_PART_records[i].mass * (double)used[i];
+        terms[TN_PLACED_PRICE] += module->KIT_PART_records[i].price * (double)used[i];
+    }
+    for (uint32_t c = 0; c < module->COUNTED_count && c < TN_KIT_COUNTED_MAX; c++) {
+        const tn_kit_part_record *part = tn_kit_part_named(module, tn_text(module, module->COUNTED_records[c].part));
+        terms[TN_PLACED_COUNTED + c] = part ? (double)used[part - module->KIT_PART_records] : 0;
+    }
+}
+
 static tn_status count_kinds(const tn_module *module, const tn_placed_model *model, tn_placed_measures *m,
                              tn_error *error)
 {
     tn_part_count *counts;
     size_t kinds, colours = 0;
+    uint64_t *used = calloc((size_t)module->KIT_PART_count + 1, sizeof *used);
+    if (!used)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < model->count; i++)
+        if (m->joints.kinds[i])
+            used[m->joints.kinds[i] - module->KIT_PART_records]++;
+    tn_placed_sums(module, used, m->terms);
+    free(used);
     tn_status status = tn_place_count_parts(model, &counts, &kinds, error);
     if (status != TN_OK)
         return status;
@@ -100,33 +113,24 @@ static tn_status count_kinds(const tn_module *module, const tn_placed_model *mod
         for (size_t j = 0; j < i; j++)
             seen |= counts[j].colour == counts[i].colour;
         colours += !seen;
-        const tn_kit_part_record *kind = tn_kit_part_named(module, counts[i].name);
-        m->terms[TN_PLACED_MASS] += kind ? kind->mass * (double)counts[i].count : 0;
-        m->terms[TN_PLACED_PRICE] += kind ? kind->price * (double)counts[i].count : 0;
-        for (uint32_t c = 0; c < module->COUNTED_count && c < TN_KIT_COUNTED_MAX; c++)
-            if (strcmp(tn_text(module, module->COUNTED_records[c].part), counts[i].name) == 0)
-                m->terms[TN_PLACED_COUNTED + c] += (double)counts[i].count;
     }
     m->terms[TN_PLACED_COLOURS] = (double)colours;
     free(counts);
     return TN_OK;
 }
 
-/* The share of the space's cells that is filled. */
-static tn_status find_fill(const tn_module *module, const tn_kit_model_record *space, tn_watch *watch, double cells,
-                           double *fill, tn_error *error)
+/* The cells of a space; 0 where none is known. */
+static tn_status count_inside(const tn_module *module, const tn_kit_model_record *space, tn_watch *watch,
+                              uint64_t *inside, tn_error *error)
 {
     tn_place_rules rules = {.module = module, .space = space};
     tn_space *made;
-    uint64_t inside = 0;
-    *fill = 0;
+    *inside = 0;
     if (!space)
         return TN_OK;
     tn_status status = tn_space_new(&rules, &made, error);
     if (status == TN_OK)
-        status = tn_space_count(made, watch, &inside, error);
-    if (status == TN_OK && inside > 0)
-        *fill = cells / (double)inside;
+        status = tn_space_count(made, watch, inside, error);
     tn_space_free(made);
     return status;
 }
@@ -151,8 +155,8 @@ static void set_terms(const tn_module *module, const tn_placed_model *model, tn_
         m->terms[TN_PLACED_OVERLAPS] += m->overlaps[i];
 }
 
-tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *space, const tn_placed_model *model,
-                            tn_watch *watch, tn_placed_measures *measured, tn_error *error)
+tn_status tn_placed_measure_inside(const tn_module *module, uint64_t inside, const tn_placed_model *model,
+                                   tn_watch *watch, tn_placed_measures *measured, tn_error *error)
 {
     extent e = {.all = {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}}};
     *measured = (tn_placed_measures){0};
@@ -165,12 +169,20 @@ tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *
         status = fill_cells(module, model, watch, measured, &e, error);
     if (status == TN_OK)
         status = count_kinds(module, model, measured, error);
-    if (status == TN_OK)
-        status = find_fill(module, space, watch, (double)e.cells, &measured->terms[TN_PLACED_FILL], error);
     if (status != TN_OK)
         return status;
+    measured->terms[TN_PLACED_FILL] = inside ? (double)e.cells / (double)inside : 0;
     set_terms(module, model, measured, &e);
     return tn_balance(module, model, &measured->joints, e.all.high[1], &measured->terms[TN_PLACED_BALANCE], error);
+}
+
+tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *space, const tn_placed_model *model,
+                            tn_watch *watch, tn_placed_measures *measured, tn_error *error)
+{
+    uint64_t inside;
+    *measured = (tn_placed_measures){0};
+    tn_status status = count_inside(module, space, watch, &inside, error);
+    return status == TN_OK ? tn_placed_measure_inside(module, inside, model, watch, measured, error) : status;
 }
 
 void tn_placed_measures_clear(tn_placed_measures *measured)

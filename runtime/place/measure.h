@@ -16,6 +16,12 @@ typedef struct tn_placed_measures {
  * case. */
 tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *space, const tn_placed_model *model,
                             tn_watch *watch, tn_placed_measures *measured, tn_error *error);
+/* The same where the space is known to have so many cells. */
+tn_status tn_placed_measure_inside(const tn_module *module, uint64_t inside, const tn_placed_model *model,
+                                   tn_watch *watch, tn_placed_measures *measured, tn_error *error);
+
+/* The terms that sums over the kit's parts tell: mass, price and counts. used: [part of the kit]. */
+void tn_placed_sums(const tn_module *module, const uint64_t *used, double terms[TN_PLACED_TERM_COUNT]);
 void tn_placed_measures_clear(tn_placed_measures *measured);
 
 /* Does a condition (a function of kind KIT) hold? */

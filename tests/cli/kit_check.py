@@ -4,7 +4,7 @@ Every part lies in the model's space and in nobody's way, the pieces are as many
 room for a part of the rule. This reads parts from the library's text and knows nothing of the engine."""
 import itertools, random, re, subprocess, sys, tempfile, os
 
-tartan, bricks = sys.argv[1:]
+tartan, bricks = sys.argv[1:3]
 PARTS = {}
 for name, body in re.findall(r'^part (\S+) .*?\{(.*?)^\}', open(bricks).read(), re.M | re.S):
     length, high, unit, wide = re.search(r"fill (\d+) studs? x (\d+) (\w+) x (\d+) stud", body).groups()
@@ -134,6 +134,7 @@ def check(seed, folder):
     return len(parts)
 
 
-with tempfile.TemporaryDirectory() as folder:
-    placed = [check(seed, folder) for seed in range(150)]
-assert sum(n > 0 for n in placed) > 75 and max(placed) > 20, "too little was placed"
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder:
+        placed = [check(seed, folder) for seed in range(150)]
+    assert sum(n > 0 for n in placed) > 75 and max(placed) > 20, "too little was placed"

@@ -8,7 +8,9 @@
 #include "runtime/house/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/measure.h"
+#include "runtime/place/search/search.h"
 #include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
@@ -77,7 +79,6 @@ void fuzz_growth(const tn_module *module)
     grow_module(module);
 }
 
-/* Small limits, and both ways of looking ahead come to the same. */
 /* What was placed of a kit is measured, and its conditions are asked. */
 static void fuzz_measures(const tn_module *module, const tn_place_rules *rules, const tn_placed_model *model)
 {
@@ -102,11 +103,53 @@ static tn_status make_rules(const tn_module *module, tn_place_rules *rules)
                                    : tn_place_rules_make(module, rules, NULL);
 }
 
+/* Buildings of a few parts of a kit: both ways of splitting the work come to the same. */
+static void fuzz_count(const tn_module *module)
+{
+    const tn_place_rules rules = {.module = module};
+    for (uint32_t parts = 1; module->KIT_PART_count > 0 && module->KIT_PART_count < 4 && parts < 3; parts++) {
+        tn_building_counts counts[2];
+        tn_watch watch;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
+        tn_status status = tn_count_buildings(&rules, NULL, parts, false, 1, &watch, &counts[0], NULL);
+        if (status == TN_OK && tn_count_buildings(&rules, NULL, parts, true, 2, &watch, &counts[1], NULL) == TN_OK &&
+            counts[0].fixed != counts[1].fixed)
+            fuzz_broken("one thread counts as many buildings as two");
+    }
+}
+
+/* Every model of a kit is searched for, as far as a few models go. */
+static void fuzz_search(const tn_module *module)
+{
+    for (uint32_t i = 0; i < module->KIT_MODEL_count; i++) {
+        tn_place_rules rules;
+        tn_placed_model model;
+        tn_watch watch;
+        if (tn_place_rules_of_model(module, i, &rules, NULL) != TN_OK)
+            return;
+        tn_watch_begin(&watch, NULL, NULL);
+        watch.memory_limit = tn_memory_used() + (64 << 20);
+        const tn_kit_model_record *space = rules.space;
+        double cells = (double)(space->high_x - space->low_x) * (double)(space->high_y - space->low_y) *
+                       (double)(space->high_z - space->low_z);
+        if (cells < 1e6) { /* more take long to count */
+            tn_place_options options = {.part_limit = 30, .search_limit = 20, .threads = 1, .watch = &watch};
+            tn_place_search(&rules, &options, &model, NULL);
+            tn_placed_model_clear(&model);
+        }
+        tn_place_rules_clear(&rules);
+    }
+}
+
+/* Small limits, and both ways of looking ahead come to the same. */
 void fuzz_place(const tn_module *module)
 {
     tn_place_rules rules;
     if (make_rules(module, &rules) != TN_OK)
         return;
+    fuzz_search(module);
+    fuzz_count(module);
     tn_placed_model models[2];
     tn_status found[2];
     for (int way = 0; way < 2; way++) {

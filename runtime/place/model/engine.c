@@ -114,7 +114,11 @@ static tn_status check_model(const tn_checker *checker, const tn_kit_model_recor
     if (!grammar || grammar->dialect != TN_DIALECT_PLACE || model->start < grammar->rule_first ||
         model->start - grammar->rule_first >= grammar->rule_count)
         return tn_refuse(checker, "a model starts with what is no symbol of a connection grammar");
-    return check_function(checker, "space", model->space);
+    if (model->search == TN_SEARCH_BEAM && (model->search_amount == 0 || model->search_amount > TN_BEAM_MAX))
+        return tn_refuse(checker, "a beam of %u", (unsigned)model->search_amount);
+    tn_status status = check_function(checker, "space", model->space);
+    return status == TN_OK && model->objective != TN_NO_RECORD ? check_function(checker, "objective", model->objective)
+                                                               : status;
 }
 
 static tn_status verify(const tn_checker *checker)
@@ -125,15 +129,19 @@ static tn_status verify(const tn_checker *checker)
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < module->KIT_MODEL_count && status == TN_OK; i++)
         status = check_model(checker, &module->KIT_MODEL_records[i]);
-    for (uint32_t i = 0; i < module->KIT_CONDITION_count && status == TN_OK; i++)
-        status = check_function(checker, "condition", module->KIT_CONDITION_records[i].holds);
+    for (uint32_t i = 0; i < module->KIT_CONDITION_count && status == TN_OK; i++) {
+        const tn_kit_condition_record *condition = &module->KIT_CONDITION_records[i];
+        status = check_function(checker, "condition", condition->holds);
+        if (status == TN_OK && condition->violation != TN_NO_RECORD)
+            status = check_function(checker, "condition", condition->violation);
+    }
     return status;
 }
 
 static const tn_section sections[] = {TN_SECTION_VECTOR,    TN_SECTION_KIT,           TN_SECTION_CONNECTOR_TYPE,
                                       TN_SECTION_KIT_PART,  TN_SECTION_PART_BOX,      TN_SECTION_PART_CONNECTOR,
                                       TN_SECTION_KIT_MODEL, TN_SECTION_KIT_CONDITION, TN_SECTION_COUNTED,
-                                      TN_SECTION_STRINGS};
+                                      TN_SECTION_KIT_STOCK, TN_SECTION_STRINGS};
 
 /* The vectors are shown where they are used. */
 static void list(tn_lister *lister)
@@ -148,6 +156,7 @@ static void list(tn_lister *lister)
     LIST(PART_CONNECTOR);
     LIST(KIT_MODEL);
     LIST(KIT_CONDITION);
+    LIST(KIT_STOCK);
     LIST(COUNTED);
 #undef LIST
 }

@@ -4,6 +4,16 @@
 
 #include <stdlib.h>
 
+/* Axes aside, in the order of turning. */
+tn_axis tn_axis_turn(tn_axis axis, uint32_t heading)
+{
+    static const tn_axis order[4] = {TN_AXIS_RIGHT, TN_AXIS_BACK, TN_AXIS_LEFT, TN_AXIS_FRONT};
+    for (uint32_t i = 0; i < 4; i++)
+        if (order[i] == axis)
+            return order[(i + heading) % 4];
+    return axis;
+}
+
 bool tn_frame_step(tn_frame *frame, const tn_step *step)
 {
     int32_t x, z;

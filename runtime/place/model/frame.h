@@ -17,6 +17,15 @@ static inline bool tn_cell_box_holds(const tn_cell_box *box, const int32_t cell[
     return true;
 }
 
+/* Makes `all` hold the box too. */
+static inline void tn_cell_box_widen(tn_cell_box *all, const tn_cell_box *box)
+{
+    for (int k = 0; k < 3; k++) {
+        all->low[k] = box->low[k] < all->low[k] ? box->low[k] : all->low[k];
+        all->high[k] = box->high[k] > all->high[k] ? box->high[k] : all->high[k];
+    }
+}
+
 typedef struct tn_frame {
     int32_t at[3];
     uint32_t heading; /* quarter turns, 0 to 3 */
@@ -29,6 +38,9 @@ static inline void tn_heading_turn(uint32_t heading, int32_t x, int32_t z, int32
     *to_x = heading == 0 ? x : heading == 1 ? -z : heading == 2 ? -x : z;
     *to_z = heading == 0 ? z : heading == 1 ? x : heading == 2 ? -z : -x;
 }
+
+/* Where a connector that points along an axis points after so many turns. */
+tn_axis tn_axis_turn(tn_axis axis, uint32_t heading);
 
 /* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
 bool tn_frame_step(tn_frame *frame, const tn_step *step);

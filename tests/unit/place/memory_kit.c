@@ -1,5 +1,5 @@
-/* Compiling a kit, placing it and measuring what was placed, with each allocation failing once: an error every time,
- * and nothing left behind. */
+/* Compiling a kit, placing it, measuring what was placed, searching for other models and counting buildings, with each
+ * allocation failing once: an error every time, and nothing left behind. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,9 @@
 #include <cmocka.h>
 
 #include "driver/open/open.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/measure.h"
+#include "runtime/place/search/search.h"
 #include "tests/support/failing_memory.h"
 
 static const char kit[] =
@@ -18,7 +20,33 @@ static const char kit[] =
     "part two \"two\" { fill 40 x 24 x 20; studs up 2 x 1; tubes down 2 x 1 at (0, -24, 0); mass 2; }\n"
     "space room = box(100, 72, 60) and not sphere(20);\n"
     "rule wall at stud, tube = (two in 4 [0.5] | two [0.5]);\n"
-    "model hut { inside room; start stud at (30, 0, 10) by wall; require count(two) > 0; }\n";
+    "model hut { inside room; start stud at (30, 0, 10) by wall; require count(two) > 0; }\n"
+    "model beam { inside box(60, 48, 20); start stud at (20, 0, 0) by wall; require joints > 0; minimize elements + "
+    "cuts;\n"
+    "  search beam 2; stock two <= 4; }\n"
+    "model turned { inside box(80, 48, 20); start stud at (10, 0, 0) by wall; minimize cuts; search anneal 3; symmetry "
+    "turn 2; "
+    "}\n"
+    "model all { inside box(60, 48, 20); start stud at (20, 0, 0) by wall; maximize joints; search exact; }\n";
+
+/* Searches for the other models. */
+static tn_status search(const tn_module *module, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 1; i < module->KIT_MODEL_count && status == TN_OK; i++) {
+        const tn_place_options options = {.threads = 1};
+        tn_place_rules rules = {0};
+        tn_placed_model model = {0};
+        status = tn_place_rules_of_model(module, i, &rules, error);
+        if (status == TN_OK)
+            status = tn_place_search(&rules, &options, &model, error);
+        if (status == TN_OK)
+            assert_true(model.count > 0);
+        tn_placed_model_clear(&model);
+        tn_place_rules_clear(&rules);
+    }
+    return status;
+}
 
 /* TN_OK where all was done. */
 static tn_status run(void)
@@ -39,6 +67,14 @@ static tn_status run(void)
     if (status == TN_OK)
         assert_true(model.count > 2 &&
                     tn_kit_condition_holds(opened.module, opened.module->KIT_CONDITION_records[0].holds, &measured));
+    if (status == TN_OK)
+        status = search(opened.module, &error);
+    tn_building_counts counts = {0};
+    if (status == TN_OK)
+        status =
+            tn_count_buildings(&(tn_place_rules){.module = opened.module}, NULL, 3, false, 1, NULL, &counts, &error);
+    if (status == TN_OK)
+        assert_true(counts.buildings > 0 && counts.buildings < counts.fixed);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&model);
     tn_place_rules_clear(&rules);

@@ -1,0 +1,90 @@
+/* Counts the buildings of a kit's parts. */
+#include "cli/place/count_kit.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+#include "runtime/place/count/count.h"
+#include "runtime/place/joints.h"
+
+/* Which parts of the kit are named; *wanted: NULL where none is, so that all are. */
+static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted)
+{
+    const tn_module *module = job->opened.module;
+    tn_error error;
+    *wanted = NULL;
+    if (kinds->count == 0)
+        return true;
+    *wanted = calloc((size_t)module->KIT_PART_count + 1, sizeof **wanted);
+    if (!*wanted) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+        return false;
+    }
+    for (size_t i = 0; i < kinds->count; i++) {
+        const tn_kit_part_record *part = tn_kit_part_named(module, kinds->items[i]);
+        if (!part) {
+            tn_fail(&error, TN_INVALID, E_KIT_UNKNOWN, "the kit has no part `%.100s`", kinds->items[i]);
+            tn_error_help(&error, "--part takes the name of one of its parts, such as %.100s",
+                          tn_text(module, module->KIT_PART_records[0].name));
+            tn_job_fail(job, &error);
+            return false;
+        }
+        (*wanted)[part - module->KIT_PART_records] = true;
+    }
+    return true;
+}
+
+static void write_counts(const tn_count_kit_options *options, const tn_building_counts *counts, FILE *out)
+{
+    uint64_t parts = options->parts.value;
+    if (options->json && options->fixed)
+        fprintf(out, "{\"parts\":%" PRIu64 ",\"fixed\":%" PRIu64 "}\n", parts, counts->fixed);
+    else if (options->json)
+        fprintf(out,
+                "{\"parts\":%" PRIu64 ",\"buildings\":%" PRIu64 ",\"fixed\":%" PRIu64 ",\"half_turn\":%" PRIu64
+                ",\"quarter_turn\":%" PRIu64 "}\n",
+                parts, counts->buildings, counts->fixed, counts->half, counts->quarter);
+    else
+        fprintf(out, "%" PRIu64 "\n", options->fixed ? counts->fixed : counts->buildings);
+}
+
+static bool has_parts(tn_job *job)
+{
+    tn_error error;
+    if (job->opened.module->KIT_PART_count > 0)
+        return true;
+    tn_fail(&error, TN_INVALID, E_KIT_UNKNOWN, "the kit has no parts to count buildings of");
+    tn_error_help(&error, "tell them by `part 3005 { ... }`, or `use \"bricks\";`");
+    tn_job_fail(job, &error);
+    return false;
+}
+
+void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const char *path)
+{
+    const tn_place_rules rules = {.module = job->opened.module};
+    tn_building_counts counts;
+    tn_output output;
+    tn_error error;
+    bool *wanted;
+    if (!options->parts.given) {
+        tn_diagnostic *d = tn_job_usage(job, "of a kit, buildings of so many parts are counted");
+        tn_help(tn_job_diagnostics(job), d, "say how many: --parts 3");
+        return;
+    }
+    if (has_parts(job) && choose_parts(job, &options->kinds, &wanted)) {
+        tn_job_show(job);
+        tn_status status =
+            tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
+                               (unsigned)options->threads.value, tn_interrupt_waiting(), &counts, &error);
+        if (status != TN_OK) {
+            tn_job_fail(job, &error);
+        } else if (tn_job_output(job, path, &output)) {
+            write_counts(options, &counts, output.stream);
+            tn_job_commit(job, &output);
+        }
+        free(wanted);
+    }
+}

@@ -1,0 +1,26 @@
+/* How many buildings can be made of so many parts: sets of parts that hang together by joints, none overlapping
+ * another. Each set counts once, up to where it stands and, unless `fixed`, how it is turned about the vertical. */
+#ifndef TARTAN_PLACE_COUNT_COUNT_H
+#define TARTAN_PLACE_COUNT_COUNT_H
+
+#include "runtime/base/crew.h"
+#include "runtime/place/count/lattice.h"
+
+enum { TN_COUNT_PARTS_MAX = 32 };
+
+/* buildings: up to turning; fixed: those that differ by a turn are told apart; half, quarter: those of them that half a
+ * turn (a quarter) takes to themselves. */
+typedef struct tn_building_counts {
+    uint64_t fixed, half, quarter, buildings;
+} tn_building_counts;
+
+/* Counts the buildings of `parts` parts, of kinds as in tn_lattice_make. threads: 0: as many as there are processors.
+ * TN_MEMORY, TN_STOPPED, TN_LIMIT (E1313) for tables that are too large. */
+tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, uint32_t parts, bool fixed,
+                             unsigned threads, tn_watch *watch, tn_building_counts *counts, tn_error *error);
+
+/* Those that are taken to themselves by quarter turns, so many at once (1 or 2), about any vertical. */
+tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
+                          tn_error *error);
+
+#endif

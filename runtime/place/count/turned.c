@@ -1,0 +1,240 @@
+/* Counts the buildings that turning takes to themselves: sets of orbits, each a part with its images about an axis.
+ * They are few beside all buildings, as a third of the parts or so can be chosen.
+ *
+ * Sets of orbits grow as in count.c. Parts of a connected set of orbits may still fall into pieces, which is looked at
+ * when all are there. Where the axis stands matters up to steps of the lattice. */
+#include "runtime/place/count/count.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { IMAGES = 4 };
+
+typedef struct orbit {
+    size_t slots[IMAGES]; /* the lowest first */
+    uint32_t count;       /* 0: not on the lattice, or in its own way */
+} orbit;
+
+typedef struct turning {
+    const tn_lattice *l;
+    uint32_t parts, turns;
+    int32_t axis[2]; /* twice where it stands along x and z, in cells */
+    int32_t *axes;   /* such numbers for which some part has its image on the lattice, up to steps of it */
+    uint8_t *marks;  /* [slot]: of an orbit's lowest: it was seen */
+    size_t *chosen;  /* slots of the parts that are there */
+    size_t *untried; /* for each number of chosen orbits */
+    size_t room;
+    tn_watch *watch;
+    tn_error *error;
+    uint64_t count;
+} turning;
+
+/* The slot that a slot is turned to. */
+static size_t turn_slot(const turning *t, size_t slot)
+{
+    int32_t corner[3], to[3];
+    const tn_look *look = &t->l->looks[tn_slot_look(t->l, slot, corner)];
+    if (t->turns == 2) {
+        to[0] = t->axis[0] - corner[0] - look->size[0];
+        to[2] = t->axis[1] - corner[2] - look->size[2];
+    } else { /* (x, z) to (-z, x) */
+        to[0] = (t->axis[0] + t->axis[1]) / 2 - corner[2] - look->size[2];
+        to[2] = (t->axis[1] - t->axis[0]) / 2 + corner[0];
+    }
+    to[1] = corner[1];
+    return tn_slot_at(t->l, tn_look_of(t->l, look->kind, (look->heading + t->turns) % 4), to);
+}
+
+static bool related(const tn_lattice *l, size_t a, size_t b, bool joining)
+{
+    const tn_look *look = &l->looks[a % l->look_count];
+    const tn_look_pair *pairs = &l->pairs[joining ? look->joining_first : look->overlapping_first];
+    uint32_t count = joining ? look->joining_count : look->overlapping_count;
+    for (uint32_t i = 0; i < count; i++)
+        if ((int64_t)a + pairs[i].slots == (int64_t)b)
+            return true;
+    return false;
+}
+
+static orbit orbit_of(const turning *t, size_t slot)
+{
+    orbit o = {.slots = {slot}, .count = 1};
+    for (size_t next = turn_slot(t, slot); next != slot; next = turn_slot(t, next)) {
+        if (next == SIZE_MAX || o.count == IMAGES)
+            return (orbit){.count = 0};
+        for (uint32_t i = 0; i < o.count; i++)
+            if (related(t->l, o.slots[i], next, false))
+                return (orbit){.count = 0};
+        o.slots[o.count++] = next;
+        if (next < o.slots[0]) {
+            o.slots[o.count - 1] = o.slots[0];
+            o.slots[0] = next;
+        }
+    }
+    return o;
+}
+
+/* Do the chosen parts hang together? */
+static bool hang_together(const turning *t, uint32_t count)
+{
+    size_t order[TN_COUNT_PARTS_MAX];
+    uint32_t reached = 1;
+    memcpy(order, t->chosen, count * sizeof *order);
+    for (uint32_t i = 0; i < reached; i++) {
+        for (uint32_t j = reached; j < count; j++) {
+            if (!related(t->l, order[i], order[j], true))
+                continue;
+            size_t joined = order[j];
+            order[j] = order[reached];
+            order[reached++] = joined;
+        }
+    }
+    return reached == count;
+}
+
+static bool is_free(const turning *t, uint32_t count, const orbit *o)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (related(t->l, t->chosen[i], o->slots[0], false)) /* the images of both lie alike */
+            return false;
+    return true;
+}
+
+/* Adds the orbits that join one of a part, by their lowest slot; unseen, and above the root. */
+static size_t add_joining(turning *t, size_t slot, size_t root, size_t *to)
+{
+    const tn_look *look = &t->l->looks[slot % t->l->look_count];
+    size_t count = 0;
+    for (uint32_t i = 0; i < look->joining_count; i++) {
+        size_t next = (size_t)((int64_t)slot + t->l->pairs[look->joining_first + i].slots);
+        orbit o = orbit_of(t, next);
+        if (o.count == 0 || o.slots[0] <= root || t->marks[o.slots[0]])
+            continue;
+        t->marks[o.slots[0]] = 1;
+        to[count++] = o.slots[0];
+    }
+    return count;
+}
+
+/* depth: orbits chosen; count: their parts; untried: how many there are for this depth. */
+static tn_status grow(turning *t, uint32_t depth, uint32_t count, size_t root, size_t untried)
+{
+    size_t *own = &t->untried[depth * t->room], *next = own + t->room;
+    tn_status status = tn_watch_check(t->watch, t->error);
+    while (untried > 0 && status == TN_OK) {
+        orbit o = orbit_of(t, own[--untried]);
+        if (count + o.count > t->parts || !is_free(t, count, &o))
+            continue;
+        memcpy(&t->chosen[count], o.slots, o.count * sizeof *o.slots);
+        if (count + o.count == t->parts) {
+            t->count += hang_together(t, t->parts);
+            continue;
+        }
+        memcpy(next, own, untried * sizeof *own);
+        size_t more = add_joining(t, o.slots[0], root, next + untried);
+        status = grow(t, depth + 1, count + o.count, root, untried + more);
+        for (size_t i = 0; i < more; i++)
+            t->marks[next[untried + i]] = 0;
+    }
+    return status;
+}
+
+/* Can a part and its images belong to one building? So many joints reach so far. */
+static bool may_join(const turning *t, const orbit *o)
+{
+    int32_t first[3], other[3];
+    tn_slot_look(t->l, o->slots[0], first);
+    for (uint32_t i = 1; i < o->count; i++) {
+        tn_slot_look(t->l, o->slots[i], other);
+        for (int k = 0; k < 3; k += 2)
+            if (abs(first[k] - other[k]) > (int64_t)(t->parts - 1) * t->l->most[k])
+                return false;
+    }
+    return true;
+}
+
+static tn_status count_from(turning *t, size_t slot)
+{
+    orbit o = orbit_of(t, slot);
+    if (o.count == 0 || o.slots[0] != slot || o.count > t->parts || !may_join(t, &o))
+        return TN_OK;
+    t->untried[0] = slot;
+    return grow(t, 0, 0, slot, 1);
+}
+
+/* All buildings about one axis: their lowest slots lie at height 0. */
+static tn_status count_about(turning *t)
+{
+    size_t layer = (size_t)t->l->side[0] * (size_t)t->l->side[2] * t->l->look_count;
+    size_t first = (size_t)t->l->reach[1] * layer;
+    tn_status status = TN_OK;
+    for (size_t slot = first; slot < first + layer && status == TN_OK; slot++) {
+        int32_t corner[3];
+        tn_slot_look(t->l, slot, corner);
+        if (tn_watch_stopped_at(t->watch, slot))
+            return tn_fail_stopped(t->watch, t->error);
+        bool near = true; /* half of the longest chain of joints from the axis */
+        for (int k = 0; k < 3; k += 2)
+            near &= 2 * (int64_t)abs(corner[k]) <= (int64_t)t->parts * t->l->most[k] + 4 * (int64_t)t->l->most[k];
+        if (near)
+            status = count_from(t, slot);
+    }
+    return status;
+}
+
+static bool is_listed(const int32_t *axes, size_t count, int32_t axis)
+{
+    for (size_t i = 0; i < count; i++)
+        if (axes[i] == axis)
+            return true;
+    return false;
+}
+
+/* An image's corner is the axis's number less the corner and the extent, and a multiple of the step like the corner. Of
+ * quarter turns (turn_slot) half the sum of the two numbers takes that place, and half their difference is such a
+ * multiple: up to steps of the lattice the two are equal. */
+static size_t list_axes(turning *t)
+{
+    size_t count = 0;
+    int32_t step = t->l->step[0];
+    for (uint32_t look = 0; look < t->l->look_count; look++) {
+        for (int k = 0; k < 3; k += 2) {
+            int32_t rest = t->l->looks[look].size[k] % step;
+            if (is_listed(t->axes, count, rest))
+                continue;
+            t->axes[count++] = rest;
+            t->axes[count++] = rest + step;
+        }
+    }
+    return count;
+}
+
+tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
+                          tn_error *error)
+{
+    turning t = {.l = lattice, .parts = parts, .turns = turns, .watch = watch, .error = error, .room = 1};
+    tn_status status = TN_OK;
+    for (uint32_t look = 0; look < lattice->look_count; look++)
+        t.room += parts * (size_t)lattice->looks[look].joining_count;
+    t.marks = calloc(lattice->slot_count, sizeof *t.marks);
+    t.chosen = calloc(parts + IMAGES, sizeof *t.chosen);
+    t.untried = calloc(t.room * ((size_t)parts + 1), sizeof *t.untried);
+    t.axes = calloc(4 * (size_t)lattice->look_count, sizeof *t.axes);
+    if (!t.marks || !t.chosen || !t.untried || !t.axes)
+        status = tn_fail_memory(error);
+    size_t axes = status == TN_OK ? list_axes(&t) : 0;
+    for (size_t i = 0; i < axes && status == TN_OK; i++) {
+        for (size_t j = 0; j < axes && status == TN_OK; j++) {
+            t.axis[0] = t.axes[i];
+            t.axis[1] = t.axes[j];
+            if (turns == 2 || i == j)
+                status = count_about(&t);
+        }
+    }
+    *count = t.count;
+    free(t.marks);
+    free(t.axes);
+    free(t.chosen);
+    free(t.untried);
+    return status;
+}

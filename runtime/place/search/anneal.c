@@ -1,0 +1,207 @@
+/* Annealing: again and again some neighbouring parts are taken away, with all that hangs on them alone, and the model
+ * is grown again there, at random. The new model is kept unless it is worse than the one of some rounds before (late
+ * acceptance hill climbing: Burke and Bykov, 2017), so that no temperature has to be found.
+ *
+ * A few chains go their ways at once, each with random numbers of its own; their number does not depend on that of the
+ * threads. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/base/random.h"
+#include "runtime/place/search/hang.h"
+#include "runtime/place/search/run.h"
+
+enum { CHAINS = 4, HISTORY = 64, PIECE = 256, FITTING_MAX = 1024 };
+
+typedef struct chain {
+    tn_standing plan, kept, best; /* plan: what is tried; kept: what is gone on from */
+    tn_hang hang;
+    tn_model_score score, best_score;
+    tn_model_score history[HISTORY];
+    uint64_t stream, drawn, round;
+    bool begun;
+} chain;
+
+typedef struct annealing {
+    tn_place_search_run *run;
+    chain chains[CHAINS];
+    uint64_t until; /* the round to stop at, for now */
+} annealing;
+
+/* A number below `below`. */
+static uint64_t draw(chain *c, const tn_world *world, uint64_t below)
+{
+    return tn_random64(world->seed, c->stream, c->drawn++) % below;
+}
+
+static tn_cell_box box_of(const tn_site_choices *choices, const tn_put *put)
+{
+    return tn_box_from(&choices->choices[put->choice].around[put->at.heading], put->at.at);
+}
+
+static bool meet(const tn_cell_box *a, const tn_cell_box *b)
+{
+    for (int k = 0; k < 3; k++)
+        if (a->low[k] >= b->high[k] || b->low[k] >= a->high[k])
+            return false;
+    return true;
+}
+
+/* A box about a random part: its own cells, and those beside it as far as a random number says. Now and then also those
+ * above and below. */
+static tn_cell_box choose_region(chain *c, const tn_world *world)
+{
+    const tn_put *put = &c->kept.puts[draw(c, world, c->kept.put_count)];
+    tn_cell_box region = box_of(world->choices, put);
+    int32_t wide = (int32_t)(1 + draw(c, world, 6)), deep = (int32_t)(1 + draw(c, world, 6));
+    int32_t high = draw(c, world, 4) == 0;
+    region.low[0] -= wide;
+    region.high[0] += wide;
+    region.low[1] -= high;
+    region.high[1] += high;
+    region.low[2] -= deep;
+    region.high[2] += deep;
+    return region;
+}
+
+/* The plan without what lies in the region, and without what hangs on nothing then. */
+static tn_status take_away(chain *c, const tn_world *world, tn_cell_box *region, tn_error *error)
+{
+    c->plan.put_count = 0;
+    if (!tn_array_reserve(&c->plan.puts, &c->plan.put_capacity, 0, c->kept.put_count, sizeof *c->plan.puts))
+        return tn_fail_memory(error);
+    tn_cell_box taken = *region;
+    for (size_t i = 0; i < c->kept.put_count; i++) {
+        tn_cell_box box = box_of(world->choices, &c->kept.puts[i]);
+        if (!meet(&box, region))
+            c->plan.puts[c->plan.put_count++] = c->kept.puts[i];
+        else
+            tn_cell_box_widen(&taken, &box);
+    }
+    *region = taken;
+    return tn_hang_keep(&c->hang, world->choices, &c->plan, region, error);
+}
+
+/* One of what fits at a site: mostly of the first alternative that does, in a random position. */
+static uint32_t choose(chain *c, const tn_world *world, const uint32_t *fitting, size_t count)
+{
+    const tn_site_choice *choices = world->choices->choices;
+    if (draw(c, world, 4) == 0)
+        return fitting[draw(c, world, count)];
+    size_t alike = 1;
+    while (alike < count && choices[fitting[alike]].body == choices[fitting[0]].body)
+        alike++;
+    return fitting[draw(c, world, alike)];
+}
+
+/* Puts something at random open connectors until nothing fits at any. */
+static tn_status grow_again(chain *c, tn_world *world, tn_error *error)
+{
+    uint32_t fitting[FITTING_MAX];
+    tn_standing *plan = &world->plan;
+    tn_status status = TN_OK;
+    while (plan->open_count > 0 && status == TN_OK) {
+        size_t i = draw(c, world, plan->open_count);
+        tn_open_site site = plan->open[i];
+        plan->open[i] = plan->open[--plan->open_count];
+        size_t count = tn_world_choices(world, &site, false, fitting, FITTING_MAX);
+        if (count == 0 || (world->choices->symbols[site.symbol].may_stay_open && draw(c, world, count + 1) == count))
+            continue;
+        status = tn_world_put(world, choose(c, world, fitting, count), &site.frame, error);
+    }
+    return status == TN_OK ? tn_cells_status(world->cells, error) : status;
+}
+
+static tn_status begin_chain(annealing *a, chain *c, tn_error *error)
+{
+    c->begun = true;
+    c->score = c->best_score = a->run->best_score;
+    for (size_t i = 0; i < HISTORY; i++)
+        c->history[i] = c->score;
+    tn_status status = tn_standing_copy(&c->kept, &a->run->best, error);
+    return status == TN_OK ? tn_standing_copy(&c->best, &c->kept, error) : status;
+}
+
+/* Goes on from the new model, or stays with the old one. */
+static tn_status settle(chain *c, const tn_world *world, const tn_model_score *score, tn_error *error)
+{
+    tn_model_score *before = &c->history[c->round % HISTORY];
+    tn_status status = TN_OK;
+    if (tn_score_compare(score, before) <= 0 || tn_score_compare(score, &c->score) <= 0) {
+        status = tn_standing_copy(&c->kept, &world->plan, error);
+        c->score = *score;
+    }
+    if (status == TN_OK && tn_score_compare(score, &c->best_score) < 0) {
+        status = tn_standing_copy(&c->best, &world->plan, error);
+        c->best_score = *score;
+    }
+    if (tn_score_compare(&c->score, before) < 0)
+        *before = c->score;
+    return status;
+}
+
+static tn_status run_round(annealing *a, chain *c, unsigned thread, tn_error *error)
+{
+    tn_world *world = &a->run->worlds[thread];
+    const tn_model_score *before = &c->history[c->round % HISTORY];
+    const tn_model_score bar = tn_score_compare(before, &c->score) > 0 ? *before : c->score;
+    tn_model_score score;
+    tn_cell_box region = choose_region(c, world);
+    c->plan.draws = tn_random64(world->seed, c->stream, c->drawn++);
+    tn_status status = take_away(c, world, &region, error);
+    if (status == TN_OK)
+        status = tn_world_load(world, &c->plan, error);
+    if (status == TN_OK)
+        status = grow_again(c, world, error);
+    if (status == TN_OK)
+        status = tn_score_world(&a->run->scorers[thread], world, &bar, &score, error);
+    if (status == TN_OK)
+        status = settle(c, world, &score, error);
+    c->round++;
+    return status;
+}
+
+static tn_status run_chain(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    annealing *a = context;
+    chain *c = &a->chains[item];
+    tn_status status = c->begun ? TN_OK : begin_chain(a, c, error);
+    while (status == TN_OK && c->round < a->until && c->kept.put_count > 0)
+        status = run_round(a, c, thread, error);
+    return status;
+}
+
+/* The best of all chains; of equals that of the first. */
+static tn_status collect(annealing *a)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < CHAINS && status == TN_OK; i++)
+        if (a->chains[i].begun)
+            status = tn_place_search_keep(a->run, &a->chains[i].best, &a->chains[i].best_score);
+    return status;
+}
+
+tn_status tn_place_search_anneal(tn_place_search_run *run)
+{
+    annealing a = {.run = run};
+    uint64_t rounds = run->model->search_amount;
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < CHAINS; i++)
+        a.chains[i].stream = i + 1;
+    while (status == TN_OK && a.until < rounds) {
+        a.until = rounds - a.until < PIECE ? rounds : a.until + PIECE;
+        status = tn_place_search_check(run, CHAINS * a.until, (double)a.until, (double)rounds);
+        if (status == TN_OK)
+            status = tn_crew_run(run->crew, CHAINS, 1, run_chain, &a, run->error);
+        tn_status collected = status == TN_OK || status == TN_STOPPED ? collect(&a) : status;
+        status = status == TN_OK ? collected : status;
+    }
+    for (size_t i = 0; i < CHAINS; i++) {
+        tn_standing_clear(&a.chains[i].plan);
+        tn_standing_clear(&a.chains[i].kept);
+        tn_standing_clear(&a.chains[i].best);
+        tn_hang_clear(&a.chains[i].hang);
+    }
+    return status;
+}

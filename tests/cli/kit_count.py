@@ -1,0 +1,76 @@
+"""Counts buildings of a few parts by listing them all, and compares: kit_count.py TARTAN BRICKS.kit
+
+A building here is a set of parts on whole studs, grown by adding a part to a smaller one in every possible way. This knows nothing of the
+engine."""
+import itertools, json, os, random, subprocess, sys, tempfile
+
+from kit_check import PARTS, cells, studs, tubes
+
+tartan, bricks = sys.argv[1:3]
+
+
+def sides(part):
+    length, _, wide, _ = PARTS[part[4]]
+    return (wide, length) if part[3] else (length, wide)
+
+
+def settle(parts):
+    """Moved so that the lowest corner is at the origin."""
+    low = [min(p[k] for p in parts) for k in range(3)]
+    return frozenset((p[0] - low[0], p[1] - low[1], p[2] - low[2], p[3], p[4]) for p in parts)
+
+
+def quarter(parts):
+    turned = set()
+    for p in parts:
+        length, wide = sides(p)
+        square = PARTS[p[4]][0] == PARTS[p[4]][2]
+        turned.add((-p[2] - wide, p[1], p[0], not p[3] and not square, p[4]))
+    return settle(turned)
+
+
+def neighbours(part, names):
+    for name in names:
+        length, high, wide, _ = PARTS[name]
+        for turned in (False, True) if length != wide else (False,):
+            l, w = (wide, length) if turned else (length, wide)
+            for x, z in itertools.product(range(part[0] - l + 1, part[0] + sides(part)[0]), range(part[2] - w + 1, part[2] + sides(part)[1])):
+                for y in (part[1] + PARTS[part[4]][1], part[1] - high):
+                    other = (x, y, z, turned, name)
+                    if studs(part) & tubes(other) or studs(other) & tubes(part):
+                        yield other
+
+
+def grow(buildings, names):
+    larger = set()
+    for building in buildings:
+        filled = set().union(*(cells(p) for p in building))
+        for part in building:
+            larger.update(settle(building | {other}) for other in neighbours(part, names) if not cells(other) & filled)
+    return larger
+
+
+def ask(names, parts, *more):
+    command = [tartan, "count", bricks, "--parts", str(parts), "--json", *more]
+    for name in names:
+        command += ["--part", name]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+total = 0
+for names, most in ((["3005"], 6), (["3004"], 4), (["3003"], 4), (["3622"], 3), (["3001"], 3), (["3024"], 4), (["3005", "3004"], 4), (["3004", "3023"], 3), (["3005", "3070b"], 5), (["3003", "3005", "3024"], 3)):
+    one = [(0, 0, 0, turned, n) for n in names for turned in ((False, True) if PARTS[n][0] != PARTS[n][2] else (False,))]
+    buildings = {frozenset([p]) for p in one}
+    for parts in range(1, most + 1):
+        if parts > 1:
+            buildings = grow(buildings, names)
+        different = {min(tuple(sorted(b)), *(tuple(sorted(t)) for t in (quarter(b), quarter(quarter(b)), quarter(quarter(quarter(b)))))) for b in buildings}
+        half = sum(quarter(quarter(b)) == b for b in buildings)
+        fourth = sum(quarter(b) == b for b in buildings)
+        wanted = {"parts": parts, "buildings": len(different), "fixed": len(buildings), "half_turn": half, "quarter_turn": fourth}
+        assert ask(names, parts) == wanted, (names, parts, ask(names, parts), wanted)
+        assert ask(names, parts, "--fixed", "--threads", "3") == {"parts": parts, "fixed": len(buildings)}
+        total += len(buildings)
+assert total > 10000, total
