@@ -13,6 +13,7 @@
 #include "driver/open/open.h"
 #include "runtime/base/crew.h"
 #include "runtime/field/contour.h"
+#include "runtime/field/normals.h"
 #include "runtime/geometry/measure.h"
 #include "runtime/scene/draw_meshes.h"
 
@@ -119,8 +120,12 @@ static void form_clear(form *f)
     tn_close(&f->opened);
 }
 
-/* Compiles a sentence and meshes its surface, or only looks whether there is one. Clear the form in any case. */
-static tn_status make_form(const char *sentence, size_t size, bool survey, form *f, tn_error *error)
+/* What a form is made for. */
+typedef enum purpose { TO_LOOK, TO_SCORE, TO_DRAW } purpose;
+
+/* Compiles a sentence and meshes its surface (TO_LOOK: only looks whether there is one; TO_DRAW: with sharp edges).
+ * Clear the form in any case. */
+static tn_status make_form(const char *sentence, size_t size, purpose what, form *f, tn_error *error)
 {
     *f = (form){0};
     tn_status status =
@@ -132,7 +137,10 @@ static tn_status make_form(const char *sentence, size_t size, bool survey, form 
     if (status != TN_OK)
         return status;
     tn_field_grid grid = tn_field_grid_of(&f->field, 0);
-    tn_contour_options options = {.threads = 1, .survey = survey, .triangles = TN_BRED_TRIANGLES};
+    tn_contour_options options = {.threads = 1,
+                                  .survey = what == TO_LOOK,
+                                  .sharp = what == TO_DRAW,
+                                  .triangles = what == TO_DRAW ? 3 * TN_BRED_TRIANGLES : TN_BRED_TRIANGLES};
     status = tn_contour_new(&f->field, &grid, &options, &f->contour, error);
     if (status != TN_OK)
         return status;
@@ -199,7 +207,7 @@ static tn_status score(void *context, unsigned thread, const char *sentence, siz
     bool survey = s->goals.count + s->target_count == 0; /* bred by hand: without a surface it is not shown */
     form f;
     tn_error own = {0};
-    tn_status status = make_form(sentence, size, survey, &f, &own);
+    tn_status status = make_form(sentence, size, survey ? TO_LOOK : TO_SCORE, &f, &own);
     if (status == TN_OK && !survey)
         status = score_form(s, &f, score, message, &own);
     form_clear(&f);
@@ -239,35 +247,43 @@ const char *tn_field_scorer_objective(const void *scorer, size_t i)
 typedef struct forms {
     const char *const *sentences;
     form *items;
+    double **normals;
 } forms;
 
 static tn_status make_one(void *context, unsigned thread, size_t item, tn_error *error)
 {
     (void)thread;
     forms *f = context;
-    return make_form(f->sentences[item], strlen(f->sentences[item]), false, &f->items[item], error);
+    form *made = &f->items[item];
+    tn_status status = make_form(f->sentences[item], strlen(f->sentences[item]), TO_DRAW, made, error);
+    if (status != TN_OK)
+        return status;
+    return tn_field_normals(&made->field, &made->contour.mesh, made->contour.spacing, &f->normals[item], error);
 }
 
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
                                size_t count, const char *title, const char *path, tn_error *error)
 {
     (void)scorer;
-    forms f = {sentences, calloc(count + 1, sizeof *f.items)};
+    forms f = {sentences, calloc(count + 1, sizeof *f.items), calloc(count + 1, sizeof *f.normals)};
     const tn_mesh **meshes = calloc(count + 1, sizeof *meshes);
     tn_crew *crew = tn_crew_new(0, NULL);
-    tn_status status = f.items && meshes && crew ? TN_OK : tn_fail_memory(error);
+    tn_status status = f.items && f.normals && meshes && crew ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_crew_run(crew, count, 1, make_one, &f, error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
         meshes[i] = &f.items[i].contour.mesh;
-    const tn_meshes_picture picture = {.title = title, .labels = labels};
+    const tn_meshes_picture picture = {.title = title, .labels = labels, .normals = f.normals};
     if (status == TN_OK)
         status = tn_meshes_draw(meshes, count, &picture, &(tn_picture){.path = path}, error);
     for (size_t i = 0; f.items && i < count; i++)
         form_clear(&f.items[i]);
     if (crew)
         tn_crew_free(crew);
+    for (size_t i = 0; f.normals && i < count; i++)
+        free(f.normals[i]);
     free(f.items);
+    free(f.normals);
     free(meshes);
     return status;
 }

@@ -68,6 +68,7 @@ static sheet lay_out(size_t count, const tn_meshes_picture *picture, uint32_t dp
 /* Cells whose images are made at once. */
 typedef struct batch {
     const tn_mesh *const *meshes;
+    double *const *normals; /* or NULL */
     const extent *extents;
     const sheet *s;
     uint32_t side;                 /* of an image, in pixels */
@@ -86,11 +87,11 @@ static tn_status make_image(void *context, unsigned thread, size_t item, tn_erro
                              .left = (e->low[0] + e->high[0]) / 2 - b->s->cell / scale / 2,
                              .top = (e->low[1] + e->high[1]) / 2 + b->s->cell / scale / 2,
                              .pixel = pixel / scale};
-    double *normals;
-    tn_status status = tn_mesh_normals(b->meshes[item], &normals, error);
-    if (status != TN_OK)
-        return status;
-    status = tn_mesh_render(b->meshes[item], normals, &b->s->eye, &frame, &b->images[item], error);
+    double *normals = NULL;
+    tn_status status = b->normals ? TN_OK : tn_mesh_normals(b->meshes[item], &normals, error);
+    if (status == TN_OK)
+        status = tn_mesh_render(b->meshes[item], b->normals ? b->normals[item] : normals, &b->s->eye, &frame,
+                                &b->images[item], error);
     free(normals);
     return status;
 }
@@ -128,7 +129,12 @@ static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const ext
     tn_type_face(cr, 9, false);
     cairo_set_source_rgb(cr, 0, 0, 0);
     for (size_t first = 0; first < count && status == TN_OK; first += BATCH_CELLS) {
-        batch b = {.meshes = meshes + first, .extents = extents + first, .s = s, .side = side, .largest = largest};
+        batch b = {.meshes = meshes + first,
+                   .normals = picture->normals ? picture->normals + first : NULL,
+                   .extents = extents + first,
+                   .s = s,
+                   .side = side,
+                   .largest = largest};
         size_t here = count - first < BATCH_CELLS ? count - first : BATCH_CELLS;
         status = tn_crew_run(crew, here, 1, make_image, &b, error);
         for (size_t i = 0; i < here && status == TN_OK; i++) {

@@ -8,6 +8,7 @@
 typedef struct tn_meshes_picture {
     const char *title;         /* or NULL */
     const char *const *labels; /* below each, or NULL */
+    double *const *normals;    /* of the vertices of each, or NULL: the mean of the triangles' */
 } tn_meshes_picture;
 
 /* Draws closed meshes of triangles, about as many rows as columns. All have one scale, but those that would fill less

@@ -167,6 +167,18 @@ static int by_place(const void *a, const void *b)
     return memcmp(a, b, 3 * sizeof(double));
 }
 
+static void check_same(const tn_contour *one, const tn_contour *other)
+{
+    assert_int_equal(one->mesh.vertex_count, other->mesh.vertex_count);
+    assert_int_equal(one->mesh.face_count, other->mesh.face_count);
+    assert_memory_equal(one->mesh.positions, other->mesh.positions, 3 * sizeof(double) * one->mesh.vertex_count);
+    assert_memory_equal(one->mesh.corners, other->mesh.corners, 3 * sizeof(uint32_t) * one->mesh.face_count);
+    assert_int_equal(one->jumps, other->jumps);
+    assert_int_equal(one->moved, other->moved);
+    assert_int_equal(one->no_values, other->no_values);
+    assert_int_equal(one->cut, other->cut);
+}
+
 static void check_mesh(const char *text, uint32_t grid_size, bool closed)
 {
     tn_module *module = compile(text);
@@ -179,16 +191,14 @@ static void check_mesh(const char *text, uint32_t grid_size, bool closed)
     uint64_t crossings;
     assert_int_equal(tn_contour_new(&field, &grid, &(tn_contour_options){.threads = 3, .open = !closed}, &one, &error),
                      TN_OK);
-    tn_contour_options slow = {.threads = 1, .interpret = true, .every_sample = true, .open = !closed};
-    assert_int_equal(tn_contour_new(&field, &grid, &slow, &other, &error), TN_OK);
-    assert_int_equal(one.mesh.vertex_count, other.mesh.vertex_count);
-    assert_int_equal(one.mesh.face_count, other.mesh.face_count);
-    assert_memory_equal(one.mesh.positions, other.mesh.positions, 3 * sizeof(double) * one.mesh.vertex_count);
-    assert_memory_equal(one.mesh.corners, other.mesh.corners, 3 * sizeof(uint32_t) * one.mesh.face_count);
-    assert_int_equal(one.jumps, other.jumps);
-    assert_int_equal(one.moved, other.moved);
-    assert_int_equal(one.no_values, other.no_values);
-    assert_int_equal(one.cut, other.cut);
+    const tn_contour_options others[] = {{.threads = 1, .interpret = true, .every_sample = true, .open = !closed},
+                                         {.threads = 1, .open = !closed},
+                                         {.threads = 4, .every_sample = true, .open = !closed}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        assert_int_equal(tn_contour_new(&field, &grid, &others[i], &other, &error), TN_OK);
+        check_same(&one, &other);
+        tn_contour_clear(&other);
+    }
     if (closed) {
         check_manifold(&one.mesh);
         assert_int_equal(tn_mesh_measure(&one.mesh, 0, &m, &error), TN_OK);
@@ -200,7 +210,6 @@ static void check_mesh(const char *text, uint32_t grid_size, bool closed)
     for (size_t v = 1; v < one.mesh.vertex_count; v++)
         assert_true(by_place(one.mesh.positions + 3 * v, one.mesh.positions + 3 * v - 3) != 0);
     tn_contour_clear(&one);
-    tn_contour_clear(&other);
     tn_field_clear(&field);
     tn_module_free(module);
 }
