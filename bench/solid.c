@@ -1,8 +1,9 @@
-/* How long designs of boxes take: solid SCENE COUNT RUNS
+/* How long designs of boxes take: solid SCENE COUNT RUNS [FILE.scad]
  *
  * Scenes: crowded (COUNT random boxes, of which each overlaps a few, corrected, clipped and meshed), sphere (a sphere
  * of about COUNT clipped boxes of a grid), and tables (COUNT random designs of eight boxes with two planes of symmetry
- * and five measures, none of which needs the surface). Prints the median of the runs, of the thread's own time. */
+ * and five measures, none of which needs the surface). Prints the median of the runs, of the thread's own time. FILE
+ * gets the corrected and clipped cells as a union of polyhedra, so that OpenSCAD can be timed on the same. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 
 #include "bench/bench.h"
 #include "runtime/geometry/union/union.h"
+#include "runtime/geometry/write.h"
 #include "runtime/solid/measure.h"
 
 static uint64_t state = 1;
@@ -79,27 +81,50 @@ static tn_design sphere(uint32_t count)
     return design;
 }
 
-/* Seconds of one run: correction, clipping and the mesh. */
-static double mesh_once(const tn_design *written, size_t *triangles)
+/* The cells of a design: corrected and clipped. */
+static tn_cut_box *make_cells(const tn_design *written)
 {
     tn_design design;
-    tn_union u;
     tn_error error = {0};
-    double begun = seconds(CLOCK_THREAD_CPUTIME_ID);
     tn_cut_box *cells = malloc((written->box_count + 1u) * sizeof *cells);
     if (!cells || tn_design_copy(written, &design, &error) != TN_OK ||
         tn_design_correct(&design, NULL, &error) != TN_OK)
         stop("out of memory");
     for (uint32_t i = 0; i < design.box_count; i++)
         tn_design_cell(&design, i, 0, &cells[i]);
-    if (tn_union_make(cells, design.box_count, &u, &error) != TN_OK)
+    tn_design_clear(&design);
+    return cells;
+}
+
+/* Seconds of one run: correction, clipping and the mesh. */
+static double mesh_once(const tn_design *written, size_t *triangles)
+{
+    tn_union u;
+    tn_error error = {0};
+    double begun = seconds(CLOCK_THREAD_CPUTIME_ID);
+    tn_cut_box *cells = make_cells(written);
+    if (tn_union_make(cells, written->box_count, &u, &error) != TN_OK)
         stop(error.message);
     double took = seconds(CLOCK_THREAD_CPUTIME_ID) - begun;
     *triangles = u.mesh.face_count;
     tn_union_clear(&u);
-    tn_design_clear(&design);
     free(cells);
     return took;
+}
+
+static void write_scad(const tn_design *written, const char *path)
+{
+    tn_mesh mesh = {0};
+    tn_error error = {0};
+    tn_cut_box *cells = make_cells(written);
+    FILE *out = fopen(path, "w");
+    if (!out || tn_union_cells(cells, written->box_count, &mesh, &error) != TN_OK ||
+        !(mesh.group_names = calloc(mesh.group_count + 1u, sizeof *mesh.group_names)))
+        stop("cannot write the cells");
+    if (tn_mesh_write_scad(&mesh, &(tn_mesh_style){0}, out, &error) != TN_OK || fclose(out) != 0)
+        stop("cannot write the cells");
+    tn_mesh_clear(&mesh);
+    free(cells);
 }
 
 #define MEASURED(NAME) (UINT64_C(1) << TN_SOLID_##NAME##_MEASURED)
@@ -134,7 +159,7 @@ int main(int argc, char **argv)
     uint32_t count = argc > 3 ? (uint32_t)strtoul(argv[2], NULL, 10) : 0;
     int runs = argc > 3 ? atoi(argv[3]) : 0;
     if (count == 0 || runs < 1)
-        stop("usage: solid crowded|sphere|tables COUNT RUNS");
+        stop("usage: solid crowded|sphere|tables COUNT RUNS [FILE.scad]");
     double *times = malloc((size_t)runs * sizeof *times);
     bool tables = strcmp(argv[1], "tables") == 0;
     tn_design design = tables ? (tn_design){0} : strcmp(argv[1], "sphere") == 0 ? sphere(count) : crowded(count);
@@ -143,6 +168,8 @@ int main(int argc, char **argv)
         stop("out of memory");
     for (int i = 0; i < runs; i++)
         times[i] = tables ? score_once(count) : mesh_once(&design, &triangles);
+    if (argc > 4 && !tables)
+        write_scad(&design, argv[4]);
     qsort(times, (size_t)runs, sizeof *times, compare);
     double median = times[runs / 2];
     if (tables)

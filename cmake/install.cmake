@@ -92,8 +92,8 @@ if(TARTAN_WITH_MESH)
   list(APPEND parts tartan-mesh)
 endif()
 if(TARTAN_WITH_DRAW)
-  tartan_library(tartan-draw FOLDERS ${TARTAN_DRAW_FOLDERS} USES tartan-growth tartan-runtime NEEDS PkgConfig::CAIRO PkgConfig::GMP ${threads}
-    MODULES cairo cairo-svg cairo-pdf)
+  tartan_library(tartan-draw FOLDERS ${TARTAN_DRAW_FOLDERS} USES tartan-growth tartan-runtime NEEDS PkgConfig::CAIRO PkgConfig::ZLIB PkgConfig::GMP ${threads}
+    MODULES cairo cairo-svg cairo-pdf zlib)
   list(APPEND parts tartan-draw)
 endif()
 if(TARTAN_WITH_STORE)

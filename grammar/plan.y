@@ -76,6 +76,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
 %token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
+%token ABSENT "`-` for what is absent" OF_DEPTH "`:` before a depth"
 %token DOTS "`..`" LESS "`<`" AT_MOST "`<=`" UNEQUAL "`!=`" AT_LEAST "`>=`" GREATER "`>`"
 %token EQUAL "`=`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`"
 %token BAR "`|`" COMMA "`,`" DASH "`-`"
@@ -879,6 +880,8 @@ literal_word
     | NUMBER
     | LENGTH
     | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
+    | ABSENT                                    { $$ = tn_ast_word_new(parse, TN_WORD_ABSENT, @$, "-", 0); }
+    | OF_DEPTH                                  { $$ = tn_ast_word_new(parse, TN_WORD_OF_DEPTH, @$, ":", 0); }
     ;
 
 clause_names

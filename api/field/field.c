@@ -82,6 +82,7 @@ static tartan_field_findings findings_of(const tn_contour *c)
     memcpy(f.no_value, c->no_value, sizeof f.no_value);
     memcpy(f.jump, c->jump, sizeof f.jump);
     f.spacing = c->spacing;
+    f.sharp = c->sharp;
     return f;
 }
 
@@ -91,6 +92,7 @@ static tartan_status make(surface *s, const tartan_field_options *options, tarta
     tn_contour_options own = {.threads = options->threads > TARTAN_THREADS_MAX ? TARTAN_THREADS_MAX : options->threads,
                               .open = options->open,
                               .jumps_open = options->jumps_open,
+                              .sharp = options->sharp,
                               .samples = options->sample_limit,
                               .triangles = options->triangle_limit};
     tn_field_grid grid = tn_field_grid_of(&s->field, options->samples);

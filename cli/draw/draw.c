@@ -88,6 +88,7 @@ static bool check_use(tn_job *job)
         {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
         {s->surface != NULL, TN_OF_FIELDS, "surface"},
         {s->grid.given, TN_OF_FIELDS, "grid"},
+        {s->sharp, TN_OF_FIELDS, "sharp"},
     };
     if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
         return false;
@@ -132,7 +133,8 @@ static void draw_field(tn_job *job)
                                .title = s->title,
                                .dpi = (uint32_t)s->dpi.value,
                                .threads = (int)s->plans.threads.value};
-    tn_job_draw_surface(job, s->surface, (uint32_t)s->grid.value, &picture, s->output);
+    tn_drawn_surface surface = {s->surface, (uint32_t)s->grid.value, s->sharp};
+    tn_job_draw_surface(job, &surface, &picture, s->output);
 }
 
 static void draw_plans(tn_job *job)
@@ -186,6 +188,7 @@ static const tn_option options[] = {
     TEXT("surface", 0, "NAME", surface, "of fields: which surface (default: the last)"),
     NUMBER("grid", 'n', "N", grid, 2, 8192,
            "of fields: samples on the longest side of the box (default: what the file says, or 50)"),
+    FLAG("sharp", 0, sharp, "of fields: make edges and corners of the form sharp"),
     TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
     FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
     FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),

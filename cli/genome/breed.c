@@ -21,10 +21,10 @@ static bool read_choice(const char *line, size_t members, tn_choices *choices)
             status = TN_INVALID;
         }
     if (status != TN_OK)
-        printf(
-            "`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it, "
-            "and #41 is the individual with that id\n",
-            wrong, members);
+        printf("`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it "
+               "(0 to 1), "
+               "and #41 is the individual with that id\n",
+               wrong, members);
     return status == TN_OK;
 }
 

@@ -1,7 +1,10 @@
 /* Draws a surface: a mesh of it, seen from where the options say. */
 #include "cli/mesh/draw_surface.h"
 
+#include <stdlib.h>
+
 #include "cli/mesh/mesh.h"
+#include "runtime/field/normals.h"
 
 /* The doc text of a surface, or its name. */
 static const char *title_of(const tn_field *field)
@@ -9,19 +12,22 @@ static const char *title_of(const tn_field *field)
     return tn_text(field->module, field->record->doc ? field->record->doc : field->record->name);
 }
 
-void tn_job_draw_surface(tn_job *job, const char *name, uint32_t grid, const tn_mesh_picture *picture,
+void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_mesh_picture *picture,
                          const char *output)
 {
     tn_open_field open = {0};
     tn_contour contour = {0};
     tn_error error;
+    double *normals = NULL;
     char note[240];
-    tn_status status = tn_open_field_of(job, name, &open, &error);
+    tn_status status = tn_open_field_of(job, surface->name, &open, &error);
     if (status == TN_OK) {
-        tn_contour_options options = {.threads = (unsigned)picture->threads};
-        tn_field_grid samples = tn_field_grid_of(&open.field, grid);
+        tn_contour_options options = {.threads = (unsigned)picture->threads, .sharp = surface->sharp};
+        tn_field_grid samples = tn_field_grid_of(&open.field, surface->grid);
         status = tn_contour_new(&open.field, &samples, &options, &contour, &error);
     }
+    if (status == TN_OK)
+        status = tn_field_normals(&open.field, &contour.mesh, contour.spacing, &normals, &error);
     if (status == TN_OK) {
         tn_mesh_picture whole = *picture;
         tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples");
@@ -29,11 +35,13 @@ void tn_job_draw_surface(tn_job *job, const char *name, uint32_t grid, const tn_
         tn_mesh_note(job, open.field.record->name, note, sizeof note);
         whole.title = picture->title ? picture->title : title_of(&open.field);
         whole.caption = note;
+        whole.normals = normals;
         whole.watch = job->opened.module->watch;
         status = tn_mesh_draw(&contour.mesh, &whole, &(tn_picture){.path = output}, &error);
     }
     if (status != TN_OK)
         tn_job_fail(job, &error);
+    free(normals);
     tn_contour_clear(&contour);
     tn_open_field_close(&open);
 }

@@ -7,6 +7,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
+#include "runtime/field/crossing.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
 
@@ -59,7 +60,7 @@ static bool check_format(tn_job *job, tn_out_format *format)
         tn_help(tn_job_diagnostics(job), d, "only an .stl tells vertices by their places");
         return false;
     }
-    if (strcmp(s->output, "-") == 0 && (s->stats || s->bounds || s->thickness)) {
+    if (strcmp(s->output, "-") == 0 && (s->stats || s->bounds || s->thickness || s->times)) {
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
         return false;
     }
@@ -78,6 +79,8 @@ static bool check_use(tn_job *job)
         {s->bounds, TN_OF_FIELDS, "bounds"},
         {s->thickness, TN_OF_FIELDS, "thickness"},
         {s->jumps != 0, TN_OF_FIELDS, "jumps"},
+        {s->sharp, TN_OF_FIELDS, "sharp"},
+        {s->times, TN_OF_FIELDS, "times"},
         {s->engine != 0, TN_OF_FIELDS, "engine"},
         {s->max_samples.given, TN_OF_FIELDS, "max-samples"},
         {s->max_triangles.given, TN_OF_FIELDS, "max-triangles"},
@@ -126,6 +129,7 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
 /* What is worked out only where it is asked for. */
 typedef struct asked_stats {
     double proven[2], thickness[2];
+    uint64_t crossings;
 } asked_stats;
 
 static void write_stats(const tn_job *job, const tn_open_field *open, const tn_contour *c, const tn_mesh_measures *m,
@@ -133,17 +137,21 @@ static void write_stats(const tn_job *job, const tn_open_field *open, const tn_c
 {
     static const char *const units[TN_UNIT_COUNT] = {"", "mm", "cm", "m", "in", "ft"};
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
-    tn_mesh_stats stats = {
-        .what = "surface",
-        .name = tn_text(open->field.module, open->field.record->name),
-        .unit = units[open->field.record->unit],
-        .mesh = &c->mesh,
-        .measures = m,
-        .closed = !s->open && s->jumps != 1,
-        .counts = {{"jumps", c->jumps, false}, {"moved", c->moved, false}, {"no_values", c->no_values, true}},
-        .count_count = 3,
-        .proven = s->bounds ? asked->proven : NULL,
-        .thickness = s->thickness ? asked->thickness : NULL};
+    tn_mesh_stats stats = {.what = "surface",
+                           .name = tn_text(open->field.module, open->field.record->name),
+                           .unit = units[open->field.record->unit],
+                           .mesh = &c->mesh,
+                           .measures = m,
+                           .closed = !s->open && s->jumps != 1,
+                           .counts = {{"jumps", c->jumps, false},
+                                      {"moved", c->moved, false},
+                                      {"no_values", c->no_values, true},
+                                      {"sharp", c->sharp, false},
+                                      {"crossings", asked->crossings, false}},
+                           .count_count = s->sharp ? 5 : 3,
+                           .proven = s->bounds ? asked->proven : NULL,
+                           .seconds = s->times ? c->seconds : NULL,
+                           .thickness = s->thickness ? asked->thickness : NULL};
     tn_mesh_stats_write(stdout, s->stats == 2, &stats);
 }
 
@@ -153,6 +161,13 @@ static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
         tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
                     "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
                     m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
+}
+
+static void warn_of_crossings(tn_job *job, uint64_t crossings)
+{
+    if (crossings)
+        tn_job_warn(job, W_FIELD_CROSSING, "take a finer --grid, or leave out --sharp: then no triangles cross",
+                    "%" PRIu64 " pairs of triangles cross", crossings);
 }
 
 static tn_status prove_volume(const tn_open_field *open, const tn_field_grid *grid, double proven[2], tn_error *error)
@@ -180,24 +195,28 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
                                   .interpret = s->engine == 1,
                                   .open = s->open,
                                   .jumps_open = s->jumps == 1,
+                                  .sharp = s->sharp,
                                   .samples = s->max_samples.value,
                                   .triangles = s->max_triangles.value};
     tn_field_grid grid = tn_field_grid_of(&open->field, (uint32_t)s->grid.value);
     tn_contour contour;
     tn_mesh_measures measures;
-    asked_stats asked;
+    asked_stats asked = {0};
     options.every_sample = options.interpret;
     tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
     if (status == TN_OK)
         status = tn_mesh_measure(&contour.mesh, 2 * contour.spacing, &measures, error);
     if (status == TN_OK && s->bounds)
         status = prove_volume(open, &grid, asked.proven, error);
+    if (status == TN_OK && s->sharp)
+        status = tn_mesh_crossings(&contour.mesh, &asked.crossings, error);
     if (status == TN_OK && s->thickness)
         status = measure_walls(&contour.mesh, asked.thickness, error);
     if (status == TN_OK) {
         tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
         warn_of_specks(job, &measures);
-        if (s->stats || s->bounds || s->thickness || !s->output)
+        warn_of_crossings(job, asked.crossings);
+        if (s->stats || s->bounds || s->thickness || s->times || !s->output)
             write_stats(job, open, &contour, &measures, &asked);
         if (s->output) {
             char note[240];
@@ -261,10 +280,15 @@ static const tn_option options[] = {
     FLAG("thickness", 0, thickness,
          "print how thick the walls are, straight inward: the least, and that of which a hundredth of the surface is "
          "thinner"),
+    FLAG("times", 0, times, "print also how long samples, vertices and triangles took"),
     FLAG("bounds", 0, bounds, "print two numbers that the volume of the form is proven to lie between"),
     FLAG("open", 0, open, "end the mesh at the box instead of closing it there"),
     CHOICE("jumps", 0, "KIND", jumps, "closed|open",
            "where the field jumps: closed (the default) makes a wall, open leaves it out"),
+    FLAG(
+        "sharp", 0, sharp,
+        "make edges and corners of the form sharp, by points that lie on no edge of the grid; a few triangles may then "
+        "cross, and are counted"),
     FLAG("normals", 0, normals, "write normals of the vertices (OBJ, PLY, GLB)"),
     CHOICE("up", 0, "AXIS", up, "z|y",
            "which axis points up in the file (default z; GLB is always y, 3MF always z; designs of boxes are written "

@@ -15,7 +15,7 @@ typedef struct tn_mesh_settings {
     int stats;  /* 0 not asked for, 1 table, 2 json */
     int up;     /* 0 z, 1 y */
     int jumps;  /* 0 closed, 1 open */
-    bool open, normals, cells, exact, bounds, thickness;
+    bool open, normals, cells, exact, bounds, thickness, sharp, times;
     tn_out_changes changes;
     tn_option_number grid, max_samples, max_triangles, max_boxes, threads;
 } tn_mesh_settings;
@@ -55,9 +55,10 @@ typedef struct tn_mesh_stats {
         const char *key;
         uint64_t count;
         bool json_only;
-    } counts[3]; /* what only surfaces, or only designs of boxes, have */
+    } counts[5]; /* what only surfaces, or only designs of boxes, have */
     size_t count_count;
     const double *proven;    /* two numbers that the volume of the form itself lies between, or NULL */
+    const double *seconds;   /* that samples, vertices and triangles took, or NULL */
     const double *thickness; /* the least, and that of which a hundredth of the surface is thinner; or NULL */
 } tn_mesh_stats;
 

@@ -28,6 +28,9 @@ static void write_json(FILE *out, const tn_mesh_stats *s)
             m->high[0], m->high[1], m->high[2]);
     for (size_t i = 0; i < s->count_count; i++)
         fprintf(out, ", \"%s\": %" PRIu64, s->counts[i].key, s->counts[i].count);
+    if (s->seconds)
+        fprintf(out, ", \"seconds\": {\"samples\": %.6f, \"vertices\": %.6f, \"triangles\": %.6f}", s->seconds[0],
+                s->seconds[1], s->seconds[2]);
     fputs("}\n", out);
 }
 
@@ -73,6 +76,9 @@ static void write_table(FILE *out, const tn_mesh_stats *s)
     for (size_t i = 0; i < s->count_count; i++)
         if (!s->counts[i].json_only)
             fprintf(out, "%-9s  %" PRIu64 "\n", s->counts[i].key, s->counts[i].count);
+    if (s->seconds)
+        fprintf(out, "seconds    samples %.3f, vertices %.3f, triangles %.3f\n", s->seconds[0], s->seconds[1],
+                s->seconds[2]);
 }
 
 void tn_mesh_stats_write(FILE *out, bool json, const tn_mesh_stats *stats)

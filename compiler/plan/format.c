@@ -20,12 +20,24 @@ static bool takes_bracket(const tn_format *format, size_t i)
     return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
 }
 
-/* Is the token a minus that belongs to what follows, not one between two numbers? */
+/* Does the token stand in the brackets of a plan? */
+static bool is_in_plan(const tn_format *format, size_t i)
+{
+    static const char *const ends[] = {"]", "(", ")", "{", "}", "=", NULL};
+    while (i-- > 0)
+        if (tn_format_is(format, i, "[") || tn_format_is_any(format, i, ends))
+            return tn_format_is(format, i, "[");
+    return false;
+}
+
+/* Is the token a minus that belongs to what follows, not one between two numbers, nor what a tray does not have? */
 static bool is_sign(const tn_format *format, size_t i)
 {
     static const char *const operands[] = {")", "trays", "any", NULL};
     if (!tn_format_is(format, i, "-") || i == 0)
         return tn_format_is(format, i, "-");
+    if (is_in_plan(format, i))
+        return false;
     tn_token_kind before = format->tokens[i - 1].kind;
     return before != TN_TOKEN_NAME && before != TN_TOKEN_NUMBER && before != TN_TOKEN_LENGTH &&
            !tn_format_is_any(format, i - 1, operands);

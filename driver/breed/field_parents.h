@@ -21,7 +21,7 @@ tn_status tn_field_parents_read(const tn_evolution_study *study, const char *pat
 
 typedef struct tn_field_parents tn_field_parents;
 
-/* The parents in such a text. */
+/* The parents in such a text. Free them in any case; NULL is fine. TN_INVALID where it is no such text. */
 tn_status tn_field_parents_of(const char *text, tn_field_parents **parents, tn_error *error);
 void tn_field_parents_free(tn_field_parents *parents);
 

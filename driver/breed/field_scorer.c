@@ -11,6 +11,7 @@
 #include "driver/breed/inputs.h"
 #include "driver/breed/target.h"
 #include "driver/open/open.h"
+#include "runtime/base/crew.h"
 #include "runtime/field/contour.h"
 #include "runtime/geometry/measure.h"
 #include "runtime/scene/draw_meshes.h"
@@ -118,8 +119,8 @@ static void form_clear(form *f)
     tn_close(&f->opened);
 }
 
-/* Compiles a sentence and meshes its surface. Clear the form in any case. */
-static tn_status make_form(const char *sentence, size_t size, unsigned threads, form *f, tn_error *error)
+/* Compiles a sentence and meshes its surface, or only looks whether there is one. Clear the form in any case. */
+static tn_status make_form(const char *sentence, size_t size, bool survey, form *f, tn_error *error)
 {
     *f = (form){0};
     tn_status status =
@@ -131,7 +132,7 @@ static tn_status make_form(const char *sentence, size_t size, unsigned threads, 
     if (status != TN_OK)
         return status;
     tn_field_grid grid = tn_field_grid_of(&f->field, 0);
-    tn_contour_options options = {.threads = threads, .triangles = TN_BRED_TRIANGLES};
+    tn_contour_options options = {.threads = 1, .survey = survey, .triangles = TN_BRED_TRIANGLES};
     status = tn_contour_new(&f->field, &grid, &options, &f->contour, error);
     if (status != TN_OK)
         return status;
@@ -194,11 +195,13 @@ static tn_status score(void *context, unsigned thread, const char *sentence, siz
                        char message[200], tn_error *error)
 {
     (void)thread;
+    const tn_field_scorer *s = context;
+    bool survey = s->goals.count + s->target_count == 0; /* bred by hand: without a surface it is not shown */
     form f;
     tn_error own = {0};
-    tn_status status = make_form(sentence, size, 1, &f, &own);
-    if (status == TN_OK)
-        status = score_form(context, &f, score, message, &own);
+    tn_status status = make_form(sentence, size, survey, &f, &own);
+    if (status == TN_OK && !survey)
+        status = score_form(s, &f, score, message, &own);
     form_clear(&f);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
 }
@@ -233,23 +236,38 @@ const char *tn_field_scorer_objective(const void *scorer, size_t i)
 
 /* ---- pictures */
 
+typedef struct forms {
+    const char *const *sentences;
+    form *items;
+} forms;
+
+static tn_status make_one(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    (void)thread;
+    forms *f = context;
+    return make_form(f->sentences[item], strlen(f->sentences[item]), false, &f->items[item], error);
+}
+
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
                                size_t count, const char *title, const char *path, tn_error *error)
 {
     (void)scorer;
-    form *forms = calloc(count + 1, sizeof *forms);
+    forms f = {sentences, calloc(count + 1, sizeof *f.items)};
     const tn_mesh **meshes = calloc(count + 1, sizeof *meshes);
-    tn_status status = forms && meshes ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; i < count && status == TN_OK; i++) {
-        status = make_form(sentences[i], strlen(sentences[i]), 0, &forms[i], error);
-        meshes[i] = &forms[i].contour.mesh;
-    }
+    tn_crew *crew = tn_crew_new(0, NULL);
+    tn_status status = f.items && meshes && crew ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_crew_run(crew, count, 1, make_one, &f, error);
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        meshes[i] = &f.items[i].contour.mesh;
     const tn_meshes_picture picture = {.title = title, .labels = labels};
     if (status == TN_OK)
         status = tn_meshes_draw(meshes, count, &picture, &(tn_picture){.path = path}, error);
-    for (size_t i = 0; forms && i < count; i++)
-        form_clear(&forms[i]);
-    free(forms);
+    for (size_t i = 0; f.items && i < count; i++)
+        form_clear(&f.items[i]);
+    if (crew)
+        tn_crew_free(crew);
+    free(f.items);
     free(meshes);
     return status;
 }

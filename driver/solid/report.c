@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "driver/solid/solid.h"
-#include "runtime/geometry/union/union.h"
+#include "runtime/geometry/union/contacts.h"
 
 typedef struct reporting {
     tn_opened *opened;
@@ -97,11 +97,12 @@ static tn_status warn_detached(const reporting *r, tn_error *error)
 {
     uint32_t n = r->built->built.box_count, left = 0;
     bool *touches = calloc(n + 1u, sizeof *touches);
-    tn_union u = {0};
-    tn_status status =
-        touches ? tn_union_contacts(r->built->cells, r->built->cell_count, &u, error) : tn_fail_memory(error);
-    for (size_t i = 0; i < u.contact_count; i++)
-        touches[u.contacts[i].a % n] = touches[u.contacts[i].b % n] = true;
+    tn_contacts contacts = {0};
+    tn_status status = touches
+                           ? tn_contacts_find(r->built->cells, r->built->cell_count, TN_CONTACT_LEAST, &contacts, error)
+                           : tn_fail_memory(error);
+    for (size_t i = 0; i < contacts.count && status == TN_OK; i++)
+        touches[contacts.items[i].a % n] = touches[contacts.items[i].b % n] = true;
     for (size_t i = 0; i < r->built->cell_count; i++)
         left += r->built->cells[i].face_count > 0;
     for (uint32_t box = 0; box < n && status == TN_OK && left > 1; box++) {
@@ -111,7 +112,7 @@ static tn_status warn_detached(const reporting *r, tn_error *error)
                                      "`%.100s` touches no other box", tn_box_named(r->module, r->solid, box, 0).text);
         tn_help(&r->opened->compilation.diagnostics, d, "boxes that share a face's area are one part: let them meet");
     }
-    tn_union_clear(&u);
+    tn_contacts_clear(&contacts);
     free(touches);
     return status;
 }

@@ -20,6 +20,7 @@ typedef struct tartan_field_options {
     uint32_t threads;              /* 0: one a processor */
     const char *folder;            /* where the file's meshes lie; NULL: where it lay when it was compiled */
     tartan_mesh_reader *read_mesh; /* reads these meshes: tartan_mesh_read, or a function of yours */
+    bool sharp;                    /* sharp edges and corners, by points on no edge of the grid: triangles may cross */
 } tartan_field_options;
 TARTAN_SIZED(tartan_field_options)
 
@@ -42,6 +43,7 @@ typedef struct tartan_field_findings {
     uint64_t jumps;              /* vertices where the field jumps over 0 */
     double no_value[3], jump[3]; /* the first of each */
     double spacing;              /* the largest distance between two samples that are neighbours */
+    uint64_t sharp;              /* points added for sharp edges: the last vertices of the mesh */
 } tartan_field_findings;
 TARTAN_SIZED(tartan_field_findings)
 

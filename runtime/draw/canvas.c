@@ -9,6 +9,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/draw/png.h"
 #include "runtime/draw/svg_ids.h"
 #include "runtime/draw/svg_page.h"
 #include "runtime/draw/type.h"
@@ -298,7 +299,7 @@ tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error)
     cairo_show_page(canvas->context);
     cairo_status_t drawn = cairo_status(canvas->context);
     if (drawn == CAIRO_STATUS_SUCCESS && canvas->format == TN_CANVAS_PNG)
-        drawn = cairo_surface_write_to_png_stream(canvas->surface, write_stream, canvas);
+        drawn = tn_png_write(canvas->surface, canvas->output.stream, canvas->watch);
     cairo_surface_finish(canvas->surface);
     if (drawn == CAIRO_STATUS_SUCCESS)
         drawn = cairo_surface_status(canvas->surface);

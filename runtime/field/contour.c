@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "runtime/field/contour_parts.h"
 
@@ -35,7 +36,7 @@ tn_status tn_contouring_begin(tn_contouring *c, const double *z, tn_error *error
     c->crew = tn_crew_new(c->threads, c->field->module->watch);
     c->words = (n[0] + 63) / 64;
     c->signs = calloc((size_t)n[1] * n[2] * c->words, sizeof *c->signs);
-    c->first = malloc((size_t)n[1] * n[2] * sizeof *c->first);
+    c->first = calloc((size_t)n[1] * n[2], sizeof *c->first);
     c->layer_jumps = calloc(n[2], sizeof *c->layer_jumps);
     c->layer_moved = calloc(n[2], sizeof *c->layer_moved);
     for (int axis = 0; axis < 3; axis++) {
@@ -96,20 +97,28 @@ static tn_status drop_unused(tn_mesh *mesh, tn_error *error)
     return TN_OK;
 }
 
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error)
 {
+    static tn_status (*const stages[])(tn_contouring *, tn_error *) = {tn_contour_signs, tn_contour_roots,
+                                                                       tn_contour_cells, tn_contour_sharp_cells};
     *contour = (tn_contour){.mesh.watch = field->module->watch};
     for (int axis = 0; axis < 3; axis++)
         contour->spacing = fmax(contour->spacing, (grid->high[axis] - grid->low[axis]) / (grid->count[axis] - 1));
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};
     tn_status status = tn_contouring_begin(&c, NULL, error);
-    if (status == TN_OK)
-        status = tn_contour_signs(&c, error);
-    if (status == TN_OK)
-        status = tn_contour_roots(&c, error);
-    if (status == TN_OK)
-        status = tn_contour_cells(&c, error);
+    for (int i = 0; i < 3 && status == TN_OK; i += i == 0 && options->survey ? 2 : 1) {
+        double begun = now();
+        status = stages[i == 2 && options->sharp ? 3 : i](&c, error);
+        contour->seconds[i] = now() - begun;
+    }
     if (status == TN_OK)
         tn_contouring_count(&c);
     if (status == TN_OK && options->jumps_open)

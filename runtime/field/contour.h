@@ -15,6 +15,8 @@ typedef struct tn_contour_options {
     bool every_sample;  /* skip no blocks: for tests */
     bool open;          /* the mesh ends at the box */
     bool jumps_open;    /* leave out triangles that touch a jump */
+    bool sharp;         /* sharp edges and corners: points are added, and triangles may cross */
+    bool survey;        /* no mesh: only what the samples say, and whether it would pass a limit */
     uint64_t samples;   /* the most, 0: TN_SAMPLES_MAX */
     uint64_t triangles; /* the most, 0: TN_TRIANGLES_MAX */
 } tn_contour_options;
@@ -26,11 +28,13 @@ typedef struct tn_contour {
     tn_mesh mesh;                /* owned; z up */
     uint64_t jumps;              /* vertices where the field jumps over 0 */
     uint64_t moved;              /* vertices kept away from a sample */
+    uint64_t sharp;              /* points added for sharp edges: the last vertices of the mesh */
     uint64_t no_values;          /* samples without a value */
     double jump[3], no_value[3]; /* the first of each */
     unsigned cut;                /* sides of the box that cut it: bit 2 * axis + (1 where high) */
     bool inside, outside;        /* is any sample before the box is closed? */
     double spacing;              /* the largest */
+    double seconds[3];           /* that signs, vertices and triangles took */
 } tn_contour;
 
 /* Clear the contour in any case. TN_LIMIT (E1414, E1415) where it passes a limit; TN_MEMORY. */

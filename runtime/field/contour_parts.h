@@ -61,7 +61,11 @@ tn_status tn_contour_roots(tn_contouring *c, tn_error *error);
 /* Counts jumps and moved vertices in c->out. */
 void tn_contouring_count(const tn_contouring *c);
 
-/* The triangles. */
+/* The triangles: those of the table of cells, or with sharp edges. */
 tn_status tn_contour_cells(tn_contouring *c, tn_error *error);
+tn_status tn_contour_sharp_cells(tn_contouring *c, tn_error *error);
+
+/* Room for so many triangles in c->out->mesh, and where each begins. TN_LIMIT (E1415) or TN_MEMORY. */
+tn_status tn_contour_make_room(tn_contouring *c, uint64_t count, tn_error *error);
 
 #endif

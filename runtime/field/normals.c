@@ -20,9 +20,8 @@ static double median_of(double *sizes, size_t count)
     return count ? sizes[count / 2] : 0;
 }
 
-/* The gradient at a vertex, and its size: 0 where it says nothing about the surface. */
-static double differentiate(const tn_field *field, const double *vertex, double spacing, double *registers,
-                            double gradient[3])
+double tn_field_slope(const tn_field *field, const double *vertex, double spacing, double *registers,
+                      double gradient[3])
 {
     double value = tn_tape_gradient(&field->samples, vertex, &field->distances, registers, gradient);
     double size = sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
@@ -41,7 +40,7 @@ tn_status tn_field_normals(const tn_field *field, const tn_mesh *mesh, double sp
     double(*gradients)[3] = malloc((count + 1) * sizeof *gradients);
     bool room = registers && sizes && sorted && gradients;
     for (size_t v = 0; room && v < count; v++)
-        sizes[v] = sorted[v] = differentiate(field, mesh->positions + 3 * v, spacing, registers, gradients[v]);
+        sizes[v] = sorted[v] = tn_field_slope(field, mesh->positions + 3 * v, spacing, registers, gradients[v]);
     double least = room ? LEAST * median_of(sorted, count) : 0;
     for (size_t v = 0; room && v < count; v++)
         for (int axis = 0; axis < 3 && sizes[v] > least; axis++)

@@ -11,4 +11,9 @@
 tn_status tn_field_normals(const tn_field *field, const tn_mesh *mesh, double spacing, double **normals,
                            tn_error *error);
 
+/* The gradient at a vertex, and its size: 0 where it says nothing about the surface. registers: room for four times
+ * field->samples.register_count. */
+double tn_field_slope(const tn_field *field, const double *vertex, double spacing, double *registers,
+                      double gradient[3]);
+
 #endif

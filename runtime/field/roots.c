@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/any_width.h"
 #include "runtime/field/contour_parts.h"
 
 #define HALVINGS 24
@@ -18,7 +19,7 @@ typedef struct batch {
     double inner[TN_ROW], outer[TN_ROW];    /* the bracket: 0 to 1 */
     double inside[TN_ROW], outside[TN_ROW]; /* its values; not numbers where not known */
     double largest[TN_ROW];                 /* of all values seen */
-    bool known_in[TN_ROW], known_out[TN_ROW];
+    double middle[TN_ROW];
 } batch;
 
 typedef struct roots {
@@ -35,30 +36,41 @@ static void start(batch *b, const bool *inside_first)
         b->outer[i] = inside_first[i] ? 1 : 0;
         b->inside[i] = b->outside[i] = NAN;
         b->largest[i] = 0;
-        b->known_in[i] = b->known_out[i] = false;
+    }
+}
+
+/* Has halving moved this end of a bracket? Then its value is known. */
+static bool has_moved(double end)
+{
+    return end > 0 && end < 1;
+}
+
+TN_ANY_WIDTH static void find_middles(batch *b, double *restrict place)
+{
+    for (uint32_t i = 0; i < TN_ROW; i++) {
+        b->middle[i] = .5 * (b->inner[i] + b->outer[i]);
+        place[i] = b->from[i] + b->middle[i] * b->length[i];
+    }
+}
+
+TN_ANY_WIDTH static void take_halves(batch *b, const double *restrict values)
+{
+    for (uint32_t i = 0; i < TN_ROW; i++) {
+        double v = values[i], size = fabs(v), t = b->middle[i];
+        bool in = v < 0;
+        b->inner[i] = in ? t : b->inner[i];
+        b->inside[i] = in ? v : b->inside[i];
+        b->outer[i] = in ? b->outer[i] : t;
+        b->outside[i] = in ? b->outside[i] : v;
+        b->largest[i] = size > b->largest[i] ? size : b->largest[i];
     }
 }
 
 /* Halves the brackets once. */
 static void halve(batch *b, double *place)
 {
-    double t[TN_ROW];
-    for (uint32_t i = 0; i < TN_ROW; i++) {
-        t[i] = .5 * (b->inner[i] + b->outer[i]);
-        place[i] = b->from[i] + t[i] * b->length[i];
-    }
-    const double *values = tn_field_run(&b->runner);
-    for (uint32_t i = 0; i < TN_ROW; i++) {
-        double v = values[i], size = fabs(v);
-        bool in = v < 0;
-        b->inner[i] = in ? t[i] : b->inner[i];
-        b->inside[i] = in ? v : b->inside[i];
-        b->outer[i] = in ? b->outer[i] : t[i];
-        b->outside[i] = in ? b->outside[i] : v;
-        b->known_in[i] |= in;
-        b->known_out[i] |= !in;
-        b->largest[i] = size > b->largest[i] ? size : b->largest[i];
-    }
+    find_middles(b, place);
+    take_halves(b, tn_field_run(&b->runner));
 }
 
 /* For telling jumps: the value at an end that halving never came to is that of the sample. */
@@ -66,17 +78,18 @@ static void look_at_ends(batch *b, double *place)
 {
     bool missing = false;
     for (uint32_t i = 0; i < b->count; i++)
-        missing = missing || !b->known_in[i] || !b->known_out[i];
+        missing = missing || !has_moved(b->inner[i]) || !has_moved(b->outer[i]);
     for (int side = 0; missing && side < 2; side++) {
         double *values = side ? b->outside : b->inside;
         const double *t = side ? b->outer : b->inner;
-        const bool *known = side ? b->known_out : b->known_in;
         for (uint32_t i = 0; i < TN_ROW; i++)
             place[i] = b->from[i] + t[i] * b->length[i];
         const double *found = tn_field_run(&b->runner);
         for (uint32_t i = 0; i < b->count; i++) {
-            values[i] = known[i] ? values[i] : found[i];
-            b->largest[i] = !known[i] && fabs(found[i]) > b->largest[i] ? fabs(found[i]) : b->largest[i];
+            if (has_moved(t[i]))
+                continue;
+            values[i] = found[i];
+            b->largest[i] = fabs(found[i]) > b->largest[i] ? fabs(found[i]) : b->largest[i];
         }
     }
 }
@@ -91,14 +104,14 @@ static bool is_jump(const batch *b, uint32_t i)
     return fabs(b->inside[i]) + fabs(b->outside[i]) > JUMP * b->largest[i];
 }
 
-static void find_roots(roots *r, batch *b, int axis, uint32_t layer)
+TN_ANY_WIDTH static void find_roots(roots *r, batch *b, int axis, uint32_t layer)
 {
     tn_contouring *c = r->c;
     double *place = b->runner.rows.coordinates[axis], t[TN_ROW];
     for (uint32_t i = 0; i < b->count; i++) {
         double s = b->inside[i] / (b->inside[i] - b->outside[i]);
         t[i] = .5 * (b->inner[i] + b->outer[i]);
-        if (b->known_in[i] && b->known_out[i] && s >= 0 && s <= 1)
+        if (has_moved(b->inner[i]) && has_moved(b->outer[i]) && s >= 0 && s <= 1)
             t[i] = b->inner[i] + s * (b->outer[i] - b->inner[i]);
     }
     look_at_ends(b, place);
@@ -148,7 +161,7 @@ static bool has_edges(const tn_contouring *c, int axis, uint32_t y, uint32_t z)
 }
 
 /* Adds the crossing edges of a row along an axis to the batch. */
-static void add_edges(roots *r, batch *b, int axis, uint32_t y, uint32_t z, bool *inside_first)
+TN_ANY_WIDTH static void add_edges(roots *r, batch *b, int axis, uint32_t y, uint32_t z, bool *inside_first)
 {
     const tn_contouring *c = r->c;
     const uint64_t *row = tn_signs_at(c, y, z), *next = next_row(c, axis, y, z);
@@ -187,7 +200,7 @@ static tn_status do_layer(void *context, unsigned thread, size_t item, tn_error 
 /* ---- numbering */
 
 /* By z, then y; in a row the edges along x, those along y, those along z. */
-static tn_status number_vertices(tn_contouring *c, tn_error *error)
+TN_ANY_WIDTH static tn_status number_vertices(tn_contouring *c, tn_error *error)
 {
     const uint32_t *n = c->grid->count;
     uint64_t count = 0;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/any_width.h"
 #include "runtime/field/contour_parts.h"
 
 #define COARSE 4u                             /* blocks along the side of a coarse one */
@@ -47,35 +48,63 @@ static int prove(const tn_contouring *c, worker *w, const uint32_t first[3], uin
  * sample is repeated. */
 static void place_row(const tn_contouring *c, worker *w, int axis, uint32_t first)
 {
-    static const uint32_t strides[3] = {1, TN_BLOCK, TN_BLOCK * TN_BLOCK};
     uint32_t end = c->grid->count[axis] - 1, count = axis == 2 ? HALF : TN_BLOCK;
+    uint32_t stride = axis == 0 ? 1 : axis == 1 ? TN_BLOCK : TN_BLOCK * TN_BLOCK, filled = count * stride;
     double *out = w->runner.rows.coordinates[axis];
-    for (uint32_t i = 0; i < TN_ROW; i++) {
-        uint32_t at = first + i / strides[axis] % count;
-        out[i] = c->places[axis][at < end ? at : end];
+    for (uint32_t i = 0; i < count; i++) {
+        double place = c->places[axis][first + i < end ? first + i : end];
+        for (uint32_t k = 0; k < stride; k++)
+            out[i * stride + k] = place;
     }
+    for (; filled < TN_ROW; filled *= 2)
+        memcpy(out + filled, out, filled * sizeof *out);
+}
+
+/* Which of a row's values are inside, a byte each. Returns whether some have no value. */
+TN_ANY_WIDTH static bool test_row(const double *restrict values, uint8_t *restrict inside)
+{
+    uint64_t none = 0;
+    for (uint32_t i = 0; i < TN_ROW; i++) {
+        inside[i] = values[i] < 0;
+        none |= values[i] != values[i];
+    }
+    return none != 0;
+}
+
+static void note_no_values(signs *s, const double *values, const uint32_t at[3], uint32_t count, uint32_t layer)
+{
+    const tn_contouring *c = s->c;
+    for (uint32_t i = 0; i < count; i++)
+        if (values[i] != values[i] && s->no_values[layer]++ == 0)
+            for (int axis = 0; axis < 3; axis++)
+                s->no_value[layer][axis] = c->places[axis][axis == 0 ? at[0] + i : at[axis]];
+}
+
+/* Eight bytes, each 0 or 1, as bits: the first is the lowest. */
+static uint64_t bits_of(const uint8_t bytes[TN_BLOCK])
+{
+    uint64_t bits = 0;
+    for (uint32_t i = 0; i < TN_BLOCK; i++)
+        bits |= (uint64_t)bytes[i] << 8 * i;
+    return bits * 0x0102040810204080 >> 56;
 }
 
 /* Writes the signs of one row's samples. */
 static void take_row(signs *s, const double *values, const uint32_t first[3], uint32_t layer)
 {
     const tn_contouring *c = s->c;
+    uint8_t inside[TN_ROW];
+    bool some_have_none = test_row(values, inside);
+    uint32_t left = c->grid->count[0] - first[0], count = left < TN_BLOCK ? left : TN_BLOCK;
+    uint64_t all = ((uint64_t)1 << count) - 1;
     for (uint32_t line = 0; line < TN_ROW / TN_BLOCK; line++) {
         uint32_t y = first[1] + line % TN_BLOCK, z = first[2] + line / TN_BLOCK;
         if (y >= c->grid->count[1] || z >= c->grid->count[2])
             continue;
-        uint32_t left = c->grid->count[0] - first[0], count = left < TN_BLOCK ? left : TN_BLOCK;
-        uint64_t bits = 0;
-        for (uint32_t i = 0; i < count; i++) {
-            double v = values[line * TN_BLOCK + i];
-            bits |= (uint64_t)(v < 0) << i;
-            s->seen[layer] |= v < 0 ? INSIDE : OUTSIDE;
-            if (v == v)
-                continue;
-            if (s->no_values[layer]++ == 0)
-                for (int axis = 0; axis < 3; axis++)
-                    s->no_value[layer][axis] = c->places[axis][axis == 0 ? first[0] + i : axis == 1 ? y : z];
-        }
+        uint64_t bits = bits_of(inside + line * TN_BLOCK) & all;
+        s->seen[layer] |= (bits ? INSIDE : 0) | (bits != all ? OUTSIDE : 0);
+        if (some_have_none)
+            note_no_values(s, values + line * TN_BLOCK, (uint32_t[3]){first[0], y, z}, count, layer);
         uint64_t *row = c->signs + ((size_t)z * c->grid->count[1] + y) * c->words;
         row[first[0] / 64] |= bits << (first[0] % 64);
     }

@@ -24,64 +24,107 @@ void tn_light_colour(double light, double rgb[3])
     rgb[2] = 0.93 * light;
 }
 
-static double clamped(double x, double high)
+/* Something that changes evenly over a triangle: by so much from point to point along x and y. */
+typedef struct slope {
+    double along_x, along_y, least, most;
+} slope;
+
+static slope slope_of(const corner c[3], double whole, double v0, double v1, double v2)
 {
-    return x < 0 ? 0 : x > high ? high : x;
+    double d1 = v1 - v0, d2 = v2 - v0;
+    return (slope){.along_x = (d1 * (c[2].y - c[0].y) - d2 * (c[1].y - c[0].y)) / whole,
+                   .along_y = (d2 * (c[1].x - c[0].x) - d1 * (c[2].x - c[0].x)) / whole,
+                   .least = tn_smaller(v0, tn_smaller(v1, v2)),
+                   .most = tn_larger(v0, tn_larger(v1, v2))};
 }
 
-/* Twice the area of a, b and the point: above 0 where it lies to the left. */
-static double side(const corner *a, const corner *b, double x, double y)
+/* Between the corners' values: where a triangle is a sliver, the slopes are not to be trusted. */
+static double between(const slope *s, double value)
 {
-    return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
+    return tn_smaller(tn_larger(value, s->least), s->most);
+}
+
+/* Where the line at height y runs through the triangle. A side gives both triangles that share it the same end, so
+ * that nothing shows through between them. */
+static void find_span(const corner c[3], double y, double *from, double *to)
+{
+    *from = INFINITY;
+    *to = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const corner *p = &c[k], *q = &c[(k + 1) % 3];
+        if (q->y < p->y || (q->y == p->y && q->x < p->x)) {
+            const corner *swap = p;
+            p = q;
+            q = swap;
+        }
+        if (y < p->y || y > q->y)
+            continue;
+        double x = q->y > p->y ? p->x + (y - p->y) * ((q->x - p->x) / (q->y - p->y)) : p->x;
+        double other = q->y > p->y ? x : q->x;
+        *from = tn_smaller(*from, tn_smaller(x, other));
+        *to = tn_larger(*to, tn_larger(x, other));
+    }
+}
+
+/* The first point at or behind x, whose middle lies half a point on. */
+static uint32_t point_from(double x, uint32_t end)
+{
+    double at = ceil(x - 0.5);
+    return at < 0 ? 0 : at > end ? end : (uint32_t)at;
 }
 
 static void fill_triangle(buffer *to, const corner c[3])
 {
-    double whole = side(&c[0], &c[1], c[2].x, c[2].y);
+    double whole = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x), from, until;
     if (whole == 0)
         return;
-    uint32_t x0 = (uint32_t)clamped(floor(fmin(c[0].x, fmin(c[1].x, c[2].x))), to->width);
-    uint32_t x1 = (uint32_t)clamped(ceil(fmax(c[0].x, fmax(c[1].x, c[2].x))) + 1, to->width);
-    uint32_t y0 = (uint32_t)clamped(floor(fmin(c[0].y, fmin(c[1].y, c[2].y))), to->height);
-    uint32_t y1 = (uint32_t)clamped(ceil(fmax(c[0].y, fmax(c[1].y, c[2].y))) + 1, to->height);
-    for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) {
-            double w[3], px = x + 0.5, py = y + 0.5;
-            for (int k = 0; k < 3; k++)
-                w[k] = side(&c[(k + 1) % 3], &c[(k + 2) % 3], px, py) / whole;
-            if (w[0] < 0 || w[1] < 0 || w[2] < 0)
-                continue;
+    slope depths = slope_of(c, whole, c[0].depth, c[1].depth, c[2].depth);
+    slope lights = slope_of(c, whole, c[0].light, c[1].light, c[2].light);
+    uint32_t last = point_from(tn_larger(c[0].y, tn_larger(c[1].y, c[2].y)) + 1, to->height);
+    for (uint32_t y = point_from(tn_smaller(c[0].y, tn_smaller(c[1].y, c[2].y)), to->height); y < last; y++) {
+        double down = y + 0.5 - c[0].y;
+        find_span(c, y + 0.5, &from, &until);
+        for (uint32_t x = point_from(from, to->width); x < to->width && x + 0.5 <= until; x++) {
             size_t at = (size_t)y * to->width + x;
-            float depth = (float)(w[0] * c[0].depth + w[1] * c[1].depth + w[2] * c[2].depth);
+            double right = x + 0.5 - c[0].x;
+            float depth = (float)between(&depths, c[0].depth + right * depths.along_x + down * depths.along_y);
             if (!(depth > to->depth[at]))
                 continue;
             to->depth[at] = depth;
-            to->light[at] = (float)(w[0] * c[0].light + w[1] * c[1].light + w[2] * c[2].light);
+            to->light[at] = (float)between(&lights, c[0].light + right * lights.along_x + down * lights.along_y);
         }
+    }
 }
 
-/* The light of a corner: by the vertex's normal, turned to the face's side, unless the surface has an edge there. */
-static double corner_light(const tn_eye *eye, tn_vector face, const double *normal)
-{
-    tn_vector smooth = tn_vector_at(normal);
-    return tn_eye_light_around(eye, tn_dot(smooth, face) < SMOOTH_COSINE ? face : smooth);
-}
-
-static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const tn_render_frame *frame,
-                  buffer *to)
+/* The vertices before the eye, with the light of their normals. */
+static void look(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const tn_render_frame *frame,
+                 corner *corners)
 {
     double points = FINE / frame->pixel;
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        tn_vector seen = tn_eye_sees(eye, tn_vector_at(mesh->positions + 3 * v));
+        corners[v] = (corner){(seen.x - frame->left) * points, (frame->top - seen.y) * points, seen.z,
+                              tn_eye_light_around(eye, tn_vector_at(normals + 3 * v))};
+    }
+}
+
+/* The light of a corner is by the vertex's normal, unless the surface has an edge there. */
+static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const corner *seen, buffer *to)
+{
     for (size_t f = 0; f < mesh->face_count; f++) {
         const uint32_t *corners = mesh->corners + mesh->face_first[f];
         tn_vector at[3];
         corner c[3];
         for (int k = 0; k < 3; k++)
             at[k] = tn_vector_at(mesh->positions + 3 * (size_t)corners[k]);
-        tn_vector face = tn_normalised(tn_cross(tn_sub(at[1], at[0]), tn_sub(at[2], at[0])));
+        tn_vector face = tn_cross(tn_sub(at[1], at[0]), tn_sub(at[2], at[0]));
+        if (!(tn_dot(face, eye->towards) > 0))
+            continue;
+        double least = SMOOTH_COSINE * tn_norm(face);
         for (int k = 0; k < 3; k++) {
-            tn_vector seen = tn_eye_sees(eye, at[k]);
-            c[k] = (corner){(seen.x - frame->left) * points, (frame->top - seen.y) * points, seen.z,
-                            corner_light(eye, face, normals + 3 * (size_t)corners[k])};
+            c[k] = seen[corners[k]];
+            if (tn_dot(tn_vector_at(normals + 3 * (size_t)corners[k]), face) < least)
+                c[k].light = tn_eye_light_around(eye, tn_normalised(face));
         }
         fill_triangle(to, c);
     }
@@ -90,20 +133,21 @@ static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye,
 /* A pixel from its points. */
 static uint32_t pixel_of(const buffer *from, uint32_t x, uint32_t y)
 {
-    double sum[3] = {0}, rgb[3];
+    double light = 0, rgb[3];
     uint32_t covered = 0;
     for (uint32_t k = 0; k < FINE * FINE; k++) {
         size_t at = (size_t)(FINE * y + k / FINE) * from->width + FINE * x + k % FINE;
         if (from->depth[at] == -INFINITY)
             continue;
         covered++;
-        tn_light_colour((double)from->light[at], rgb);
-        for (int i = 0; i < 3; i++)
-            sum[i] += rgb[i];
+        light += (double)from->light[at];
     }
-    uint32_t pixel = (uint32_t)lrint(255.0 * covered / (FINE * FINE)) << 24;
+    if (covered == 0)
+        return 0;
+    tn_light_colour(light / (FINE * FINE), rgb);
+    uint32_t pixel = (uint32_t)(255.0 * covered / (FINE * FINE) + 0.5) << 24;
     for (int i = 0; i < 3; i++)
-        pixel |= (uint32_t)lrint(255.0 * sum[i] / (FINE * FINE)) << (16 - 8 * i);
+        pixel |= (uint32_t)(255 * rgb[i] + 0.5) << (16 - 8 * i);
     return pixel;
 }
 
@@ -112,17 +156,21 @@ tn_status tn_mesh_render(const tn_mesh *mesh, const double *normals, const tn_ey
 {
     buffer to = {.width = FINE * frame->width, .height = FINE * frame->height};
     size_t points = (size_t)to.width * to.height;
+    corner *seen = malloc((mesh->vertex_count + 1) * sizeof *seen);
     to.depth = malloc((points + 1) * sizeof *to.depth);
     to.light = malloc((points + 1) * sizeof *to.light);
     *image = malloc(((size_t)frame->width * frame->height + 1) * sizeof **image);
-    bool room = to.depth && to.light && *image;
+    bool room = seen && to.depth && to.light && *image;
     for (size_t i = 0; room && i < points; i++)
         to.depth[i] = -INFINITY;
-    if (room)
-        paint(mesh, normals, eye, frame, &to);
+    if (room) {
+        look(mesh, normals, eye, frame, seen);
+        paint(mesh, normals, eye, seen, &to);
+    }
     for (uint32_t y = 0; room && y < frame->height; y++)
         for (uint32_t x = 0; x < frame->width; x++)
             (*image)[(size_t)y * frame->width + x] = pixel_of(&to, x, y);
+    free(seen);
     free(to.depth);
     free(to.light);
     if (room)

@@ -11,7 +11,7 @@ typedef struct tn_render_frame {
     double pixel;           /* its side */
 } tn_render_frame;
 
-/* Paints a mesh of triangles: image[y][x] is 0xAARRGGBB, alpha already multiplied in, the first row at the top; what
+/* Paints a closed mesh of triangles, of which those that look away are hidden by the others: image[y][x] is 0xAARRGGBB, alpha already multiplied in, the first row at the top; what
  * nothing covers is left transparent. Normals of vertices are rounded over edges flatter than 40 degrees. The caller
  * frees *image. TN_MEMORY. */
 tn_status tn_mesh_render(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const tn_render_frame *frame,

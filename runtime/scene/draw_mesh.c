@@ -51,7 +51,8 @@ static double left_of(const page *p)
 
 /* ---- pixels */
 
-static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const page *p, uint32_t dpi, tn_error *error)
+static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const double *given, const page *p, uint32_t dpi,
+                              tn_error *error)
 {
     double pixel = 72.0 / dpi; /* in points */
     tn_render_frame frame = {.width = (uint32_t)ceil(p->size[0] / pixel),
@@ -59,12 +60,12 @@ static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const page *p, u
                              .left = p->low[0] - left_of(p) / p->scale,
                              .top = p->high[1] + p->top / p->scale,
                              .pixel = pixel / p->scale};
-    double *normals;
+    double *normals = NULL;
     uint32_t *image = NULL;
-    tn_status status = tn_mesh_normals(mesh, &normals, error);
+    tn_status status = given ? TN_OK : tn_mesh_normals(mesh, &normals, error);
     if (status != TN_OK)
         return status;
-    status = tn_mesh_render(mesh, normals, &p->eye, &frame, &image, error);
+    status = tn_mesh_render(mesh, given ? given : normals, &p->eye, &frame, &image, error);
     free(normals);
     if (status != TN_OK)
         return status;
@@ -141,7 +142,7 @@ static tn_status draw_pixels(const tn_mesh *mesh, const tn_mesh_picture *picture
     if (status != TN_OK)
         return status;
     cairo_t *cr = tn_canvas_context(canvas);
-    status = paint_pixels(cr, mesh, &p, picture->dpi ? picture->dpi : DPI, error);
+    status = paint_pixels(cr, mesh, picture->normals, &p, picture->dpi ? picture->dpi : DPI, error);
     if (status == TN_OK) {
         write_words(cr, &p, picture);
         status = tn_canvas_commit(canvas, error);

@@ -11,6 +11,7 @@
 typedef struct tn_mesh_picture {
     tn_camera camera;
     const char *title;      /* or NULL */
+    const double *normals;  /* of the vertices, for a PNG; NULL: the mean of the triangles' */
     const char *caption;    /* a line at the foot: how it was made; or NULL */
     uint32_t dpi;           /* of a PNG; 0: 150 */
     int threads;            /* 0: all processors */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/base/crew.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 #include "runtime/geometry/camera.h"
@@ -16,6 +17,8 @@
 #define CELL 150.0   /* of several, in points */
 #define SINGLE 340.0 /* of one alone */
 #define DPI 144u
+#define ENLARGED 2.0    /* at most, what would be small beside others */
+#define BATCH_CELLS 32u /* an image takes 360 kB */
 
 /* What the eye sees of a mesh. */
 typedef struct extent {
@@ -62,37 +65,49 @@ static sheet lay_out(size_t count, const tn_meshes_picture *picture, uint32_t dp
     return s;
 }
 
-/* Paints a mesh into the square whose corner is at x, y. `scale`: points a unit. */
-static tn_status paint(cairo_t *cr, const tn_mesh *mesh, const sheet *s, const extent *e, double scale,
-                       const double corner[2], tn_error *error)
+/* Cells whose images are made at once. */
+typedef struct batch {
+    const tn_mesh *const *meshes;
+    const extent *extents;
+    const sheet *s;
+    uint32_t side;                 /* of an image, in pixels */
+    double largest;                /* side of what is drawn */
+    uint32_t *images[BATCH_CELLS]; /* owned */
+} batch;
+
+static tn_status make_image(void *context, unsigned thread, size_t item, tn_error *error)
 {
-    double pixel = 72.0 / s->dpi;
-    uint32_t side = (uint32_t)ceil(s->cell / pixel);
-    tn_render_frame frame = {.width = side,
-                             .height = side,
-                             .left = (e->low[0] + e->high[0]) / 2 - s->cell / scale / 2,
-                             .top = (e->low[1] + e->high[1]) / 2 + s->cell / scale / 2,
+    (void)thread;
+    batch *b = context;
+    const extent *e = &b->extents[item];
+    double pixel = 72.0 / b->s->dpi, scale = b->s->cell / fmax(side_of(e), b->largest / ENLARGED);
+    tn_render_frame frame = {.width = b->side,
+                             .height = b->side,
+                             .left = (e->low[0] + e->high[0]) / 2 - b->s->cell / scale / 2,
+                             .top = (e->low[1] + e->high[1]) / 2 + b->s->cell / scale / 2,
                              .pixel = pixel / scale};
     double *normals;
-    uint32_t *image = NULL;
-    tn_status status = tn_mesh_normals(mesh, &normals, error);
+    tn_status status = tn_mesh_normals(b->meshes[item], &normals, error);
     if (status != TN_OK)
         return status;
-    status = tn_mesh_render(mesh, normals, &s->eye, &frame, &image, error);
+    status = tn_mesh_render(b->meshes[item], normals, &b->s->eye, &frame, &b->images[item], error);
     free(normals);
-    if (status != TN_OK)
-        return status;
+    return status;
+}
+
+/* Puts an image into the square whose corner is at x, y. */
+static void put_image(cairo_t *cr, uint32_t *image, uint32_t side, double pixel, const double corner[2])
+{
     cairo_surface_t *surface = cairo_image_surface_create_for_data((unsigned char *)image, CAIRO_FORMAT_ARGB32,
                                                                    (int)side, (int)side, (int)(4 * side));
     cairo_save(cr);
     cairo_translate(cr, corner[0], corner[1]);
     cairo_scale(cr, pixel, pixel);
     cairo_set_source_surface(cr, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
     cairo_paint(cr);
     cairo_restore(cr);
     cairo_surface_destroy(surface);
-    free(image);
-    return TN_OK;
 }
 
 static double largest_side(const extent *extents, size_t count)
@@ -106,19 +121,28 @@ static double largest_side(const extent *extents, size_t count)
 static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const extent *extents, size_t count,
                             const sheet *s, const tn_meshes_picture *picture, tn_error *error)
 {
-    double largest = largest_side(extents, count);
-    tn_status status = TN_OK;
+    double pixel = 72.0 / s->dpi, largest = largest_side(extents, count);
+    uint32_t side = (uint32_t)ceil(s->cell / pixel);
+    tn_crew *crew = tn_crew_new(0, NULL);
+    tn_status status = crew ? TN_OK : tn_fail_memory(error);
     tn_type_face(cr, 9, false);
-    for (size_t i = 0; i < count && status == TN_OK; i++) {
-        double corner[2] = {MARGIN + (double)(i % s->columns) * (s->cell + GAP),
-                            s->top + (double)(i / s->columns) * (s->cell + s->label + GAP)};
-        double side = picture->own_scales ? side_of(&extents[i]) : largest;
-        status = paint(cr, meshes[i], s, &extents[i], s->cell / side, corner, error);
-        cairo_set_source_rgb(cr, 0, 0, 0);
-        if (picture->labels)
-            tn_type_fit(cr, corner[0] + s->cell / 2, corner[1] + s->cell + 11, TN_ALIGN_CENTRE, s->cell,
-                        picture->labels[i]);
+    cairo_set_source_rgb(cr, 0, 0, 0);
+    for (size_t first = 0; first < count && status == TN_OK; first += BATCH_CELLS) {
+        batch b = {.meshes = meshes + first, .extents = extents + first, .s = s, .side = side, .largest = largest};
+        size_t here = count - first < BATCH_CELLS ? count - first : BATCH_CELLS;
+        status = tn_crew_run(crew, here, 1, make_image, &b, error);
+        for (size_t i = 0; i < here && status == TN_OK; i++) {
+            double corner[2] = {MARGIN + (double)((first + i) % s->columns) * (s->cell + GAP),
+                                s->top + (double)((first + i) / s->columns) * (s->cell + s->label + GAP)};
+            put_image(cr, b.images[i], side, pixel, corner);
+            if (picture->labels)
+                tn_type_fit(cr, corner[0] + s->cell / 2, corner[1] + s->cell + 11, TN_ALIGN_CENTRE, s->cell,
+                            picture->labels[first + i]);
+        }
+        for (size_t i = 0; i < here; i++)
+            free(b.images[i]);
     }
+    tn_crew_free(crew);
     return status;
 }
 

@@ -53,7 +53,8 @@ void tn_sight_clear(tn_sight *sight)
 typedef struct prospect {
     const tn_sight *sight;
     tn_scene scene;
-    float *light; /* [face] */
+    float *light;    /* [face] */
+    uint64_t *plane; /* [face] a number of the plane that it lies in */
     double middle[3], size;
 } prospect;
 
@@ -70,12 +71,35 @@ static tn_vector turn_face(const tn_eye *eye, double (*points)[3], uint32_t coun
     return tn_normalised(normal);
 }
 
-/* Turns all faces, and moves those that can be seen to the front of the sight's arrays. */
-static void turn_faces(tn_sight *sight, const tn_eye *eye, float *light)
+/* A number of the plane through a point: the same for faces of one plane, as far as a millionth of the whole tells. */
+static uint64_t plane_of(tn_vector normal, tn_vector through, double size)
 {
+    const double values[4] = {normal.x, normal.y, normal.z, tn_dot(normal, through) / size};
+    uint64_t number = 1;
+    for (int k = 0; k < 4; k++) {
+        number = (number ^ (uint64_t)(int64_t)rint(1e6 * values[k])) * UINT64_C(0x9e3779b97f4a7c15);
+        number ^= number >> 29;
+    }
+    return number;
+}
+
+static double farthest(const tn_sight *sight)
+{
+    double most = 1e-300;
+    for (uint32_t c = 0; c < sight->first[sight->face_count]; c++)
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, fabs(sight->points[c][k]));
+    return most;
+}
+
+/* Turns all faces, and moves those that can be seen to the front of the sight's arrays. */
+static void turn_faces(tn_sight *sight, const tn_eye *eye, float *light, uint64_t *plane)
+{
+    double size = farthest(sight);
     uint32_t kept = 0, corners = 0, begin = sight->first[0];
     for (uint32_t f = 0; f < sight->face_count; f++) {
         uint32_t end = sight->first[f + 1], count = end - begin;
+        tn_vector corner = tn_vector_at(sight->points[begin]);
         tn_vector normal = turn_face(eye, sight->points + begin, count);
         if (!sight->closed || tn_dot(normal, eye->towards) > 1e-12) {
             memmove(sight->points + corners, sight->points + begin, count * sizeof *sight->points);
@@ -83,6 +107,7 @@ static void turn_faces(tn_sight *sight, const tn_eye *eye, float *light)
             if (sight->groups)
                 sight->groups[kept] = sight->groups[f];
             light[kept] = (float)tn_eye_light(eye, normal);
+            plane[kept] = plane_of(normal, corner, size);
             sight->first[kept++] = corners;
             corners += count;
         }
@@ -114,17 +139,19 @@ static void measure(prospect *seen, uint32_t corners)
 static tn_status look(tn_sight *sight, const tn_eye *eye, prospect *seen, tn_error *error)
 {
     float *light = malloc((sight->face_count + 1u) * sizeof *light);
-    *seen = (prospect){.sight = sight, .light = light};
-    if (!light)
+    uint64_t *plane = malloc((sight->face_count + 1u) * sizeof *plane);
+    *seen = (prospect){.sight = sight, .light = light, .plane = plane};
+    if (!light || !plane)
         return tn_fail_memory(error);
-    turn_faces(sight, eye, light);
+    turn_faces(sight, eye, light, plane);
     *seen = (prospect){.sight = sight,
                        .scene = {.points = sight->points,
                                  .first = sight->first,
                                  .face_count = sight->face_count,
                                  .threads = sight->threads > 0 ? sight->threads : (int)tn_crew_default(),
                                  .watch = sight->watch},
-                       .light = light};
+                       .light = light,
+                       .plane = plane};
     measure(seen, sight->first[sight->face_count]);
     return TN_OK;
 }
@@ -134,8 +161,11 @@ static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *p
                        uint32_t *corner)
 {
     view->faces[view->face_count++] =
-        (tn_seen_face){*corner, patch->count, seen->sight->groups ? seen->sight->groups[patch->face] : TN_NO_GROUP,
-                       seen->light[patch->face]};
+        (tn_seen_face){.first = *corner,
+                       .size = patch->count,
+                       .group = seen->sight->groups ? seen->sight->groups[patch->face] : TN_NO_GROUP,
+                       .light = seen->light[patch->face],
+                       .plane = seen->plane[patch->face]};
     for (uint32_t c = patch->first; c < patch->first + patch->count; c++) {
         const double *p = patch->piece ? painting->points[c] : seen->scene.points[c];
         uint32_t side = patch->piece ? painting->sides[c] : c;
@@ -186,8 +216,11 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)
         status = keep(view, &seen, &painting, error);
+    if (status == TN_OK)
+        status = tn_view_join(view, error);
     tn_painting_clear(&painting);
     free(seen.light);
+    free(seen.plane);
     if (status == TN_OK)
         *result = view;
     else

@@ -6,11 +6,16 @@
 
 #define TN_NO_GROUP UINT32_MAX
 
+/* An edge between two faces that are filled together: it has neither a line nor a seam. */
+#define TN_EDGE_JOINED (UINT16_MAX - 2)
+
 /* A face, or a piece of one: what is needed to paint it. */
 typedef struct tn_seen_face {
     uint32_t first, size; /* corners */
     uint32_t group;       /* or TN_NO_GROUP */
     float light;          /* 0 dark .. 1 */
+    uint64_t plane;       /* faces of one number lie in one plane */
+    bool joined;          /* it is filled together with the one before it */
 } tn_seen_face;
 
 struct tn_view {
@@ -23,5 +28,8 @@ struct tn_view {
     uint32_t step;
     uint32_t by_depth;
 };
+
+/* Joins faces that can be filled together; changes their order. */
+tn_status tn_view_join(tn_view *view, tn_error *error);
 
 #endif

@@ -120,7 +120,7 @@ static void set_face_colour(cairo_t *cr, const tn_seen_face *face)
 
 static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
 {
-    cairo_new_path(cr); /* text leaves a point behind */
+    cairo_new_sub_path(cr);
     for (uint32_t c = face->first; c < face->first + face->size; c++)
         cairo_line_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
     cairo_close_path(cr);
@@ -140,36 +140,55 @@ static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face 
     return i;
 }
 
-/* Fills a face and draws its edges, runs of one colour at a time. Where it was cut, a hairline of its own colour closes
- * the seam that smoothed edges would leave. */
-static void paint_face(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const tn_view_place *place,
-                       double line, double hairline)
+static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place *place)
 {
     const double(*palette)[3] = place->palette;
     double light = place->ambient + (1 - place->ambient) * (double)face->light;
-    outline(cr, view, face);
     if (palette)
         cairo_set_source_rgb(cr, light * palette[face->group][0], light * palette[face->group][1],
                              light * palette[face->group][2]);
     else
         set_face_colour(cr, face);
-    cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
-    cairo_fill(cr);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT); /* so as not to run into the lines where it ends */
-    cairo_set_line_width(cr, hairline);
+}
+
+static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+{
     for (uint32_t i = 0; i < face->size;)
         i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i) : i + 1;
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_width(cr, line);
+}
+
+static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+{
     for (uint32_t i = 0; i < face->size;) {
         uint16_t edge = view->edges[face->first + i];
-        if (edge == TN_EDGE_NONE) {
+        if (edge == TN_EDGE_NONE || edge == TN_EDGE_JOINED) {
             i++;
             continue;
         }
         set_edge_colour(cr, edge);
         i = stroke_run(cr, view, face, i);
     }
+}
+
+/* Fills faces of one plane as one shape, then draws their edges, runs of one colour at a time. Where they were cut, a
+ * hairline of their own colour closes the seam that smoothed edges would leave. */
+static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *faces, size_t count,
+                        const tn_view_place *place, double seam)
+{
+    cairo_new_path(cr); /* text leaves a point behind */
+    for (size_t f = 0; f < count; f++)
+        outline(cr, view, &faces[f]);
+    set_fill(cr, faces, place);
+    cairo_set_fill_rule(cr, count > 1 ? CAIRO_FILL_RULE_WINDING : CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_fill(cr);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT); /* so as not to run into the lines where it ends */
+    cairo_set_line_width(cr, seam);
+    for (size_t f = 0; f < count; f++)
+        draw_seams(cr, view, &faces[f]);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cr, place->line / place->scale);
+    for (size_t f = 0; f < count; f++)
+        draw_edges(cr, view, &faces[f]);
 }
 
 /* As wide as a seam can be seen: a pixel at least where there are pixels. */
@@ -190,8 +209,13 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     double seam = seam_width(cr, place);
-    for (size_t f = 0; f < view->face_count && !(f % 256 == 0 && tn_canvas_stopped(canvas)); f++)
-        paint_face(cr, view, &view->faces[f], place, place->line / place->scale, seam);
+    for (size_t f = 0, end, painted = 0; f < view->face_count; f = end) {
+        if (painted++ % 256 == 0 && tn_canvas_stopped(canvas))
+            break;
+        for (end = f + 1; end < view->face_count && view->faces[end].joined;)
+            end++;
+        paint_faces(cr, view, view->faces + f, end - f, place, seam);
+    }
     cairo_restore(cr);
 }
 

@@ -1,13 +1,14 @@
 /* Squashes boxes that overlap (Bentley, chapter 4.3.1 to 4.3.3).
  *
- * Boxes only shrink, so that the pairs that overlap as written are all that can ever need it. They are found by a sweep
- * along x and taken in the chapter's order; only the boxes as written are stored, and an image is made when it is
- * compared. */
+ * Boxes only shrink, so that the pairs that overlap as written are all that can ever need it. They are found by
+ * a tree of boxes and taken in the chapter's order; only the boxes as written are stored, and an image is made when it
+ * is compared. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
 
+#include "runtime/geometry/union/box_tree.h"
 #include "runtime/solid/design.h"
 
 /* Box i and the image of box j; i <= j. Both are squashed by the same rule if they still overlap at their turn. */
@@ -22,11 +23,6 @@ typedef struct pairs {
     size_t count, capacity;
     bool failed;
 } pairs;
-
-typedef struct extent {
-    double low, high;
-    uint32_t box;
-} extent;
 
 static bool overlap(const tn_solid_box *p, const tn_solid_box *q)
 {
@@ -59,14 +55,6 @@ static void add_pair(pairs *found, pair one)
         found->items[found->count++] = one;
 }
 
-static int by_low(const void *a, const void *b)
-{
-    const extent *x = a, *y = b;
-    if (x->low != y->low)
-        return x->low < y->low ? -1 : 1;
-    return x->box < y->box ? -1 : x->box > y->box;
-}
-
 static int in_order(const void *a, const void *b)
 {
     const pair *x = a, *y = b;
@@ -79,61 +67,63 @@ static int in_order(const void *a, const void *b)
     return x->image < y->image ? -1 : x->image > y->image;
 }
 
-static void take(pairs *found, const tn_design *design, uint32_t a, uint32_t b, uint32_t stage, uint32_t image)
+static void take(pairs *found, const tn_design *design, uint32_t a, uint32_t b, const tn_solid_box *image_of_b,
+                 uint32_t stage, uint32_t image)
 {
-    tn_solid_box other = design->boxes[b];
-    mirror(&other, image);
     bool once = a < b || (image && a == b && (image & (image - 1)) == 0);
-    if (once && overlap(&design->boxes[a], &other))
+    if (once && overlap(&design->boxes[a], image_of_b))
         add_pair(found, (pair){stage, b, a, image});
 }
 
-/* All i <= j whose boxes overlap, box j in its image. */
-static void sweep(pairs *found, const tn_design *design, extent *own, extent *images, uint32_t stage, uint32_t image)
+static tn_box_bounds bounds_of(const tn_solid_box *box)
 {
-    uint32_t n = design->box_count;
-    double widest = 0;
-    for (uint32_t k = 0; k < n; k++) {
-        tn_solid_box box = design->boxes[k];
-        own[k] = (extent){box.low[0], box.high[0], k};
-        mirror(&box, image);
-        images[k] = (extent){box.low[0], box.high[0], k};
-        widest = fmax(widest, box.high[0] - box.low[0]);
-    }
-    qsort(own, n, sizeof *own, by_low);
-    qsort(images, n, sizeof *images, by_low);
-    for (uint32_t a = 0, first = 0; a < n; a++) {
-        while (first < n && images[first].low + widest < own[a].low)
-            first++;
-        for (uint32_t b = first; b < n && images[b].low < own[a].high; b++)
-            if (images[b].high > own[a].low)
-                take(found, design, own[a].box, images[b].box, stage, image);
+    return (tn_box_bounds){{box->low[0], box->low[1], box->low[2]}, {box->high[0], box->high[1], box->high[2]}};
+}
+
+/* All i <= j whose boxes overlap, box j in its image. */
+static void match(pairs *found, const tn_design *design, const tn_box_tree *tree, uint32_t stage, uint32_t image)
+{
+    tn_box_search search;
+    for (uint32_t b = 0, a; b < design->box_count && !found->failed; b++) {
+        tn_solid_box other = design->boxes[b];
+        mirror(&other, image);
+        tn_box_bounds bounds = bounds_of(&other);
+        tn_box_tree_search(tree, &bounds, &search);
+        while (tn_box_search_next(&search, &a))
+            take(found, design, a, b, &other, stage, image);
     }
 }
 
-static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *error)
+static void match_all(pairs *found, const tn_design *design, const tn_box_tree *tree)
 {
-    extent *own = malloc((design->box_count + 1u) * sizeof *own),
-           *images = malloc((design->box_count + 1u) * sizeof *images);
-    found->failed = !own || !images;
-    if (!found->failed)
-        sweep(found, design, own, images, 0, 0);
-    for (uint32_t axis = 0, group = 0; axis < 3 && !found->failed; axis++) {
+    match(found, design, tree, 0, 0);
+    for (uint32_t axis = 0, group = 0; axis < 3; axis++) {
         uint32_t flag = 1u << axis;
         if (!(design->flags & flag))
             continue;
         for (uint32_t g = 0; g <= group; g++)
             if ((g & group) == g)
-                sweep(found, design, own, images, 1 + axis, g | flag);
+                match(found, design, tree, 1 + axis, g | flag);
         group |= flag;
     }
-    free(own);
-    free(images);
-    if (found->failed)
-        return tn_fail_memory(error);
-    if (found->count)
+}
+
+static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *error)
+{
+    tn_box_tree tree = {0};
+    tn_box_bounds *bounds = malloc((design->box_count + 1u) * sizeof *bounds);
+    for (uint32_t i = 0; bounds && i < design->box_count; i++)
+        bounds[i] = bounds_of(&design->boxes[i]);
+    tn_status status = bounds ? tn_box_tree_make(bounds, design->box_count, &tree, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        match_all(found, design, &tree);
+    tn_box_tree_clear(&tree);
+    free(bounds);
+    if (status == TN_OK && found->failed)
+        status = tn_fail_memory(error);
+    if (status == TN_OK && found->count)
         qsort(found->items, found->count, sizeof *found->items, in_order);
-    return TN_OK;
+    return status;
 }
 
 /* ---- squashing a pair */

@@ -142,31 +142,43 @@ static int by_low(const void *a, const void *b)
     return p->high[0] < q->high[0] ? -1 : p->high[0] > q->high[0];
 }
 
-/* Each polygon less those before it in order of their low sides; `open` are the ones that reach so far. */
+tn_box_bounds tn_cover_bounds(const tn_cover *cover)
+{
+    return (tn_box_bounds){{cover->low[0], cover->low[1], 0}, {cover->high[0], cover->high[1], 0}};
+}
+
+/* Each polygon less those before it. */
+static double area_by(const tn_cover *covers, size_t count, const tn_box_tree *tree, tn_cover_pieces *work)
+{
+    tn_box_hits hits = {0};
+    double area = 0;
+    for (size_t i = 0; i < count && !work->failed; i++) {
+        const tn_box_bounds bounds = tn_cover_bounds(&covers[i]);
+        work->failed |= !tn_box_tree_list(tree, &bounds, &hits);
+        tn_cover_begin(work, &covers[i]);
+        for (size_t k = 0; k < hits.count && hits.items[k] < i && work->count; k++)
+            tn_cover_less(work, &covers[hits.items[k]]);
+        area += tn_cover_left(work);
+    }
+    free(hits.items);
+    return area;
+}
+
 double tn_cover_area(tn_cover *covers, size_t count)
 {
-    size_t *open = malloc((count + 1) * sizeof *open), open_count = 0;
     tn_cover_pieces work = {0};
+    tn_box_tree tree = {0};
+    tn_box_bounds *bounds = malloc((count + 1) * sizeof *bounds);
     double area = 0;
-    if (!open)
-        return -1;
     if (count)
         qsort(covers, count, sizeof *covers, by_low);
-    for (size_t i = 0; i < count; i++) {
-        size_t kept = 0;
-        tn_cover_begin(&work, &covers[i]);
-        for (size_t k = 0; k < open_count; k++) {
-            if (covers[open[k]].high[0] <= covers[i].low[0])
-                continue;
-            open[kept++] = open[k];
-            if (work.count)
-                tn_cover_less(&work, &covers[open[k]]);
-        }
-        area += tn_cover_left(&work);
-        open[kept++] = i;
-        open_count = kept;
-    }
+    for (size_t i = 0; bounds && i < count; i++)
+        bounds[i] = tn_cover_bounds(&covers[i]);
+    work.failed = !bounds || tn_box_tree_make(bounds, (uint32_t)count, &tree, &(tn_error){0}) != TN_OK;
+    if (!work.failed)
+        area = area_by(covers, count, &tree, &work);
+    tn_box_tree_clear(&tree);
+    free(bounds);
     free(work.pieces);
-    free(open);
     return work.failed ? -1 : area;
 }

@@ -2,8 +2,7 @@
 #ifndef TARTAN_SOLID_COVER_H
 #define TARTAN_SOLID_COVER_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "runtime/geometry/union/box_tree.h"
 
 enum { TN_COVER_CORNERS = 10 }; /* of a polygon: a cell has no more corners */
 
@@ -16,6 +15,9 @@ typedef struct tn_cover {
 
 /* The hull of points, and its bounds; count is at most TN_COVER_CORNERS. False where out of memory. */
 bool tn_cover_of(const double (*points)[2], size_t count, tn_cover *cover);
+
+/* As a box of no height. */
+tn_box_bounds tn_cover_bounds(const tn_cover *cover);
 
 /* Pieces of polygons: memory that is used again and again. Starts all zero; free `pieces` afterwards. */
 typedef struct tn_cover_pieces {

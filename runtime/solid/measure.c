@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "runtime/geometry/union/box_tree.h"
+#include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
 #include "runtime/solid/footprint.h"
@@ -124,13 +126,8 @@ typedef struct bounds {
 
 static bounds find_bounds(const tn_built *built)
 {
-    bounds b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    for (size_t i = 0; i < built->cell_count; i++)
-        for (uint32_t v = 0; built->cells[i].face_count && v < built->cells[i].corner_count; v++)
-            for (int k = 0; k < 3; k++) {
-                b.low[k] = fmin(b.low[k], built->cells[i].at[v][k]);
-                b.high[k] = fmax(b.high[k], built->cells[i].at[v][k]);
-            }
+    bounds b = {.diagonal = 0};
+    tn_cut_boxes_bounds(built->cells, built->cell_count, b.low, b.high);
     for (int k = 0; k < 3; k++)
         b.diagonal += (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
     b.diagonal = sqrt(b.diagonal);
@@ -206,21 +203,44 @@ static bool near_box(const tn_cut_box *cell, const double p[3], double reach)
     return cell->face_count > 0 && square <= reach * reach;
 }
 
+/* The first other cell whose box is within reach of a point, or UINT32_MAX. */
+static uint32_t cell_near(const tn_built *built, const tn_box_tree *tree, uint32_t but, const double p[3], double reach)
+{
+    tn_box_bounds around;
+    tn_box_search search;
+    uint32_t found, first = UINT32_MAX;
+    for (int k = 0; k < 3; k++) {
+        around.low[k] = p[k] - reach;
+        around.high[k] = p[k] + reach;
+    }
+    tn_box_tree_search(tree, &around, &search);
+    while (tn_box_search_next(&search, &found))
+        if (found != but && found < first && near_box(&built->cells[found], p, reach))
+            first = found;
+    return first;
+}
+
 tn_status tn_built_inward(const tn_built *built, uint32_t **others, tn_error *error)
 {
     double reach = 1e-6 * find_bounds(built).diagonal, middle[3];
+    tn_box_tree tree = {0};
+    tn_box_bounds *boxes = malloc((built->cell_count + 1) * sizeof *boxes);
     *others = malloc((built->cell_count + 1) * sizeof **others);
-    if (!*others)
-        return tn_fail_memory(error);
-    for (uint32_t i = 0; i < built->cell_count; i++) {
-        (*others)[i] = UINT32_MAX;
-        if (!cap_middle(&built->cells[i], middle))
-            continue;
-        for (uint32_t k = 0; k < built->cell_count && (*others)[i] == UINT32_MAX; k++)
-            if (k != i && near_box(&built->cells[k], middle, reach))
-                (*others)[i] = k;
+    for (size_t i = 0; boxes && i < built->cell_count; i++) {
+        const tn_cut_box *c = &built->cells[i];
+        boxes[i] = (tn_box_bounds){{c->low[0], c->low[1], c->low[2]}, {c->high[0], c->high[1], c->high[2]}};
     }
-    return TN_OK;
+    tn_status status =
+        *others && boxes ? tn_box_tree_make(boxes, (uint32_t)built->cell_count, &tree, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; i < built->cell_count && status == TN_OK; i++)
+        (*others)[i] = cap_middle(&built->cells[i], middle) ? cell_near(built, &tree, i, middle, reach) : UINT32_MAX;
+    tn_box_tree_clear(&tree);
+    free(boxes);
+    if (status != TN_OK) {
+        free(*others);
+        *others = NULL;
+    }
+    return status;
 }
 
 static tn_status measure_inward(const tn_built *built, double *values, tn_error *error)
@@ -270,7 +290,7 @@ static int widest_first(const void *a, const void *b)
 }
 
 /* Parts, and the least contact of the strongest forest. Contacts come to be in another order. */
-static tn_status measure_parts(const tn_built *built, double diagonal, tn_union *u, double *values, tn_error *error)
+static tn_status count_parts(const tn_built *built, tn_contacts *contacts, double *values, tn_error *error)
 {
     uint32_t *parent = malloc((built->cell_count + 1) * sizeof *parent), parts = 0;
     double weakest = 0;
@@ -280,12 +300,12 @@ static tn_status measure_parts(const tn_built *built, double diagonal, tn_union 
         parent[i] = i;
         parts += built->cells[i].face_count > 0;
     }
-    if (u->contact_count)
-        qsort(u->contacts, u->contact_count, sizeof *u->contacts, widest_first);
-    for (size_t i = 0; i < u->contact_count; i++) {
-        const tn_contact *contact = &u->contacts[i];
+    if (contacts->count)
+        qsort(contacts->items, contacts->count, sizeof *contacts->items, widest_first);
+    for (size_t i = 0; i < contacts->count; i++) {
+        const tn_contact *contact = &contacts->items[i];
         uint32_t a = find(parent, contact->a), b = find(parent, contact->b);
-        if (contact->area < 1e-12 * diagonal * diagonal || a == b)
+        if (a == b)
             continue;
         parent[a] = b;
         parts--;
@@ -297,23 +317,29 @@ static tn_status measure_parts(const tn_built *built, double diagonal, tn_union 
     return TN_OK;
 }
 
-#define ASKED(NAME) (mask >> TN_SOLID_##NAME##_MEASURED & 1)
+static tn_status measure_parts(const tn_built *built, double *values, tn_error *error)
+{
+    tn_contacts contacts;
+    tn_status status = tn_contacts_find(built->cells, built->cell_count, TN_CONTACT_LEAST, &contacts, error);
+    if (status == TN_OK)
+        status = count_parts(built, &contacts, values, error);
+    tn_contacts_clear(&contacts);
+    return status;
+}
 
-static tn_status measure_union(const tn_built *built, const bounds *b, uint64_t mask, double *values, tn_error *error)
+static tn_status measure_surface(const tn_built *built, const bounds *b, double *values, tn_error *error)
 {
     tn_union u;
-    bool surface = ASKED(AREA) || ASKED(OVERHANG);
-    tn_status status = surface ? tn_union_make(built->cells, built->cell_count, &u, error)
-                               : tn_union_contacts(built->cells, built->cell_count, &u, error);
-    if (status == TN_OK && surface) {
+    tn_status status = tn_union_make(built->cells, built->cell_count, &u, error);
+    if (status == TN_OK) {
         values[TN_SOLID_AREA_MEASURED] = area_of(&u.mesh);
         values[TN_SOLID_OVERHANG_MEASURED] = tn_mesh_overhang(&u.mesh, b->low[1], 1e-9 * b->diagonal);
     }
-    if (status == TN_OK)
-        status = measure_parts(built, b->diagonal, &u, values, error);
     tn_union_clear(&u);
     return status;
 }
+
+#define ASKED(NAME) (mask >> TN_SOLID_##NAME##_MEASURED & 1)
 
 static tn_status measure_plan(const tn_built *built, const bounds *b, uint64_t mask, double *values, tn_error *error)
 {
@@ -345,7 +371,9 @@ tn_status tn_built_measure(const tn_built *built, uint64_t mask, double values[T
         status = measure_inward(built, values, error);
     if (status == TN_OK)
         status = measure_plan(built, &b, mask, values, error);
-    if (status == TN_OK && (ASKED(AREA) || ASKED(OVERHANG) || ASKED(PARTS) || ASKED(WEAKEST)))
-        status = measure_union(built, &b, mask, values, error);
+    if (status == TN_OK && (ASKED(PARTS) || ASKED(WEAKEST)))
+        status = measure_parts(built, values, error);
+    if (status == TN_OK && (ASKED(AREA) || ASKED(OVERHANG)))
+        status = measure_surface(built, &b, values, error);
     return status;
 }

@@ -50,29 +50,54 @@ static const tn_cut_box_face *slope_of(const tn_cut_box *cell, double level)
     return NULL;
 }
 
+/* What is seen from above, and what lies above what. */
+typedef struct plan {
+    const tn_built *built;
+    tn_box_bounds *bounds; /* of cells, seen from above */
+    tn_box_tree tree;
+    tn_box_hits hits;
+    tn_cover_pieces work;
+} plan;
+
+/* What of a cell's slope no other cell covers. */
+static bool add_slope(plan *p, const tn_cut_box *cell, const tn_cut_box_face *face, double *area)
+{
+    tn_cover slope, above;
+    if (!cover_of_corners(cell, face, 1, &slope))
+        return false;
+    const tn_box_bounds bounds = tn_cover_bounds(&slope);
+    bool fine = tn_box_tree_list(&p->tree, &bounds, &p->hits);
+    tn_cover_begin(&p->work, &slope);
+    for (size_t k = 0; k < p->hits.count && fine && p->work.count; k++) {
+        const tn_cut_box *other = &p->built->cells[p->hits.items[k]];
+        if (other->face_count == 0 || other->low[1] < cell->high[1])
+            continue;
+        fine = cover_of_corners(other, NULL, 1, &above);
+        tn_cover_less(&p->work, &above);
+    }
+    *area += tn_cover_left(&p->work);
+    return fine && !p->work.failed;
+}
+
 tn_status tn_built_sloping(const tn_built *built, double level, double *area, tn_error *error)
 {
-    tn_cover_pieces work = {0};
-    tn_cover slope, above;
-    bool fine = true;
+    size_t n = built->cell_count;
+    plan p = {.built = built, .bounds = calloc(n + 1, sizeof *p.bounds)};
+    bool fine = p.bounds;
     *area = 0;
-    for (size_t i = 0; i < built->cell_count && fine; i++) {
-        const tn_cut_box *cell = &built->cells[i];
-        const tn_cut_box_face *face = slope_of(cell, level);
-        if (!face)
-            continue;
-        fine = cover_of_corners(cell, face, 1, &slope);
-        tn_cover_begin(&work, &slope);
-        for (size_t k = 0; k < built->cell_count && fine && work.count; k++) {
-            if (built->cells[k].face_count == 0 || built->cells[k].low[1] < cell->high[1])
-                continue;
-            fine = cover_of_corners(&built->cells[k], NULL, 1, &above);
-            tn_cover_less(&work, &above);
-        }
-        *area += tn_cover_left(&work);
+    for (size_t i = 0; i < n && fine; i++) {
+        const tn_cut_box *c = &built->cells[i]; /* z, x, as covers along y have it */
+        p.bounds[i] = (tn_box_bounds){{c->low[2], c->low[0], 0}, {c->high[2], c->high[0], 0}};
     }
-    fine &= !work.failed;
-    free(work.pieces);
+    fine = fine && tn_box_tree_make(p.bounds, (uint32_t)n, &p.tree, error) == TN_OK;
+    for (size_t i = 0; i < n && fine; i++) {
+        const tn_cut_box_face *face = slope_of(&built->cells[i], level);
+        fine = !face || add_slope(&p, &built->cells[i], face, area);
+    }
+    tn_box_tree_clear(&p.tree);
+    free(p.bounds);
+    free(p.hits.items);
+    free(p.work.pieces);
     return fine ? TN_OK : tn_fail_memory(error);
 }
 

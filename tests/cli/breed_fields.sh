@@ -69,6 +69,8 @@ cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"
 "$TARTAN" runs show hand | grep -q 'chosen: 1 3@0.4' || fail "weights are not shown"
 [ "$("$TARTAN" runs replay hand 30 | head -n 1 | cut -d, -f1)" = "# individual 30" ] || fail "cannot replay what was chosen"
 
+printf "3@1.5\n\n" | "$TARTAN" breed hand.study -o hand3 2>&1 | grep -q "is not a choice.*(0 to 1)" || fail "a weight above 1 is taken"
+
 # ---- what scores depend on
 sed -i 's/radius = 3/radius = 4/' ring.field
 "$TARTAN" evolve rings.study -o one --resume -g 8 > changed.txt 2>&1 && fail "a changed parent is not noticed"

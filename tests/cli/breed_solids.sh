@@ -42,6 +42,21 @@ diff -r one/best four/best > /dev/null || fail "threads or folders change the re
 "$TARTAN" evolve legs.study -o two --resume > /dev/null || fail "cannot resume"
 cmp -s one/run.sqlite two/run.sqlite || fail "a resumed run differs"
 
+# ---- killed at random moments, and resumed: the same bytes
+for i in $(seq 1 "${KILLS:-8}"); do
+    rm -rf killed
+    for again in 1 2; do
+        "$TARTAN" evolve legs.study -o killed --resume > /dev/null 2>&1 &
+        pid=$!
+        sleep "$(awk -v seed="$i$again" 'BEGIN { srand(seed); print 0.005 + rand() * 0.06 }')"
+        kill -9 "$pid" 2> /dev/null
+        wait "$pid" 2> /dev/null
+    done
+    "$TARTAN" evolve legs.study -o killed --resume > /dev/null || fail "a killed run cannot be resumed"
+    cmp -s one/run.sqlite killed/run.sqlite || fail "a killed run ends with other bytes (kill $i)"
+    diff -r one/best killed/best > /dev/null || fail "a killed run ends with other results (kill $i)"
+done
+
 # ---- what is written: compiles, is laid out, holds the skeleton, and the design's free box was the first seed
 "$TARTAN" check one/best/*.solid || fail "results do not compile, or are warned of"
 "$TARTAN" fmt --check one/best/*.solid || fail "results are not laid out"

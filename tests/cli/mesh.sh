@@ -70,6 +70,13 @@ golden no_field "tartan mesh square"
 golden samples "tartan mesh $scratch/ball.field --grid 200 --max-samples 1000000"
 golden triangles "tartan mesh $scratch/ball.field --max-triangles 1000"
 golden missing_mesh "tartan mesh $scratch/shell.field"
+printf 'no mesh at all' >broken.obj
+printf 'distance("broken.obj") - 1\n' >broken.field
+golden broken_mesh "tartan mesh $scratch/broken.field"
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >broken.obj
+golden flat_mesh "tartan mesh $scratch/broken.field"
+golden large_grid "tartan mesh $scratch/ball.field --grid 9000"
+exits 4 "$TARTAN" mesh ball.field --grid 1200 --memory-limit 40
 golden wrong_output "tartan mesh $scratch/ball.field -o $scratch/ball.svg"
 golden wrong_normals "tartan mesh $scratch/ball.field -o $scratch/ball.stl --normals"
 golden points "printf '0 0 0\n3 0 0\n1,2,3\n' >$scratch/places && tartan mesh $scratch/ball.field --points $scratch/places"
@@ -123,5 +130,11 @@ normals = [list(map(float, line[1:])) for line in lines if line[0] == "vn"]
 caps = [n for v, n in zip(vertices, normals) if v[2] > 6.9 and v[0] ** 2 + v[1] ** 2 < 2]
 assert len(caps) > 20 and all(n[2] > 0.999 for n in caps), len(caps)
 PYTHON
+# ---- sharp edges
+printf 'surface block = max(max(abs(x) - 4.1, abs(y) - 3.2), abs(z) - 2.3) grid 30' >block.field
+golden sharp "tartan mesh $scratch/block.field --sharp"
+golden sharp_crossing "tartan mesh primitives --surface klein --grid 30 --sharp --stats json"
+"$TARTAN" mesh block.field --times --stats json | grep -q '"seconds": {"samples": 0' || fail "no times"
+exits 2 "$TARTAN" mesh table --sharp
 golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
 finish

@@ -30,7 +30,7 @@ grep -q 'error\[E1514\].*parts is 3' err || fail "it does not say what was found
 "$TARTAN" explain --json table | python3 -c 'import json, sys; assert json.load(sys.stdin)[0]["box"] == "leg"' || fail 'explain --json'
 
 # Meshes: the same bytes twice, all kinds, cells with their names.
-for kind in obj ply stl off om glb scad dxf; do
+for kind in obj ply stl off om glb 3mf scad dxf; do
     "$TARTAN" mesh table -o one.$kind && "$TARTAN" mesh table -o two.$kind
     cmp -s one.$kind two.$kind || fail "two meshes .$kind differ"
 done

@@ -187,6 +187,63 @@ static bool read_word(tn_tray_reader *tray)
     return false;
 }
 
+/* ---- trays as plan lines have them: a value for each field, in the order of the schema */
+
+static bool is_line(const tn_ast_tray *ast)
+{
+    for (TN_EACH(const tn_ast_word, word, ast->words))
+        if (word->kind == TN_WORD_ABSENT || word->kind == TN_WORD_OF_DEPTH)
+            return true;
+    return false;
+}
+
+/* The `:` and the depth after a fill; the `:` is passed over. */
+static bool find_depth(tn_tray_reader *tray)
+{
+    const tn_ast_word *colon = tray->word;
+    if (!colon || colon->kind != TN_WORD_OF_DEPTH)
+        return true;
+    next_word(tray);
+    return (tray->word && tray->word->kind == TN_WORD_LENGTH) ||
+           misread(tray, colon, "no depth follows here", "a fill and its depth are written `FILL:4'`");
+}
+
+static bool read_field(tn_tray_reader *tray, uint32_t field, const tn_ast_word *word)
+{
+    const tn_checked_field *f = &tray->schema->fields[field];
+    if (f->kind == TN_FIELD_FLAG && word->kind == TN_WORD_ABSENT)
+        return set(tray, field, 0, word);
+    if (word->kind == TN_WORD_NUMBER) {
+        tn_report_unit(tray->check, tray->schema, word);
+        return false;
+    }
+    if (f->kind == TN_FIELD_LENGTH)
+        return set_length(tray, field, word);
+    if (f->kind != TN_FIELD_ZONE)
+        return set_choice(tray, field, word);
+    return find_depth(tray) && set_fill(tray, field, word);
+}
+
+static bool read_line(tn_tray_reader *tray, tn_span place)
+{
+    for (uint32_t field = 0; field < tray->schema->field_count; field++) {
+        const tn_ast_word *word = next_word(tray);
+        if (word) {
+            if (!read_field(tray, field, word))
+                return false;
+            continue;
+        }
+        tn_diagnostic *d = tn_report(tray->check->diagnostics, E_BAD_ITEM, place, "this tray has no value for `%s`",
+                                     tray->schema->fields[field].name);
+        tn_help(
+            tray->check->diagnostics, d,
+            "a tray with `-` or `:` is written as in a plan line: a value for each field, in the order of the schema");
+        return false;
+    }
+    return !tray->word ||
+           misread(tray, tray->word, "the tray has a value for each field before this", "trays are separated by `|`");
+}
+
 /* ---- forbidden trays */
 
 static bool in_mask(const tn_checked_spec *spec, const tn_checked_field *field, uint32_t value)
@@ -257,6 +314,8 @@ static bool read_tray(tn_check *check, const tn_checked_schema *schema, const tn
                 schema->field_count ? schema->fields[0].name : "first field");
         return false;
     }
+    if (is_line(ast) && !read_line(&tray, ast->node.span))
+        return false;
     while (tray.word)
         if (!read_word(&tray))
             return false;

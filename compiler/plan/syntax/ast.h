@@ -29,10 +29,12 @@ typedef enum tn_word_kind {
     TN_WORD_STRING,
     TN_WORD_NOT,
     TN_WORD_OPERATOR,
-    TN_WORD_AREA,    /* or a volume */
-    TN_WORD_DECIMAL, /* or a percentage */
-    TN_WORD_RANGE,   /* in a specifier: `4'..8'` */
-    TN_WORD_GROUP,   /* in a specifier: `(4' or 8')` */
+    TN_WORD_AREA,     /* or a volume */
+    TN_WORD_DECIMAL,  /* or a percentage */
+    TN_WORD_RANGE,    /* in a specifier: `4'..8'` */
+    TN_WORD_GROUP,    /* in a specifier: `(4' or 8')` */
+    TN_WORD_ABSENT,   /* in a plan that is written as plan lines are: `-` */
+    TN_WORD_OF_DEPTH, /* there, too: the `:` between a fill and its depth */
 } tn_word_kind;
 
 /* A name, a number, a length, a string; in specifiers also `not`, comparison signs, ranges and groups. */

@@ -33,7 +33,7 @@ static const struct {
     {"`flag` or a value", {"`flag`", "`...`", "a length", "a name", "a number"}},
     {"a value",
      {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`not`", "`<`", "`<=`", "`=`",
-      "`!=`", "`>=`", "`>`"}},
+      "`!=`", "`>=`", "`>`", "`-` for what is absent", "`:` before a depth"}},
     {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"the next `rule`, `schema`, `library`, `form`, `test` or `use`",
      {"`rule`", "`schema`", "`library`", "`form`", "`test`", "`use`", "`measure`", "`let`", "an expression",

@@ -148,6 +148,32 @@ void tn_cut_box_mirror(tn_cut_box *cell, int axis)
     }
 }
 
+double tn_cut_boxes_step(const tn_cut_box *cells, size_t count)
+{
+    double most = 0;
+    int exponent;
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; cells[i].face_count && k < 3; k++)
+            most = fmax(most, fmax(fabs(cells[i].low[k]), fabs(cells[i].high[k])));
+    frexp(most, &exponent);
+    return ldexp(1, most > 0 ? exponent - 52 : 0);
+}
+
+void tn_cut_boxes_bounds(const tn_cut_box *cells, size_t count, double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+    }
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t v = 0; cells[i].face_count && v < cells[i].corner_count; v++)
+            for (int k = 0; k < 3; k++) {
+                double at = cells[i].at[v][k];
+                low[k] = at < low[k] ? at : low[k];
+                high[k] = at > high[k] ? at : high[k];
+            }
+}
+
 /* A tetrahedron from the first corner o, with edges p[0..2] from there. */
 static void add_tetrahedron(const double o[3], const double p[3][3], tn_moments *moments)
 {

@@ -3,6 +3,7 @@
 #define TARTAN_GEOMETRY_CUT_BOX_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { TN_CUT_BOX_CORNERS = 10, TN_CUT_BOX_FACES = 7, TN_CUT_BOX_CAP = 6 };
@@ -26,6 +27,12 @@ void tn_cut_box_clip(const double low[3], const double high[3], const double *n,
 
 /* Its image in the plane through the origin across the axis. */
 void tn_cut_box_mirror(tn_cut_box *cell, int axis);
+
+/* Bounds of cells' corners; of no cells, low is above high. */
+void tn_cut_boxes_bounds(const tn_cut_box *cells, size_t count, double low[3], double high[3]);
+
+/* The step in which coordinates of a union are counted: a power of two, such that none has more than 2^52. */
+double tn_cut_boxes_step(const tn_cut_box *cells, size_t count);
 
 typedef struct tn_moments {
     double volume;

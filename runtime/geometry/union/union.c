@@ -1,75 +1,48 @@
-/* The boundary of a union of cells: chooses the step, and calls what finds planes, triangles and vertices. */
+/* The boundary of a union of cells: calls what finds planes, triangles and vertices. */
 #include "runtime/geometry/union/union.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "runtime/geometry/union/union_parts.h"
 
+/* Rounds: two or three are what random designs take. Steps: 2^52 of them from 0, then 2^44, 2^36. */
+enum { ROUNDS = 64, STEPS = 3 };
+
 void tn_union_clear(tn_union *result)
 {
     tn_mesh_clear(&result->mesh);
-    free(result->contacts);
     *result = (tn_union){0};
 }
 
-/* A power of two, such that no coordinate has more than 2^52 steps. */
-static double step_of(const tn_cut_box *cells, size_t count)
+static tn_status make(const tn_cut_box *cells, size_t count, double step, tn_union *result, tn_error *error)
 {
-    double most = 0;
-    int exponent;
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; cells[i].face_count && k < 3; k++)
-            most = fmax(most, fmax(fabs(cells[i].low[k]), fabs(cells[i].high[k])));
-    frexp(most, &exponent);
-    return ldexp(1, most > 0 ? exponent - 52 : 0);
-}
-
-static int by_cells(const void *a, const void *b)
-{
-    const tn_contact *x = a, *y = b;
-    if (x->a != y->a)
-        return x->a < y->a ? -1 : 1;
-    return x->b < y->b ? -1 : x->b > y->b;
-}
-
-/* Cells touch on one plane at most, since boxes are convex; so each pair is there once. */
-static void take_contacts(tn_grid *grid, tn_union *result)
-{
-    if (grid->contact_count)
-        qsort(grid->contacts, grid->contact_count, sizeof *grid->contacts, by_cells);
-    result->contacts = grid->contacts;
-    result->contact_count = grid->contact_count;
-    grid->contacts = NULL;
-}
-
-static tn_status make(const tn_cut_box *cells, size_t count, bool mesh, tn_union *result, tn_error *error)
-{
-    tn_grid grid = {.step = step_of(cells, count)};
-    *result = (tn_union){0};
+    tn_grid grid = {.step = step};
     tn_grid_planes(&grid, cells, count);
     tn_status status = grid.failed ? tn_fail_memory(error) : TN_OK;
-    bool again = mesh;
-    while (status == TN_OK && again) { /* each time with shorter edges */
+    bool again = true;
+    for (int round = 0; status == TN_OK && again; round++) { /* each time with other edges */
         tn_mesh_clear(&result->mesh);
-        status = tn_grid_triangles(&grid, &result->mesh, error);
+        status = round < ROUNDS ? tn_grid_triangles(&grid, &result->mesh, error) : tn_union_too_fine(error);
         if (status == TN_OK)
             status = tn_grid_separate(&grid, &result->mesh, &result->doubled, &again, error);
     }
-    if (status == TN_OK)
-        take_contacts(&grid, result);
-    result->mesh.group_count = (uint32_t)count;
     tn_grid_clear(&grid);
     return status;
 }
 
+/* Edges of one step have no middle to be split at: with longer steps their ends are one vertex. */
 tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
 {
-    return make(cells, count, true, result, error);
-}
-
-tn_status tn_union_contacts(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
-{
-    return make(cells, count, false, result, error);
+    double step = tn_cut_boxes_step(cells, count);
+    tn_status status = TN_LIMIT;
+    *result = (tn_union){0};
+    for (int longer = 0; longer < STEPS && status == TN_LIMIT; longer++) {
+        tn_union_clear(result);
+        status = make(cells, count, ldexp(step, 8 * longer), result, error);
+    }
+    result->mesh.group_count = (uint32_t)count;
+    return status;
 }
 
 tn_status tn_union_cells(const tn_cut_box *cells, size_t count, tn_mesh *mesh, tn_error *error)

@@ -4,7 +4,8 @@
  * Coordinates are taken as whole numbers of a step, at most 2^52 of them from 0, so that a double holds each. Which
  * side of a line a point is on is decided exactly, where two lines cross is rounded once, to a step; so the boundary is
  * closed for every input, and no triangle is without area. Where cells touch along edges or at corners only, they come
- * apart: vertices are doubled, so that an edge has two triangles and a vertex one umbrella.
+ * apart: vertices are doubled, so that an edge has two triangles and a vertex one umbrella. Where that takes a vertex
+ * between two that are a step apart, the whole is made again with longer steps.
  *
  * A tn_union owns its arrays; clear it in any case.
  */
@@ -14,24 +15,13 @@
 #include "runtime/geometry/mesh.h"
 #include "runtime/geometry/union/cut_box.h"
 
-/* Two cells whose faces share area; a < b. */
-typedef struct tn_contact {
-    uint32_t a, b;
-    double area;
-} tn_contact;
-
 typedef struct tn_union {
-    tn_mesh mesh;         /* triangles; face_group is the cell that each is of, group_count their number; no names */
-    tn_contact *contacts; /* ordered by a, then b */
-    size_t contact_count;
+    tn_mesh mesh;   /* triangles; face_group is the cell that each is of, group_count their number; no names */
     size_t doubled; /* vertices that were doubled */
 } tn_union;
 
 /* E_SOLID_TOO_FINE where details are so small against the whole that triangles would have no area. */
 tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error);
-
-/* Only how cells touch: less work. mesh is empty. */
-tn_status tn_union_contacts(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error);
 
 void tn_union_clear(tn_union *result);
 

@@ -14,9 +14,14 @@ void tn_grid_clear(tn_grid *grid)
     free(grid->line_stops);
     free(grid->corners);
     free(grid->rings);
-    free(grid->contacts);
     free(grid->splits);
     *grid = (tn_grid){0};
+}
+
+tn_status tn_union_too_fine(tn_error *error)
+{
+    return tn_fail(error, TN_LIMIT, E_SOLID_TOO_FINE,
+                   "some details are so small against the whole that they cannot be meshed");
 }
 
 bool tn_grid_room(tn_grid *grid, void *items, size_t size, size_t count, size_t *capacity)

@@ -72,14 +72,15 @@ typedef struct tn_grid {
     size_t corner_count, corner_capacity;
     tn_ring *rings;
     size_t ring_count, ring_capacity;
-    tn_contact *contacts;
-    size_t contact_count, contact_capacity;
     tn_grid_split *splits; /* by their vertices */
     size_t split_count, split_capacity;
     bool failed; /* out of memory */
 } tn_grid;
 
 void tn_grid_clear(tn_grid *grid);
+
+/* E_SOLID_TOO_FINE. */
+tn_status tn_union_too_fine(tn_error *error);
 
 /* Makes room for one more of what `items` points to the pointer of. */
 bool tn_grid_room(tn_grid *grid, void *items, size_t size, size_t count, size_t *capacity);

@@ -1,14 +1,20 @@
 /* Plane by plane: the faces that look to the high side less those that look to the low side against them, and the other
- * way round. Faces of one kind do not overlap, since boxes do not; what two opposite ones share is their contact.
+ * way round. Faces of one kind do not overlap, since boxes do not.
  *
  * Faces are convex. One is taken from another by cutting off, edge by edge, what lies outside the edge; so pieces stay
  * convex, and each of their corners is a corner of a face or where two lines of faces cross. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/select_nth.h"
+#include "runtime/geometry/union/box_tree.h"
 #include "runtime/geometry/union/union_parts.h"
 
-enum { CUT_MAX = 4096 }; /* corners of a piece: each cut adds one, and a face has few edges */
+enum {
+    CUT_MAX = 4096, /* corners of a piece: each cut adds one, and a face has few edges */
+    FEW = 32,       /* faces that are taken from a piece one by one; of more, the piece is halved */
+    DEPTH = 48      /* of halving; about twice what even halves need */
+};
 
 /* A face in a plane. */
 typedef struct flat {
@@ -34,6 +40,7 @@ typedef struct planes {
     size_t cut_count, cut_capacity;
     piece *pieces, *left;
     size_t piece_count, piece_capacity, left_count, left_capacity;
+    tn_box_hits hits; /* faces of the other side that may lie against what is at hand; a stack of lists */
 } planes;
 
 static bool room(planes *p, void *items, size_t size, size_t count, size_t *capacity)
@@ -229,21 +236,8 @@ static void keep(planes *p, piece one)
         p->left[p->left_count++] = one;
 }
 
-static double area_of(const planes *p, int axis, piece one)
-{
-    int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    double sum = 0;
-    const int64_t *o = p->grid->vertices[p->cut[one.first].point.vertex].at;
-    for (uint32_t k = 1; k + 1 < one.count; k++) {
-        const int64_t *a = p->grid->vertices[p->cut[one.first + k].point.vertex].at,
-                      *b = p->grid->vertices[p->cut[one.first + k + 1].point.vertex].at;
-        sum += (double)(a[u] - o[u]) * (double)(b[v] - o[v]) - (double)(a[v] - o[v]) * (double)(b[u] - o[u]);
-    }
-    return sum / 2;
-}
-
-/* Leaves of a piece what is outside a face; returns the area that they share. */
-static double take_away(planes *p, const flat *face, piece one)
+/* Leaves of a piece what is outside a face. */
+static void take_away(planes *p, const flat *face, piece one)
 {
     size_t before = p->left_count;
     piece rest = one, outside;
@@ -253,20 +247,11 @@ static double take_away(planes *p, const flat *face, piece one)
         if (result == CUT_OUTSIDE) { /* they only touch, if that: it stays as it was */
             p->left_count = before;
             keep(p, one);
-            return 0;
+            return;
         }
         if (result == CUT_BOTH)
             keep(p, outside);
     }
-    return p->grid->failed ? 0 : area_of(p, (int)face->axis, rest);
-}
-
-static void add_contact(planes *p, uint32_t a, uint32_t b, double area)
-{
-    tn_grid *grid = p->grid;
-    tn_contact contact = {a < b ? a : b, a < b ? b : a, area * grid->step * grid->step};
-    if (room(p, &grid->contacts, sizeof contact, grid->contact_count, &grid->contact_capacity))
-        grid->contacts[grid->contact_count++] = contact;
 }
 
 /* Bounds of a piece, as far as they are known: rounded. */
@@ -284,15 +269,14 @@ static bool apart(const planes *p, piece one, const flat *face)
     return left || right || below || above;
 }
 
-static void subtract(planes *p, const flat *from, const flat *face)
+static void subtract(planes *p, const flat *face)
 {
-    double area = 0;
     p->left_count = 0;
     for (size_t i = 0; i < p->piece_count && !p->grid->failed; i++) {
         if (apart(p, p->pieces[i], face))
             keep(p, p->pieces[i]);
         else
-            area += take_away(p, face, p->pieces[i]);
+            take_away(p, face, p->pieces[i]);
     }
     piece *pieces = p->pieces;
     size_t capacity = p->piece_capacity;
@@ -301,25 +285,106 @@ static void subtract(planes *p, const flat *from, const flat *face)
     p->piece_capacity = p->left_capacity;
     p->left = pieces;
     p->left_capacity = capacity;
-    if (area > 0 && from->high)
-        add_contact(p, from->cell, face->cell, area);
 }
 
-static void start_pieces(planes *p, const flat *of)
+/* ---- many faces against one */
+
+/* Takes faces from a piece one by one, and keeps what is left as polygons of the boundary. */
+static void cover_few(planes *p, const flat *of, const flat *others, piece one, size_t first, size_t count)
 {
-    p->cut_count = p->piece_count = 0;
+    p->piece_count = 0;
+    if (room(p, &p->pieces, sizeof one, p->piece_count, &p->piece_capacity))
+        p->pieces[p->piece_count++] = one;
+    for (size_t i = first; i < first + count && !p->grid->failed; i++)
+        subtract(p, &others[p->hits.items[i]]);
+    for (size_t i = 0; i < p->piece_count && !p->grid->failed; i++)
+        tn_grid_add_ring(p->grid, p->cut + p->pieces[i].first, p->pieces[i].count, of->cell, 2 * of->axis + of->high);
+}
+
+static int64_t low_of(const flat *face, int second)
+{
+    return second ? face->low_v : face->low_u;
+}
+
+static bool starts_before(const void *context, uint32_t a, uint32_t b, int second)
+{
+    const flat *faces = context;
+    int64_t p = low_of(&faces[a], second), q = low_of(&faces[b], second);
+    return p < q || (p == q && a < b);
+}
+
+/* The edge of a face at its low side in u, or in v, if it goes along an axis there. */
+static const tn_ring_corner *low_edge(const planes *p, const flat *face, int second)
+{
+    uint32_t fixed = (face->axis + 1 + (uint32_t)second) % 3, along = (face->axis + 2 - (uint32_t)second) % 3;
+    for (uint32_t k = 0; k < face->count; k++) {
+        const tn_ring_corner *corner = &p->corners[face->first + k];
+        if (p->grid->lines[corner->line].kind == along &&
+            p->grid->vertices[corner->point.vertex].at[fixed] == low_of(face, second))
+            return corner;
+    }
+    return NULL;
+}
+
+/* Do the low sides of faces spread more in v than in u? */
+static int wider_way(const planes *p, const flat *others, size_t first, size_t count)
+{
+    double spread[2];
+    for (int k = 0; k < 2; k++) {
+        int64_t low = INT64_MAX, high = INT64_MIN;
+        for (size_t i = first; i < first + count; i++) {
+            int64_t at = low_of(&others[p->hits.items[i]], k);
+            low = at < low ? at : low;
+            high = at > high ? at : high;
+        }
+        spread[k] = (double)high - (double)low;
+    }
+    return spread[1] > spread[0];
+}
+
+/* Cuts a piece along the low side of a face in the middle of many, or of one beyond it. */
+static bool halve(planes *p, const flat *others, piece one, size_t first, size_t count, piece halves[2])
+{
+    int second = wider_way(p, others, first, count);
+    size_t middle = first + count / 2;
+    tn_select_nth(p->hits.items, (uint32_t)first, (uint32_t)(first + count), (uint32_t)middle, second, starts_before,
+                  others);
+    for (size_t i = middle; i < first + count && i < middle + 8; i++) {
+        const flat *face = &others[p->hits.items[i]];
+        const tn_ring_corner *edge = low_edge(p, face, second);
+        if (edge && cut(p, (int)face->axis, face->w, one, edge, &halves[0], &halves[1]) == CUT_BOTH)
+            return true;
+    }
+    return false;
+}
+
+/* Halves a piece until few faces lie against each part of it, so that not each part meets each face. */
+static void cover_piece(planes *p, const flat *of, const flat *others, piece one, size_t first, size_t count, int depth)
+{
+    piece halves[2];
+    if (count <= FEW || depth == DEPTH || !halve(p, others, one, first, count, halves)) {
+        cover_few(p, of, others, one, first, count);
+        return;
+    }
+    for (int h = 0; h < 2; h++) {
+        size_t begin = p->hits.count;
+        for (size_t i = first; i < first + count; i++)
+            if (!apart(p, halves[h], &others[p->hits.items[i]]) &&
+                room(p, &p->hits.items, sizeof *p->hits.items, p->hits.count, &p->hits.capacity))
+                p->hits.items[p->hits.count++] = p->hits.items[i];
+        cover_piece(p, of, others, halves[h], begin, p->hits.count - begin, depth + 1);
+        p->hits.count = begin;
+    }
+}
+
+static piece whole_piece(planes *p, const flat *of)
+{
+    p->cut_count = 0;
     for (uint32_t k = 0; k < of->count; k++) {
         tn_ring_corner corner = p->corners[of->first + k];
         put(p, corner.point, corner.line, corner.side);
     }
-    if (room(p, &p->pieces, sizeof *p->pieces, p->piece_count, &p->piece_capacity))
-        p->pieces[p->piece_count++] = (piece){0, of->count};
-}
-
-static void end_pieces(planes *p, const flat *of)
-{
-    for (size_t i = 0; i < p->piece_count; i++)
-        tn_grid_add_ring(p->grid, p->cut + p->pieces[i].first, p->pieces[i].count, of->cell, 2 * of->axis + of->high);
+    return (piece){0, of->count};
 }
 
 /* ---- planes */
@@ -344,22 +409,29 @@ static int in_order(const void *a, const void *b)
     return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
-/* Takes the faces of the other side from each of one side; both are sorted by their low bounds. */
+static tn_box_bounds bounds_of(const flat *face)
+{
+    return (tn_box_bounds){{(double)face->low_u, (double)face->low_v, 0},
+                           {(double)face->high_u, (double)face->high_v, 0}};
+}
+
+/* Takes the faces of the other side from each of one side. */
 static void cover(planes *p, const flat *faces, size_t count, const flat *others, size_t other_count)
 {
-    int64_t widest = 0;
-    for (size_t k = 0; k < other_count; k++)
-        widest = others[k].high_u - others[k].low_u > widest ? others[k].high_u - others[k].low_u : widest;
-    for (size_t i = 0, first = 0; i < count && !p->grid->failed; i++) {
-        const flat *face = &faces[i];
-        start_pieces(p, face);
-        while (first < other_count && others[first].low_u < face->low_u - widest)
-            first++;
-        for (size_t k = first; k < other_count && others[k].low_u <= face->high_u; k++)
-            if (others[k].high_u >= face->low_u && others[k].low_v <= face->high_v && others[k].high_v >= face->low_v)
-                subtract(p, face, &others[k]);
-        end_pieces(p, face);
+    tn_box_tree tree = {0};
+    tn_box_bounds *bounds = count ? malloc((other_count + 1) * sizeof *bounds) : NULL;
+    for (size_t k = 0; bounds && k < other_count; k++)
+        bounds[k] = bounds_of(&others[k]);
+    if (count && (!bounds || tn_box_tree_make(bounds, (uint32_t)other_count, &tree, &(tn_error){0}) != TN_OK))
+        p->grid->failed = true;
+    for (size_t i = 0; i < count && !p->grid->failed; i++) {
+        piece one = whole_piece(p, &faces[i]);
+        const tn_box_bounds face = bounds_of(&faces[i]);
+        p->grid->failed |= !tn_box_tree_list(&tree, &face, &p->hits);
+        cover_piece(p, &faces[i], others, one, 0, p->hits.count, 0);
     }
+    tn_box_tree_clear(&tree);
+    free(bounds);
 }
 
 static void cover_planes(planes *p)
@@ -388,4 +460,5 @@ void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count)
     free(p.cut);
     free(p.pieces);
     free(p.left);
+    free(p.hits.items);
 }

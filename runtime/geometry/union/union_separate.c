@@ -136,26 +136,58 @@ static void pair_round(separating *s, edge *edges, size_t count)
     }
 }
 
-static int by_vertices(const void *a, const void *b)
+static int by_end(const void *a, const void *b)
 {
     const edge *x = a, *y = b;
-    if (x->low != y->low)
-        return x->low < y->low ? -1 : 1;
     if (x->high != y->high)
         return x->high < y->high ? -1 : 1;
-    return x->corner < y->corner ? -1 : 1;
+    return x->corner < y->corner ? -1 : x->corner > y->corner;
 }
 
-static edge *list_edges(const tn_mesh *mesh)
+/* Mostly few edges go on from one vertex. */
+static void sort_bucket(edge *edges, size_t count)
+{
+    if (count > 32) {
+        qsort(edges, count, sizeof *edges, by_end);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        edge one = edges[i];
+        size_t k = i;
+        for (; k > 0 && by_end(&one, &edges[k - 1]) < 0; k--)
+            edges[k] = edges[k - 1];
+        edges[k] = one;
+    }
+}
+
+static edge edge_at(const tn_mesh *mesh, uint32_t corner)
+{
+    uint32_t a = mesh->corners[corner], b = mesh->corners[next_corner(corner)];
+    return (edge){a < b ? a : b, a < b ? b : a, corner, a < b};
+}
+
+/* By low vertex, which is counted, then by high vertex and corner. */
+static edge *list_edges(const tn_mesh *mesh, size_t vertices)
 {
     size_t count = 3 * mesh->face_count;
     edge *edges = malloc((count + 1) * sizeof *edges);
-    for (uint32_t c = 0; edges && c < count; c++) {
-        uint32_t a = mesh->corners[c], b = mesh->corners[next_corner(c)];
-        edges[c] = (edge){a < b ? a : b, a < b ? b : a, c, a < b};
+    size_t *end = calloc(vertices + 2, sizeof *end); /* [v + 1]: where those of v end, once all are placed */
+    if (!edges || !end) {
+        free(edges);
+        free(end);
+        return NULL;
     }
-    if (edges)
-        qsort(edges, count, sizeof *edges, by_vertices);
+    for (uint32_t c = 0; c < count; c++)
+        end[edge_at(mesh, c).low + 2]++;
+    for (size_t v = 2; v < vertices + 2; v++)
+        end[v] += end[v - 1];
+    for (uint32_t c = 0; c < count; c++) {
+        edge one = edge_at(mesh, c);
+        edges[end[one.low + 1]++] = one;
+    }
+    for (size_t v = 0; v < vertices; v++)
+        sort_bucket(edges + end[v], end[v + 1] - end[v]);
+    free(end);
     return edges;
 }
 
@@ -252,7 +284,7 @@ tn_status tn_grid_separate(tn_grid *grid, tn_mesh *mesh, size_t *doubled, bool *
 {
     size_t count = 3 * mesh->face_count, splits = grid->split_count;
     separating s = {.grid = grid, .corners = mesh->corners, .parent = malloc((count + 1) * sizeof *s.parent)};
-    edge *edges = list_edges(mesh);
+    edge *edges = list_edges(mesh, grid->vertex_count);
     *doubled = 0;
     tn_status status = s.parent && edges ? TN_OK : tn_fail_memory(error);
     for (uint32_t c = 0; status == TN_OK && c < count; c++)
@@ -260,8 +292,7 @@ tn_status tn_grid_separate(tn_grid *grid, tn_mesh *mesh, size_t *doubled, bool *
     if (status == TN_OK && !pair_all(&s, edges, count))
         status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the boundary of the union is not closed");
     else if (status == TN_OK && !split_shared(grid, &s, edges, count))
-        status = tn_fail(error, TN_LIMIT, E_SOLID_TOO_FINE,
-                         "some details are so small against the whole that they cannot be meshed");
+        status = tn_union_too_fine(error);
     free(edges);
     *again = grid->split_count > splits;
     if (status == TN_OK && grid->failed)

@@ -279,14 +279,16 @@ static double roundness(const outline *o, uint32_t a, uint32_t b, uint32_t c)
     return area * area / (x * y * z / least);
 }
 
-/* The next ear from a corner on; among few corners the roundest. o->count where there is none. */
+/* The next ear from a corner on; among few corners the roundest. o->count where there is none. An edge that is to be
+ * split is no diagonal: only outlines are split. */
 static size_t find_ear(const outline *o, size_t from)
 {
     size_t best = o->count;
     double most = -1;
     for (size_t i = 0; i < o->count; i++) {
         size_t k = (from + i) % o->count, before = (k + o->count - 1) % o->count, after = (k + 1) % o->count;
-        if (area_twice(o, o->ring[before], o->ring[k], o->ring[after]) <= 0 || holds_other(o, before, k, after))
+        if (area_twice(o, o->ring[before], o->ring[k], o->ring[after]) <= 0 || holds_other(o, before, k, after) ||
+            (o->count > 3 && split_of(o->grid, o->ring[before], o->ring[after])))
             continue;
         if (o->count > CAREFUL)
             return k;
@@ -363,49 +365,44 @@ static void fold(tn_grid *grid, const tn_ring *ring)
         tn_grid_stop_at(grid, grid->corners[ring->first + longest].line, grid->corners[ring->first + k].point.vertex);
 }
 
-/* Are all outlines with corners polygons with area? Others are folded. */
-static bool settled(tn_grid *grid, outline *o)
+/* Traces all outlines and cuts them up, unless one turns out to be a line: those are folded, which changes outlines
+ * beside them, and all are to be traced once more. */
+static bool cut_all(tn_grid *grid, outline *o, bool *stuck)
 {
-    bool all = true;
+    bool settled = true;
+    o->triangle_count = 0;
+    *stuck = false;
     for (size_t r = 0; r < grid->ring_count && !o->failed; r++) {
         trace(o, &grid->rings[r]);
-        if (o->count < 3 || !is_line(o))
+        if (o->count < 3)
             continue;
-        fold(grid, &grid->rings[r]);
-        all = false;
+        if (is_line(o)) {
+            fold(grid, &grid->rings[r]);
+            settled = false;
+        } else if (settled && !*stuck) {
+            *stuck = !cut_ears(o, &grid->rings[r]);
+        }
     }
-    return all;
-}
-
-static tn_status cut_all(tn_grid *grid, outline *o, tn_error *error)
-{
-    for (size_t r = 0; r < grid->ring_count && !o->failed; r++) {
-        trace(o, &grid->rings[r]);
-        if (o->count >= 3 && !cut_ears(o, &grid->rings[r]))
-            return tn_fail(error, TN_LIMIT, E_SOLID_TOO_FINE,
-                           "some details are so small against the whole that they cannot be meshed");
-    }
-    return o->failed ? tn_fail_memory(error) : TN_OK;
+    return settled;
 }
 
 tn_status tn_grid_triangles(tn_grid *grid, tn_mesh *mesh, tn_error *error)
 {
     outline o = {.grid = grid};
-    bool done = false;
+    bool done = false, stuck = false;
     tn_status status = TN_OK;
     if (grid->split_count)
         qsort(grid->splits, grid->split_count, sizeof *grid->splits, by_ends);
     for (int round = 0; round < ROUNDS && !done && status == TN_OK; round++) {
         if (grid->failed || !gather_stops(grid))
-            status = tn_fail_memory(error);
+            o.failed = true;
         else
-            done = settled(grid, &o);
+            done = cut_all(grid, &o, &stuck);
+        if (o.failed)
+            status = tn_fail_memory(error);
     }
-    if (status == TN_OK && !done)
-        status = tn_fail(error, TN_LIMIT, E_SOLID_TOO_FINE,
-                         "some details are so small against the whole that they cannot be meshed");
-    if (status == TN_OK)
-        status = cut_all(grid, &o, error);
+    if (status == TN_OK && (!done || stuck))
+        status = tn_union_too_fine(error);
     free(o.ring);
     if (status != TN_OK) {
         free(o.triangles);

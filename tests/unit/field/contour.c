@@ -1,53 +1,12 @@
 /* Fields: intervals hold the values of points, derivatives match differences, rows and the interpreter give the same
- * bits; and the mesh of any field is closed and manifold. The table of cells for all masks, and for all neighbours. */
+ * bits; and the mesh of any field is closed and manifold, and no triangles cross. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include <cmocka.h>
-
-#include "runtime/base/random.h"
-#include "runtime/field/contour.h"
-#include "runtime/field/contour_table.h"
+#include "runtime/field/crossing.h"
 #include "runtime/geometry/measure.h"
-#include "runtime/load.h"
-#include "tests/support/compile_file.h"
-
-static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
-static const library_folders folders = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
-
-static tn_module *compile(const char *text)
-{
-    tn_compilation c;
-    tn_module *module;
-    tn_error error;
-    tn_diagnostics_init(&c.diagnostics, &c.sources);
-    if (compile_text("t.field", text, strlen(text), &folders, &c) != TN_OK)
-        fail_msg("%s\n%s", c.diagnostics.count ? c.diagnostics.items[0].message : "", text);
-    assert_int_equal(tn_module_load(c.module, c.module_size, NULL, &module, &error), TN_OK);
-    tn_compilation_clear(&c);
-    return module;
-}
+#include "tests/unit/field/support.h"
 
 /* ---- random fields */
-
-typedef struct dice {
-    uint64_t count;
-} dice;
-
-static uint32_t roll(dice *d, uint32_t sides)
-{
-    return (uint32_t)(tn_random64(3, 9, d->count++) % sides);
-}
-
-static double between(dice *d, double low, double high)
-{
-    return low + (high - low) * (double)(tn_random64(3, 9, d->count++) >> 11) * 0x1p-53;
-}
 
 static void write_field(dice *d, unsigned depth, FILE *out)
 {
@@ -203,57 +162,6 @@ static void test_derivatives(void **state)
 
 /* ---- meshes */
 
-typedef struct side {
-    uint32_t from, to;
-} side;
-
-static int by_ends(const void *a, const void *b)
-{
-    const side *p = a, *q = b;
-    return p->from != q->from ? (p->from < q->from ? -1 : 1) : p->to != q->to ? (p->to < q->to ? -1 : 1) : 0;
-}
-
-/* Every side once in each direction, and the triangles at a vertex in one ring. */
-static void check_manifold(const tn_mesh *mesh)
-{
-    size_t count = 3 * mesh->face_count;
-    side *sides = calloc(count + 1, sizeof *sides);
-    uint32_t *degree = calloc(mesh->vertex_count + 1, sizeof *degree);
-    assert_non_null(sides);
-    assert_non_null(degree);
-    for (size_t i = 0; i < count; i++) {
-        sides[i] = (side){mesh->corners[i], mesh->corners[i % 3 == 2 ? i - 2 : i + 1]};
-        degree[mesh->corners[i]]++;
-    }
-    qsort(sides, count, sizeof *sides, by_ends);
-    for (size_t i = 0; i < count; i++) {
-        side other = {sides[i].to, sides[i].from};
-        assert_true(i == 0 || by_ends(&sides[i - 1], &sides[i]) != 0);
-        assert_non_null(bsearch(&other, sides, count, sizeof other, by_ends));
-    }
-    /* One ring: walking from triangle to triangle round a vertex meets all of them. */
-    uint32_t *next = calloc(count + 1, sizeof *next); /* of the side from v to a: the side from v to b, b before a */
-    assert_non_null(next);
-    for (size_t f = 0; f < mesh->face_count; f++)
-        for (size_t k = 0; k < 3; k++) {
-            const uint32_t *c = mesh->corners + 3 * f;
-            side own = {c[k], c[(k + 1) % 3]}, across = {c[k], c[(k + 2) % 3]};
-            size_t at = (size_t)((side *)bsearch(&own, sides, count, sizeof own, by_ends) - sides);
-            next[at] = (uint32_t)((side *)bsearch(&across, sides, count, sizeof across, by_ends) - sides);
-        }
-    for (size_t i = 0; i < count; i += degree[sides[i].from]) {
-        uint32_t at = (uint32_t)i, met = 0;
-        do {
-            at = next[at];
-            met++;
-        } while (at != i && met <= count);
-        assert_int_equal(met, degree[sides[i].from]);
-    }
-    free(next);
-    free(sides);
-    free(degree);
-}
-
 static int by_place(const void *a, const void *b)
 {
     return memcmp(a, b, 3 * sizeof(double));
@@ -268,6 +176,7 @@ static void check_mesh(const char *text, uint32_t grid_size, bool closed)
     tn_field_grid grid = tn_field_grid_of(&field, grid_size);
     tn_contour one, other;
     tn_mesh_measures m;
+    uint64_t crossings;
     assert_int_equal(tn_contour_new(&field, &grid, &(tn_contour_options){.threads = 3, .open = !closed}, &one, &error),
                      TN_OK);
     tn_contour_options slow = {.threads = 1, .interpret = true, .every_sample = true, .open = !closed};
@@ -285,6 +194,8 @@ static void check_mesh(const char *text, uint32_t grid_size, bool closed)
         assert_int_equal(tn_mesh_measure(&one.mesh, 0, &m, &error), TN_OK);
         assert_true(one.mesh.face_count == 0 || m.volume > 0);
     }
+    assert_int_equal(tn_mesh_crossings(&one.mesh, &crossings, &error), TN_OK);
+    assert_int_equal(crossings, 0);
     qsort(one.mesh.positions, one.mesh.vertex_count, 3 * sizeof(double), by_place);
     for (size_t v = 1; v < one.mesh.vertex_count; v++)
         assert_true(by_place(one.mesh.positions + 3 * v, one.mesh.positions + 3 * v - 3) != 0);
@@ -328,57 +239,6 @@ static void test_long_box(void **state)
     check_mesh("surface a = noise(x*3, y*3, z*3) box (0, 0, 0)..(1, 9, 0.01) grid 90", 0, true);
 }
 
-/* ---- the table */
-
-static unsigned mask_of_edges(unsigned mask)
-{
-    unsigned edges = 0;
-    for (unsigned e = 0; e < 12; e++)
-        if ((mask >> tn_contour_edges[e][0] & 1) != (mask >> tn_contour_edges[e][1] & 1))
-            edges |= 1u << e;
-    return edges;
-}
-
-/* Do the two edges of the cell lie in one face? */
-static bool share_face(unsigned a, unsigned b)
-{
-    for (unsigned axis = 0; axis < 3; axis++)
-        for (unsigned high = 0; high < 2; high++) {
-            bool all = true;
-            for (int k = 0; k < 2; k++)
-                all =
-                    all && (tn_contour_edges[a][k] >> axis & 1) == high && (tn_contour_edges[b][k] >> axis & 1) == high;
-            if (all)
-                return true;
-        }
-    return false;
-}
-
-/* A side of a triangle that another triangle of the cell shares runs through the cell, not in a face; the others lie in
- * faces, where the neighbour has them the other way round (test_meshes). Every crossing edge is used. */
-static void test_table(void **state)
-{
-    (void)state;
-    for (unsigned mask = 0; mask < 256; mask++) {
-        const uint8_t *row = tn_contour_table[mask];
-        int seen[12][12] = {{0}};
-        unsigned used = 0;
-        for (unsigned t = 0; t < row[0]; t++)
-            for (unsigned k = 0; k < 3; k++) {
-                unsigned a = row[1 + 3 * t + k], b = row[1 + 3 * t + (k + 1) % 3];
-                seen[a][b]++;
-                used |= 1u << a;
-            }
-        assert_int_equal(used, mask_of_edges(mask));
-        for (unsigned a = 0; a < 12; a++)
-            for (unsigned b = 0; b < 12; b++) {
-                assert_true(seen[a][b] <= 1);
-                if (seen[a][b])
-                    assert_true(seen[b][a] != (int)share_face(a, b));
-            }
-    }
-}
-
 /* ---- limits */
 
 static void test_limits(void **state)
@@ -403,8 +263,8 @@ static void test_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_fields), cmocka_unit_test(test_derivatives), cmocka_unit_test(test_table),
-        cmocka_unit_test(test_meshes),        cmocka_unit_test(test_long_box),    cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_random_fields), cmocka_unit_test(test_derivatives), cmocka_unit_test(test_meshes),
+        cmocka_unit_test(test_long_box),      cmocka_unit_test(test_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* The mapping and the union on designs that the test makes, half of them on coarse lattices, where everything
  * coincides: no two boxes overlap, correcting again changes nothing, every mesh is closed, a manifold, and holds the
- * volume of the cells. */
+ * volume of the cells, which is what random points say. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
+#include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
@@ -182,15 +183,18 @@ static size_t count_pieces(const tn_mesh *mesh)
     return pieces;
 }
 
-/* Cells that share area, however little. */
-static size_t count_parts(const tn_union *u, const tn_cut_box *cells, size_t count)
+static size_t count_parts(const tn_cut_box *cells, size_t count, double least)
 {
+    tn_contacts contacts;
+    tn_error error = {0};
     uint32_t *parent = malloc((count + 1) * sizeof *parent);
     size_t parts = 0;
     for (uint32_t i = 0; i < count; i++)
         parent[i] = i;
-    for (size_t i = 0; i < u->contact_count; i++)
-        parent[root(parent, u->contacts[i].a)] = root(parent, u->contacts[i].b);
+    assert_int_equal(tn_contacts_find(cells, count, least, &contacts, &error), TN_OK);
+    for (size_t i = 0; i < contacts.count; i++)
+        parent[root(parent, contacts.items[i].a)] = root(parent, contacts.items[i].b);
+    tn_contacts_clear(&contacts);
     for (uint32_t i = 0; i < count; i++)
         parts += cells[i].face_count > 0 && root(parent, i) == i;
     free(parent);
@@ -245,6 +249,51 @@ static double volume_of(const tn_mesh *mesh)
     return volume / 6;
 }
 
+/* As many pieces as parts; what shares next to no area may be joined or not. */
+static void check_parts(const tn_mesh *mesh, const tn_cut_box *cells, size_t count, uint64_t seed)
+{
+    size_t pieces = count_pieces(mesh), most = count_parts(cells, count, TN_CONTACT_LEAST);
+    if (pieces == most || (pieces < most && pieces >= count_parts(cells, count, 0)))
+        return;
+    fail_msg("design %llu: %zu pieces, %zu parts", (unsigned long long)seed, pieces, most);
+}
+
+/* Is the point in what is left of a box, in its image? */
+static bool holds(const tn_design *design, uint32_t i, uint32_t image, const double point[3])
+{
+    const tn_solid_box *box = &design->boxes[i];
+    double beyond = -box->distance;
+    bool inside = !box->void_;
+    for (int k = 0; k < 3; k++) {
+        double p = image >> k & 1 ? -point[k] : point[k];
+        inside = inside && box->low[k] < p && p < box->high[k];
+        beyond += box->normal[k] * (p - (box->low[k] + box->high[k]) / 2);
+    }
+    return inside && (!box->clipped || beyond <= 0);
+}
+
+/* Random points lie in the share of the space that the volume is of it, and in one cell at most. */
+static void check_points(const tn_design *design, const tn_cut_box *cells, size_t count, double volume, uint64_t seed)
+{
+    enum { POINTS = 4000 };
+    double low[3], high[3], point[3], space = 1, hits = 0;
+    tn_cut_boxes_bounds(cells, count, low, high);
+    for (int k = 0; k < 3; k++)
+        space *= high[k] - low[k];
+    for (int n = 0; n < POINTS; n++) {
+        int inside = 0;
+        for (int k = 0; k < 3; k++)
+            point[k] = low[k] + (high[k] - low[k]) * uniform();
+        for (uint32_t i = 0; i < count; i++)
+            inside += holds(design, i % design->box_count, tn_design_image(design, i / design->box_count), point);
+        assert_true(inside <= 1);
+        hits += inside;
+    }
+    double share = volume / space, spread = sqrt(share * (1 - share) / POINTS);
+    if (fabs(hits / POINTS - share) > 6 * spread + 1e-9)
+        fail_msg("design %llu: points say %g of the space, cells %g", (unsigned long long)seed, hits / POINTS, share);
+}
+
 static void check_design(uint64_t seed)
 {
     tn_design design, again;
@@ -267,11 +316,12 @@ static void check_design(uint64_t seed)
     if (tn_union_make(cells, count, &u, &error) != TN_OK)
         fail_msg("design %llu: %s", (unsigned long long)seed, error.message);
     check_symmetry(&design, cells);
+    if (seed % 16 < 2 && u.mesh.face_count)
+        check_points(&design, cells, count, moments.volume, seed);
     check_edges(&u.mesh);
     check_umbrellas(&u.mesh);
-    if (u.doubled == 0 && count_pieces(&u.mesh) != count_parts(&u, cells, count))
-        fail_msg("design %llu: %zu pieces, %zu parts", (unsigned long long)seed, count_pieces(&u.mesh),
-                 count_parts(&u, cells, count));
+    if (u.doubled == 0)
+        check_parts(&u.mesh, cells, count, seed);
     double volume = volume_of(&u.mesh);
     if (!(fabs(volume - moments.volume) <= 1e-9 * (1 + moments.volume)))
         fail_msg("design %llu: the mesh holds %.17g, the cells %.17g", (unsigned long long)seed, volume,
