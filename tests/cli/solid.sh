@@ -89,6 +89,19 @@ hidden = sum(bin(int(value)).count("1") for code, value in pairs[pairs.index(("2
 assert hidden == 24 * 3 - 2 * 24, hidden # 12 edges of each cube are seen, from both sides
 PY
 
+# OpenMesh takes every face: also where boxes of a coarse lattice touch along edges and at corners.
+python3 - >lattice.solid <<'PY'
+import random
+r = random.Random(7)
+print("solid lattice {\n  symmetry x;")
+for _ in range(120):
+    print("  genes (%s);" % ", ".join(str(v) for v in [r.randint(0, 12) / 2 for _ in range(3)] + [r.randint(1, 4) / 2 for _ in range(3)] +
+                                      [r.choice([0, 0.5, 1, 9]), r.choice([0, 45, 90, 180]), r.choice([0, 45, -45, 90])]))
+print("}")
+PY
+"$TARTAN" mesh lattice.solid -o lattice.om --stats >out || fail 'OpenMesh does not take a design on a lattice'
+[ "$(sed -n 's/^doubled *//p' out)" -gt 0 ] || fail 'nothing on a lattice touches along an edge'
+
 # What is measured along an axis: a slope, a roof over half of it, a face that leans out at exactly 45 degrees.
 cat >seen.solid <<'SOLID'
 solid seen {
