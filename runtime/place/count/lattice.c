@@ -7,7 +7,7 @@
 #include "runtime/base/array.h"
 #include "runtime/place/search/kinds.h"
 
-enum { PAIRS_MAX = 1 << 22 };
+enum { PAIRS_MAX = 1 << 21 };
 #define SLOTS_MAX ((size_t)1 << 28)
 
 /* A connector of a look: its place is from the lowest corner. */
@@ -132,7 +132,7 @@ static tn_status find_joining(tn_lattice *l, tn_look *look, tn_error *error)
     look->joining_first = (uint32_t)l->pair_count;
     for (uint32_t other = 0; other < l->look_count && status == TN_OK; other++)
         status = join(l, look, other, error);
-    look->joining_count = keep_different(l, look->joining_first);
+    look->joining_count = status == TN_OK ? keep_different(l, look->joining_first) : 0;
     return status;
 }
 
@@ -194,7 +194,7 @@ static tn_status find_overlapping(tn_lattice *l, tn_look *look, tn_error *error)
         for (uint32_t i = 0; i < l->kinds.kinds[look->kind].record->box_count; i++)
             for (uint32_t j = 0; j < l->kinds.kinds[l->looks[other].kind].record->box_count && status == TN_OK; j++)
                 status = overlap_boxes(l, look, i, other, j, error);
-    look->overlapping_count = keep_different(l, look->overlapping_first);
+    look->overlapping_count = status == TN_OK ? keep_different(l, look->overlapping_first) : 0;
     return status;
 }
 

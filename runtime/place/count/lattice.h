@@ -34,7 +34,7 @@ typedef struct tn_lattice {
 } tn_lattice;
 
 /* The looks of those parts of a kit that are wanted ([part of the kit]; NULL: all). TN_MEMORY, or TN_LIMIT (E1313) for
- * more than 2^22 pairs. Clear it in any case. */
+ * more than 2^21 pairs. Clear it in any case. */
 tn_status tn_lattice_make(const tn_place_rules *rules, const bool *wanted, tn_lattice *lattice, tn_error *error);
 void tn_lattice_clear(tn_lattice *lattice);
 

@@ -60,7 +60,7 @@ static size_t list_features(const tn_module *module, const tn_kind_of_part *kind
         f->low[1] = (int32_t)c->y;
         memcpy(f->high, f->low, sizeof f->low);
     }
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && record->box_count > 0; i++)
         for (int k = 0; k < 3; k++) {
             to[i].low[k] -= low[k];
             to[i].high[k] -= low[k];
