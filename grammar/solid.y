@@ -344,6 +344,8 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     if (found == YYSYMBOL_THROUGH)
         return "a plane goes through a point where its normal is given: `clip normal (1, 1, 0) through (2, 1, 0)`; with angles its "
                "distance from the box's centre is given: `clip 0.5 angles 45, 0`";
+    if (found == YYSYMBOL_IN && before == YYSYMBOL_NUMBER)
+        return "inches are written with their sign, and lengths have units after `model mm;` or another unit: `2\"`";
     switch (before) {
     case YYSYMBOL_SOLID: return "write a name: `solid table { ... }`";
     case YYSYMBOL_BOX: return "write a name: `box leg from (0, 0, 0) to (1, 7, 1);`";

@@ -76,9 +76,8 @@ void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const ch
     }
     if (has_parts(job) && choose_parts(job, &options->kinds, &wanted)) {
         tn_job_show(job);
-        tn_status status =
-            tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
-                               (unsigned)options->threads.value, tn_interrupt_waiting(), &counts, &error);
+        tn_status status = tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
+                                              options->threads, tn_interrupt_waiting(), &counts, &error);
         if (status != TN_OK) {
             tn_job_fail(job, &error);
         } else if (tn_job_output(job, path, &output)) {

@@ -5,8 +5,9 @@
 #include "cli/common/job.h"
 
 typedef struct tn_count_kit_options {
-    tn_option_number parts, threads;
+    tn_option_number parts;
     tn_option_list kinds; /* parts by name; none: all of the kit */
+    unsigned threads;     /* 0: all processors */
     bool fixed, json;
 } tn_count_kit_options;
 

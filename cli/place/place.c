@@ -224,7 +224,7 @@ static tn_status make_rules(placing *p, tn_error *error)
 {
     const tn_module *module = p->job->opened.module;
     if (!module->KIT_count && p->settings->model) {
-        tn_job_usage(p->job, "--model is of a kit: %.200s is none", p->settings->common.operands.items[0]);
+        tn_job_usage(p->job, "--model is about a kit, and %.200s is none", p->settings->common.operands.items[0]);
         return TN_STOPPED;
     }
     if (module->KIT_count) {

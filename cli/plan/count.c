@@ -353,11 +353,28 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
 static bool asks_kit(tn_job *job, const count_settings *settings)
 {
     const tn_count_kit_options *kit = &settings->kit;
-    const char *option = kit->parts.given ? "parts" : kit->threads.given ? "threads" : kit->fixed ? "fixed" : "part";
-    if (!kit->parts.given && !kit->threads.given && !kit->fixed && kit->kinds.count == 0)
-        return false;
-    tn_job_usage(job, "--%s is of a kit: %.200s is none", option, settings->common.operands.items[0]);
-    return true;
+    const char *option = kit->parts.given ? "parts" : kit->fixed ? "fixed" : kit->kinds.count ? "part" : NULL;
+    if (option)
+        tn_job_usage(job, "--%s is about a kit, and %.200s is none", option, settings->common.operands.items[0]);
+    return option != NULL;
+}
+
+/* What only libraries of plans are asked. */
+static bool asks_library(tn_job *job, const count_settings *s)
+{
+    const char *option = s->plans.library        ? "library"
+                         : s->plans.wheres.count ? "where"
+                         : s->plans.trays.given  ? "trays"
+                         : s->by                 ? "by"
+                         : s->step               ? "step"
+                         : s->bins.given         ? "bins"
+                         : s->plan               ? "plan"
+                         : s->count.mirror       ? "mirror"
+                         : s->count.no_effects   ? "no-effects"
+                                                 : NULL;
+    if (option)
+        tn_job_usage(job, "--%s is about a library of plans, and %.200s is a kit", option, s->common.operands.items[0]);
+    return option != NULL;
 }
 
 static int count_once(const tn_settings *common, tn_files_read *read)
@@ -368,12 +385,16 @@ static int count_once(const tn_settings *common, tn_files_read *read)
     tn_job_begin(&job, common);
     job.read = read;
     bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
-    if (open && job.opened.module->KIT_count > 0) {
+    bool of_kit = open && job.opened.module->KIT_count > 0;
+    if (of_kit)
+        open = !asks_library(&job, settings);
+    else if (open)
+        open = !asks_kit(&job, settings);
+    if (open && of_kit) {
         tn_count_kit_options kit = settings->kit;
         kit.json = settings->count.json;
+        kit.threads = tn_job_threads(&settings->plans);
         tn_job_count_kit(&job, &kit, settings->output);
-    } else if (open && asks_kit(&job, settings)) {
-        return tn_job_end(&job);
     } else if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
         tn_job_count_houses(&job, &houses, settings->plan, settings->count.json, settings->output);
@@ -406,7 +427,6 @@ static const tn_option options[] = {
     NUMBER("parts", 0, "N", kit.parts, 1, 32, "of a kit: count the buildings of N parts"),
     LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),
     FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn"),
-    OPTION_THREADS(kit.threads),
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,

@@ -140,7 +140,7 @@ static void export_kit(tn_job *job)
     tn_output output;
     uint32_t model;
     if (job->opened.module->KIT_count == 0) {
-        tn_job_usage(job, "--pcfg is of a kit: %.200s is none", job->settings->operands.items[0]);
+        tn_job_usage(job, "--pcfg is about a kit, and %.200s is none", job->settings->operands.items[0]);
         return;
     }
     tn_status status = tn_kit_choose(&job->opened, settings_of(job)->model, &model);

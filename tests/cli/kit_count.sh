@@ -24,6 +24,7 @@ golden no_parts "tartan count $scratch/no_parts.kit --parts 2"
 golden too_many "tartan count bricks --parts 33"
 golden table "tartan count $scratch/long.kit --part long --parts 9"
 golden plan "tartan count lahave --parts 3"
+golden of_plans "tartan count bricks --parts 2 --trays 1..2"
 golden file "tartan count bricks --part 3005 --parts 3 -o $scratch/number && cat $scratch/number"
 
 python3 "$here/kit_count.py" "$TARTAN" "$here/../../stdlib/bricks.kit" || fail 'a number is not what listing all buildings gives'

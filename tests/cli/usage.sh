@@ -3,6 +3,12 @@
 name=usage
 . "$(dirname "$0")/golden.bash"
 
+# No command has an option twice.
+for command in $("$TARTAN" help | sed -n 's/^  \([a-z-]*\)  .*/\1/p'); do
+    twice=$("$TARTAN" help "$command" | grep -oE '^ +(-[a-zA-Z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+' | sort | uniq -d)
+    [ -z "$twice" ] || fail "$command has options twice: $twice"
+done
+
 golden no_command 'tartan'
 golden unknown_command 'tartan cuont sheds.plan'
 golden hopeless_command 'tartan xyzzy'
