@@ -54,10 +54,11 @@ static inline char *draft_record(const draft *d, tn_section section, size_t inde
 void draft_set_whole(void *record, const tn_member *member, int64_t value);
 void draft_set_real(void *record, const tn_member *member, double value);
 
-/* A text of the draft, and a new one. */
+/* A text of the draft, and a new one. What an instruction had as a number, before its opcode was changed, is none: then
+ * the first. */
 static inline const char *draft_text(const draft *d, int64_t string)
 {
-    return d->strings + string;
+    return d->strings + (string >= 0 && (size_t)string < d->strings_size ? string : 0);
 }
 tn_string draft_add_text(draft *d, const char *text, size_t size);
 
