@@ -239,7 +239,7 @@ static void take_each(check *c, tn_setting setting, const tn_evolution_setting *
         }
     bool fits = value && read_first(setting, value, &read) && tn_setting_fits(setting, &read);
     const tn_evolution_value *wrong = value;
-    for (const tn_evolution_value *word = fits ? value->next : NULL; word && fits; word = word->next->next) {
+    for (const tn_evolution_value *word = fits ? value->next : NULL; word; word = fits ? word->next->next : NULL) {
         wrong = word;
         fits = read_wish(setting, word, &read);
     }
