@@ -9,7 +9,8 @@
 #include "runtime/place/count/count.h"
 #include "runtime/place/joints.h"
 
-/* Which parts of the kit are named; *wanted: NULL where none is, so that all are. */
+/* Which parts of the kit are named; *wanted: NULL where none is, so that all are. The caller frees it, also after a
+ * failure. */
 static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted)
 {
     const tn_module *module = job->opened.module;
@@ -68,7 +69,7 @@ void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const ch
     tn_building_counts counts;
     tn_output output;
     tn_error error;
-    bool *wanted;
+    bool *wanted = NULL;
     if (!options->parts.given) {
         tn_diagnostic *d = tn_job_usage(job, "of a kit, buildings of so many parts are counted");
         tn_help(tn_job_diagnostics(job), d, "say how many: --parts 3");
@@ -84,6 +85,6 @@ void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const ch
             write_counts(options, &counts, output.stream);
             tn_job_commit(job, &output);
         }
-        free(wanted);
     }
+    free(wanted);
 }
