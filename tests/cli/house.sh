@@ -32,6 +32,7 @@ golden count_plan "tartan count cottage --library cottages --plan \"14' room:14'
 golden count_no_plan "tartan count cottage --plan \"10' room:14' none\""
 golden count_bad_plan "tartan count cottage --plan '#600'"
 golden unrank "tartan unrank cottage '#10:77'"
+golden unrank_no_house "tartan unrank lahave-complete '#99:0'"
 golden unrank_no_number "tartan unrank cottage '#10:x'"
 golden rank "tartan rank cottage \"\$(tartan unrank cottage '#10:77')\""
 golden rank_dropped "tartan rank cottage \"$bedrooms\""

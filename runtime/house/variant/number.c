@@ -86,6 +86,11 @@ static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, 
 /* A house is asked for by a number that a plan with so many houses does not have. */
 static tn_status too_few(const mpz_t houses, tn_error *error)
 {
+    if (mpz_sgn(houses) == 0) {
+        tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has no house on this plan");
+        tn_error_help(error, "choose another plan: `tartan sample` with --library draws houses that are there");
+        return TN_INVALID;
+    }
     char *digits = mpz_get_str(NULL, 10, houses);
     tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "this plan has only %.80s houses in the library",
                                digits ? digits : "some of these");
