@@ -8,6 +8,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
+#include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/random.h"
@@ -169,7 +170,7 @@ static void read_genome(mapping_run *run, const char *path, uint64_t line, const
 /* One genome a line; lines that start with # are comments. */
 static void read_genomes(mapping_run *run, const char *path)
 {
-    FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
+    FILE *in = strcmp(path, "-") == 0 ? stdin : tn_file_stream(path);
     if (!in) {
         tn_error error;
         tn_cannot_read(path, errno, &error);

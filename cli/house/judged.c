@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/file.h"
+#include "runtime/base/file_error.h"
 #include "runtime/base/utf8.h"
 
 /* ---- rules */
@@ -176,9 +178,9 @@ static void match_file(tn_job *job, tn_house_judge *judge, const asked_rules *as
     tn_output out;
     tn_error error;
     bool standard = strcmp(path, "-") == 0;
-    FILE *in = standard ? stdin : fopen(path, "r");
+    FILE *in = standard ? stdin : tn_file_stream(path);
     if (!in) {
-        tn_fail(&error, TN_IO, TN_CODE_NONE, "cannot read %.200s: %s", path, strerror(errno));
+        tn_cannot_read(path, errno, &error);
         tn_job_fail(job, &error);
         return;
     }

@@ -5,6 +5,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/mesh/mesh.h"
+#include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
 
 /* Three numbers and nothing else. The program's locale is C's. */
@@ -60,7 +61,7 @@ void tn_mesh_points(tn_job *job, const tn_open_field *open)
 {
     const char *path = tn_mesh_settings_of(job)->points;
     bool standard = strcmp(path, "-") == 0;
-    FILE *in = standard ? stdin : fopen(path, "r");
+    FILE *in = standard ? stdin : tn_file_stream(path);
     double *registers = calloc((size_t)open->field.samples.register_count * 4, sizeof *registers);
     tn_error error;
     if (!in) {

@@ -56,13 +56,33 @@ static tn_status read_all(int file, const char *path, size_t limit, uint8_t **by
     return status;
 }
 
+int tn_file_open(const char *path)
+{
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    struct stat known;
+    if (file < 0)
+        return -1;
+    struct pollfd pipe = {.fd = file, .events = POLLIN};
+    if (fstat(file, &known) == 0 && S_ISFIFO(known.st_mode))
+        while (poll(&pipe, 1, -1) < 0 && errno == EINTR)
+            ;
+    fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return file;
+}
+
+FILE *tn_file_stream(const char *path)
+{
+    int file = tn_file_open(path);
+    return file < 0 ? NULL : fdopen(file, "r");
+}
+
 tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error)
 {
     *bytes = NULL;
     *size = 0;
     if (strcmp(path, "-") == 0)
         return read_all(STDIN_FILENO, "standard input", limit, bytes, size, error);
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = tn_file_open(path);
     if (file < 0)
         return tn_cannot_read(path, errno, error);
     tn_status status = read_all(file, path, limit, bytes, size, error);

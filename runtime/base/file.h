@@ -8,6 +8,13 @@
 
 #include "runtime/base/error.h"
 
+/* Opens a file for reading; -1 and errno where that cannot be. A pipe is waited for until there is something to read:
+ * what its writer wrote before it left is read too, as long as another end of the pipe kept it. */
+int tn_file_open(const char *path);
+
+/* The same, as a stream; NULL and errno. */
+FILE *tn_file_stream(const char *path);
+
 /* Reads a whole file ("-" is standard input) of at most `limit` bytes. The caller frees *bytes with
  * free(); a zero byte follows the contents and is not counted. E0901 unreadable (TN_IO), E0804 too large (TN_LIMIT). */
 tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *size, tn_error *error);

@@ -51,6 +51,8 @@ while time.time() < begun + 30:
     if not fed and b"waiting for somebody to write to the pipe" in text:
         fed = time.time() - begun
         shutil.copyfileobj(open(late, "rb"), open(pipe, "wb"))
+if not fed:
+    os.kill(pid, 9)
 os.waitpid(pid, 0)
 sys.exit(0 if fed and fed > 0.9 and b"error[E0001]" in text.replace(b"\x1b[1;31m", b"") else 1)
 PYTHON
@@ -59,4 +61,22 @@ PYTHON
 "$TARTAN" check "$scratch/pipe" >"$scratch/out" 2>&1 || true
 grep -q 'error\[' "$scratch/out" || fail 'a pipe is not read'
 grep -q 'waiting' "$scratch/out" && fail 'a pipe is named without a terminal'
+# What was written is read, too, where the writer has left before the command opens the pipe.
+python3 - "$scratch/pipe" "$TARTAN" "$here/../../examples/editing-a-rule/after.plan" <<'PYTHON' || fail 'what a writer left in a pipe is not read'
+import os, subprocess, sys
+pipe, tartan = sys.argv[1:3]
+
+
+def read(*command):
+    kept = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    with open(pipe, "w") as written:
+        written.write("rule x = tray(\n")
+    answer = subprocess.run([tartan, *command, pipe], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+    os.close(kept)
+    return answer.stderr
+
+
+assert b"error[E0001]" in read("check")
+assert b"error[" in read("match", sys.argv[3])
+PYTHON
 finish

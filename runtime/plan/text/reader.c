@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
@@ -231,7 +232,7 @@ static tn_status open_reader(tn_plan_reader *reader, const char *path, tn_error 
     tn_status status = tn_plan_scanner_new(reader->schema, &reader->scanner, error);
     if (status != TN_OK)
         return status;
-    reader->file = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    reader->file = strcmp(path, "-") == 0 ? STDIN_FILENO : tn_file_open(path);
     if (reader->file < 0)
         return tn_cannot_read(reader->path, errno, error);
     reader->opened = tn_file_state_of(reader->file);
