@@ -128,6 +128,10 @@ bool tn_plan_writer_resumes(const tn_plan_writer *writer);
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error);
 
+/* Appends the plans of another file that was written in the same format, with the same schema and options, byte by
+ * byte; what such a file begins with is left out. Not for SQLite. TN_INVALID (E0604) where it does not begin so. */
+tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_error *error);
+
 /* Finishes the file, which is then in place and whole. The writer may only be freed after, whatever the result. A
  * closed pipe is TN_IO with E0903. */
 tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error);

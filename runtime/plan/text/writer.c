@@ -11,6 +11,7 @@
 #include "runtime/plan/text/pack.h"
 
 #define BATCH_DEFAULT 100000u
+#define COPIED ((size_t)1 << 18) /* bytes at a time */
 
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS])
@@ -329,6 +330,44 @@ uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank)
     if (writer->resumed > 0)
         mpz_set_str(last_rank, writer->last_rank.data, 10);
     return writer->resumed;
+}
+
+/* ---- the plans of another file */
+
+/* Reads past what a file of the format begins with; false where it does not begin so. */
+static bool skip_beginning(const tn_plan_writer *writer, FILE *file)
+{
+    uint8_t header[TN_PACK_HEADER];
+    int byte = 0;
+    if (writer->format == TN_FORMAT_BIN)
+        return fread(header, 1, sizeof header, file) == sizeof header && memcmp(header, TN_PACK_MAGIC, 8) == 0 &&
+               tn_get_u64(header + 24) <= INT64_MAX && fseeko(file, (off_t)tn_get_u64(header + 24), SEEK_CUR) == 0;
+    while (writer->format == TN_FORMAT_CSV && byte != '\n' && byte != EOF)
+        byte = getc(file);
+    return byte != EOF;
+}
+
+static tn_status copy_file(tn_plan_writer *writer, FILE *file, const char *path, tn_error *error)
+{
+    if (!skip_beginning(writer, file))
+        return tn_fail(error, TN_INVALID, E_PLAN_FILE, "%.300s does not begin as such a file does", path);
+    tn_buffer *text = &writer->text;
+    if (!tn_buffer_reserve(text, COPIED))
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    while (status == TN_OK && (text->size = fread(text->data, 1, COPIED, file)) > 0)
+        status = flush_text(writer, error);
+    return status == TN_OK && ferror(file) ? tn_cannot_read(path, errno, error) : status;
+}
+
+tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_error *error)
+{
+    FILE *file = tn_file_stream(path);
+    if (!file)
+        return tn_cannot_read(path, errno, error);
+    tn_status status = copy_file(writer, file, path, error);
+    fclose(file);
+    return status;
 }
 
 /* ---- the end */
