@@ -46,6 +46,7 @@ static bool describe(tn_job *job, const tn_ready_library *ready, tn_shard_set *s
     set->rules_path = strdup(job->settings->operands.items[1]);
     set->command = tn_enumerated_words(&asked);
     set->format = settings->written.format ? (tn_plan_format)settings->written.format : TN_FORMAT_LINES;
+    set->compressed = settings->compress != 0;
     set->options = (tn_library_options){.max_states = (uint32_t)settings->plans.max_states.value,
                                         .override_trays = settings->plans.trays.given,
                                         .trays_min = (uint32_t)settings->plans.trays.low,

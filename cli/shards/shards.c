@@ -21,7 +21,8 @@ static void run_new(tn_job *job, tn_shards_open *open)
 }
 
 static const shards_part parts[] = {
-    {"new", " library where trays max-length max-states threads shards plans from to format output ", false, run_new},
+    {"new", " library where trays max-length max-states threads shards plans from to format compress output ", false,
+     run_new},
     {"run", " shard part threads for stale ", true, tn_shards_run_set},
     {"status", " stale output ", false, tn_shards_status},
     {"check", " threads output ", true, tn_shards_check_set},
@@ -98,6 +99,7 @@ static const tn_option options[] = {
     RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",
            "new: what the shards are: lines (the default), json, csv or bin"),
+    MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
     TEXT("output", 'o', "FILE", written.output,
          "new: the folder of the set; merge: the database to make; otherwise the file to write"),
     NUMBER("shard", 0, "I", shard, 0, 0, "run: write only shard I; the first is 0"),

@@ -11,6 +11,7 @@ typedef struct tn_shards_settings {
     tn_written_settings written;
     tn_option_number shards, each; /* --shards, --plans */
     const char *from, *to;
+    int compress; /* 1: zstd */
     tn_option_number shard;
     const char *part, *time, *stale;
 } tn_shards_settings;

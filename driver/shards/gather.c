@@ -12,7 +12,7 @@
 static tn_status rewrite_shard(const tn_gathering *g, const char *path, uint32_t shard, tn_plan_writer *writer,
                                tn_error *error)
 {
-    const tn_reader_options options = {.format = g->set->format, .max_length = tn_library_max(g->ready->library)};
+    const tn_reader_options options = tn_shard_reading(g->set, g->ready->library);
     tn_plan_reader *reader;
     const tn_plan *plan;
     size_t seen = 0;
@@ -41,8 +41,8 @@ static tn_status gather_shard(const tn_gathering *g, uint32_t shard, tn_plan_wri
     if (status == TN_OK)
         status = tn_shard_same_as_record(g->set, shard, error);
     if (status == TN_OK)
-        status = g->format == g->set->format ? tn_plan_writer_append(writer, path, error)
-                                             : rewrite_shard(g, path, shard, writer, error);
+        status = g->format == g->set->format && !g->set->compressed ? tn_plan_writer_append(writer, path, error)
+                                                                    : rewrite_shard(g, path, shard, writer, error);
     tn_watch_tell(g->watch, shard + 1, g->set->count);
     free(path);
     return status;

@@ -9,7 +9,8 @@ typedef struct tn_gathering {
     const tn_opened *opened; /* the set's module and library */
     const tn_ready_library *ready;
     const char *output;    /* "-": standard output */
-    tn_plan_format format; /* that of the shards: they are copied byte by byte. Any other: read and written again */
+    tn_plan_format format; /* that of the shards: copied byte by byte where they are not compressed. Otherwise the plans
+                              are read and written again */
     tn_watch *watch;
 } tn_gathering;
 

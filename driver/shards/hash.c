@@ -6,26 +6,14 @@
 #include <unistd.h>
 
 #define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "runtime/base/file_error.h"
+#include "runtime/base/hash_text.h"
 
 enum { CHUNK = 1 << 16 };
 
-static void write_hex(XXH128_hash_t hash, char hex[33])
-{
-    XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, hash);
-    for (int i = 0; i < 16; i++) {
-        hex[2 * i] = "0123456789abcdef"[canonical.digest[i] >> 4];
-        hex[2 * i + 1] = "0123456789abcdef"[canonical.digest[i] & 15];
-    }
-    hex[32] = '\0';
-}
-
 void tn_hash_bytes(const void *bytes, size_t size, char hex[33])
 {
-    write_hex(XXH3_128bits(bytes, size), hex);
+    tn_hash_text(XXH3_128bits(bytes, size), hex);
 }
 
 tn_status tn_hash_file(const char *path, char hex[33], uint64_t *size, tn_error *error)
@@ -48,6 +36,6 @@ tn_status tn_hash_file(const char *path, char hex[33], uint64_t *size, tn_error 
     close(file);
     if (got < 0)
         return tn_cannot_read(path, reason, error);
-    write_hex(XXH3_128bits_digest(&hash), hex);
+    tn_hash_text(XXH3_128bits_digest(&hash), hex);
     return TN_OK;
 }

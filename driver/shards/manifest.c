@@ -60,6 +60,8 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
                 write_member(text, "schema_hash", set->schema_hash) &&
                 write_member(text, "rules_path", set->rules_path) && write_member(text, "command", set->command) &&
                 write_member(text, "format", formats[set->format]);
+    if (done && set->compressed)
+        done = write_member(text, "compress", "zstd");
     if (done && set->options.override_trays)
         done = tn_buffer_printf(text, "  \"trays\": [%u, %u],\n", set->options.trays_min, set->options.trays_max);
     done = done && write_number(text, "max_states", set->options.max_states) &&
@@ -158,6 +160,13 @@ static tn_status read_format(const reading *r)
     return refuse(r, "`format` is none of lines, json, csv and bin");
 }
 
+static tn_status read_compression(const reading *r)
+{
+    const json_t *how = json_object_get(r->manifest, "compress");
+    r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
+    return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
+}
+
 /* A whole number of 32 bits; absent: `otherwise`. */
 static tn_status read_number(const reading *r, const json_t *value, const char *key, uint32_t *number)
 {
@@ -253,6 +262,8 @@ static tn_status read_members(const reading *r)
         status = read_hash(r, "schema_hash", set->schema_hash, 16);
     if (status == TN_OK)
         status = read_format(r);
+    if (status == TN_OK)
+        status = read_compression(r);
     if (status == TN_OK)
         status = read_options(r);
     return status == TN_OK ? read_shards(r) : status;

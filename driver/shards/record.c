@@ -187,7 +187,7 @@ tn_status tn_shard_read_through(const tn_shard_set *set, const tn_ready_library 
                                 tn_error *error)
 {
     through t = {.set = set, .library = ready->library, .shard = shard, .watch = watch};
-    const tn_reader_options options = {.format = set->format, .max_length = tn_library_max(ready->library)};
+    const tn_reader_options options = tn_shard_reading(set, ready->library);
     tn_plan_reader *reader = NULL;
     char *path = tn_shard_path(set, shard, "");
     tn_status status =

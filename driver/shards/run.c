@@ -10,6 +10,7 @@
 #include "driver/plan/made.h"
 #include "driver/shards/claim.h"
 #include "driver/shards/record.h"
+#include "driver/zstd/zstd.h"
 #include "runtime/base/crew.h"
 
 #define LOOK_EVERY 4096u /* plans between looks at the clock and for interruptions */
@@ -77,7 +78,8 @@ static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim
     const tn_shard_set *set = run->job->set;
     char *path = tn_shard_path(set, shard, ""), *words = words_of(set, shard);
     tn_plan_writer *writer = NULL;
-    tn_writer_options options = {.format = set->format, .metadata = run->made->metadata};
+    tn_writer_options options = {
+        .format = set->format, .metadata = run->made->metadata, .compression = set->compressed ? tn_plan_zstd() : NULL};
     options.metadata.command = words;
     tn_status status = path && words ? tn_plan_writer_open(run->job->ready->schema, path, &options, &writer, error)
                                      : tn_fail_memory(error);

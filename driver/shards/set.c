@@ -10,6 +10,7 @@
 #include "driver/open/missing.h"
 #include "driver/shards/hash.h"
 #include "driver/shards/manifest.h"
+#include "driver/zstd/zstd.h"
 #include "runtime/base/file.h"
 #include "runtime/plan/text/pack.h"
 
@@ -30,7 +31,7 @@ void tn_shard_set_clear(tn_shard_set *set)
 
 /* ---- names */
 
-const char *tn_shard_ending(tn_plan_format format)
+static const char *ending_of(tn_plan_format format)
 {
     static const char *const endings[TN_FORMAT_COUNT] = {
         [TN_FORMAT_LINES] = ".plans", [TN_FORMAT_JSON] = ".jsonl", [TN_FORMAT_CSV] = ".csv", [TN_FORMAT_BIN] = ".bin"};
@@ -40,8 +41,8 @@ const char *tn_shard_ending(tn_plan_format format)
 tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard)
 {
     tn_shard_name name;
-    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s", shard / TN_SHARDS_A_FOLDER, shard,
-             tn_shard_ending(set->format));
+    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s", shard / TN_SHARDS_A_FOLDER, shard,
+             ending_of(set->format), set->compressed ? ".zst" : "");
     return name;
 }
 
@@ -53,6 +54,13 @@ char *tn_shard_set_path(const tn_shard_set *set, const char *name)
 char *tn_shard_path(const tn_shard_set *set, uint32_t shard, const char *ending)
 {
     return tn_path_join(set->folder, tn_shard_name_of(set, shard).text, ending);
+}
+
+tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library)
+{
+    return (tn_reader_options){.format = set->format,
+                               .max_length = tn_library_max(library),
+                               .compression = set->compressed ? tn_plan_zstd() : NULL};
 }
 
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans)

@@ -27,6 +27,7 @@ typedef struct tn_shard_set {
     char *command;    /* the one `enumerate` whose plans these are */
     char module_hash[33], library_hash[33], schema_hash[17];
     tn_plan_format format;
+    bool compressed;            /* by zstd */
     tn_library_options options; /* those that decide which plans there are, and the limits */
     uint32_t count;
     mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1] */
@@ -64,8 +65,8 @@ typedef struct tn_shard_name {
 } tn_shard_name;
 tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard);
 
-/* How the files of a format end: ".plans". */
-const char *tn_shard_ending(tn_plan_format format);
+/* How to open its shards. */
+tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library);
 
 /* How many plans a shard holds. `plans` is initialised. */
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans);

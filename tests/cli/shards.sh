@@ -34,6 +34,30 @@ for format in lines json csv bin; do
     "$TARTAN" shards merge "$scratch/set" -o "$scratch/merged.sqlite" && enumerate --trays 0..5 --from 5 --to 777 -o "$scratch/one.sqlite"
     is "$format: the database" "$(sqlite3 "$scratch/merged.sqlite" .dump | md5sum)" "$(sqlite3 "$scratch/one.sqlite" .dump | md5sum)"
 done
+# ---- compressed: the same bytes again, and files that match and prune read
+for format in lines json csv bin; do
+    new set --format $format --shards 5 --compress
+    run set --threads 2
+    exits 0 "$TARTAN" shards check "$scratch/set"
+    cat_is set --format $format
+    for shard in "$scratch"/set/shards/000/*.zst; do "$TARTAN" prune "$sheds" "$shard" -l any-sheds --trays 0..5; done |
+        cmp - <(enumerate --trays 0..5) || fail "compressed $format does not read back"
+    "$TARTAN" prune "$sheds" -l any-sheds --trays 0..5 <"$(echo "$scratch"/set/shards/000/000004.*.zst)" | cmp - <(enumerate --trays 0..5 --from 1092) || fail "compressed $format from a pipe"
+done
+new set --format bin --shards 2 --compress --from 100
+run set
+packed=$scratch/set/shards/000/000000.bin.zst
+head -c 40 "$packed" >"$scratch/cut.zst"
+golden compressed_cut "tartan prune sheds.plan -l any-sheds $scratch/cut.zst"
+{ head -c 200 "$packed" && printf 'not what was there before' && tail -c +226 "$packed"; } >"$scratch/changed.zst"
+exits 1 "$TARTAN" prune "$sheds" -l any-sheds --trays 0..5 "$scratch/changed.zst"
+grep -q 'E0604' "$scratch/err" || fail "a changed compressed file: $(cat "$scratch/err")"
+{ cat "$packed" && printf '\x28\xb5\x2f\xfd'; } >"$scratch/more.zst"
+exits 1 "$TARTAN" prune "$sheds" -l any-sheds --trays 0..5 "$scratch/more.zst"
+rm "$packed.record" && head -c 100 "$packed" >"$scratch/cut.zst" && mv "$scratch/cut.zst" "$packed"
+golden compressed_shard_cut "tartan shards run $scratch/set"
+
+# ---- edges
 new set --shards 4000 # more than there are plans
 is 'as many shards as plans' "$(grep -c '"name"' "$scratch/set/manifest.json")" 1365
 is 'a thousand in a folder' "$(ls "$scratch/set/shards" | xargs)" '000 001'
@@ -167,6 +191,7 @@ changed another_library 's/"library_hash": "./"library_hash": "z/'
 changed other_library 's/"library_hash": ".\{8\}/"library_hash": "00000000/'
 changed no_library '/"library":/d'
 changed bad_format 's/"format": "lines"/"format": "sqlite"/'
+changed bad_compression 's/"format": "lines",/&\n  "compress": "lzma",/'
 changed bad_trays 's/"trays": .*/"trays": [0, -1],/'
 changed no_manifest '1,5d;s/^/{/'
 wrong && echo >>"$scratch/wrong/rules.tnb"

@@ -162,8 +162,11 @@ static bool bin_header(tn_plan_writer *writer, const tn_plan_metadata *metadata)
 static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
 {
     size_t size = writer->text.size;
+    FILE *out = writer->output.stream;
     writer->text.size = 0;
-    if (size == 0 || fwrite(writer->text.data, 1, size, writer->output.stream) == size)
+    if (size == 0 ||
+        (writer->compressing ? writer->compression->write(writer->compressing, writer->text.data, size, false, out)
+                             : fwrite(writer->text.data, 1, size, out) == size))
         return TN_OK;
     const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
     return tn_cannot_write(shown, errno, error);
@@ -177,6 +180,8 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         return TN_INVALID;
     }
     tn_status status = tn_output_open(writer->path, &writer->output, error);
+    if (status == TN_OK && options->compression)
+        status = options->compression->begin_writing(&writer->compressing, error);
     if (status != TN_OK)
         return status;
     bool done = true;
@@ -225,6 +230,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->compression = options->compression;
     writer->columns = options->columns;
     writer->csv_safe = options->csv_safe;
     writer->sqlite = options->sqlite;
@@ -374,9 +380,10 @@ tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_err
 
 tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
 {
-    writer->closed = true;
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->close_writer(writer, error);
+    if (writer->compressing && !writer->compression->write(writer->compressing, NULL, 0, true, writer->output.stream))
+        return tn_cannot_write(writer->path, errno, error);
     return tn_output_commit(&writer->output, error);
 }
 
@@ -384,7 +391,9 @@ void tn_plan_writer_free(tn_plan_writer *writer)
 {
     if (!writer)
         return;
-    if (!writer->closed && writer->output.stream)
+    if (writer->compressing)
+        writer->compression->end_writing(writer->compressing);
+    if (writer->output.stream)
         tn_output_discard(&writer->output);
     if (writer->sqlite)
         writer->sqlite->free_writer(writer);
