@@ -6,7 +6,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report lint package check-package bench fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale lint package check-package bench fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -17,6 +17,7 @@ help:
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
+	@echo 'make check-scale  write a library by MPI, GNU parallel and Slurm, where these are installed'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
@@ -56,6 +57,9 @@ check-editor: build
 
 check-report: build
 	@tools/check-report build/tartan
+
+check-scale: build
+	@tools/check-scale build/tartan
 
 lint: build
 	@tools/lint build
