@@ -5,6 +5,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/house/numbered_parts.h"
+#include "runtime/house/schedule/cost.h"
 #include "runtime/house/variant/change.h"
 
 typedef struct vary_settings {
@@ -20,7 +21,7 @@ typedef struct varying {
     const tn_house *house;
     FILE *out;
     bool json;
-    mpz_t plan, variant;
+    mpz_t plan, variant, cost, more; /* of the house, and what a change adds to it, in hundredths */
     size_t count;
 } varying;
 
@@ -117,6 +118,35 @@ static double square_metres(tn_int128 square_nanometres)
     return (double)square_nanometres / 1e18;
 }
 
+/* What the house costs, in hundredths; 0 where its form has no materials. */
+static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *error)
+{
+    tn_solids solids = {0};
+    tn_costs costs = {0};
+    mpz_set_ui(hundredths, 0);
+    if (!tn_form_has_costs(house->form))
+        return TN_OK;
+    tn_status status = tn_house_solids(house, &solids, error);
+    if (status == TN_OK)
+        status = tn_house_costs(house, &solids, &costs, error);
+    if (status == TN_OK)
+        mpz_set(hundredths, costs.hundredths);
+    tn_costs_clear(&costs);
+    tn_solids_clear(&solids);
+    return status;
+}
+
+/* "+12.50" */
+static void write_money(const varying *v)
+{
+    mpz_t whole;
+    mpz_init(whole);
+    unsigned long rest = mpz_tdiv_q_ui(whole, v->more, 100);
+    mpz_abs(whole, whole);
+    gmp_fprintf(v->out, "%c%Zd.%02lu", mpz_sgn(v->more) < 0 ? '-' : '+', whole, rest);
+    mpz_clear(whole);
+}
+
 /* A JSON object; false where out of memory. */
 static bool write_json(const varying *v, const tn_house_change *change, const change_words *w, double more)
 {
@@ -128,9 +158,15 @@ static bool write_json(const varying *v, const tn_house_change *change, const ch
     tn_buffer_append_json(&text, w->from);
     tn_buffer_printf(&text, ",\"to\":");
     tn_buffer_append_json(&text, w->to);
-    tn_buffer_printf(&text, ",\"area_m2\":%.6f}\n", more);
+    tn_buffer_printf(&text, ",\"area_m2\":%.6f", more);
     gmp_fprintf(v->out, "{\"house\":\"#%Zd:%Zd\",", v->plan, v->variant);
     fwrite(text.data, 1, text.size, v->out);
+    if (tn_form_has_costs(v->house->form)) {
+        fputs(",\"cost\":\"", v->out);
+        write_money(v);
+        fputc('"', v->out);
+    }
+    fputs("}\n", v->out);
     bool fine = !text.failed;
     free(text.data);
     return fine;
@@ -141,6 +177,10 @@ static void write_line(const varying *v, const change_words *w, double more)
     gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
     if (more != 0)
         fprintf(v->out, ", %+.2f m2", more);
+    if (mpz_sgn(v->more) != 0) {
+        fputs(", cost ", v->out);
+        write_money(v);
+    }
     fputc('\n', v->out);
 }
 
@@ -150,8 +190,11 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
     change_words w;
     mpz_set_ui(v->variant, 0);
     tn_status status = tn_house_variants_rank(v->n->variants, changed, v->variant, error);
+    if (status == TN_OK)
+        status = cost_of(changed, v->more, error);
     if (status != TN_OK)
         return status;
+    mpz_sub(v->more, v->more, v->cost);
     find_words(v, change, &w);
     double more = square_metres(floor_area(changed) - floor_area(v->house));
     v->count++;
@@ -192,6 +235,8 @@ static tn_status vary(varying *v, const char *at, tn_error *error)
     if (status == TN_OK) /* is it a house of the library? */
         status = tn_house_variants_rank(v->n->variants, v->house, v->variant, error);
     if (status == TN_OK)
+        status = cost_of(v->house, v->cost, error);
+    if (status == TN_OK)
         status = tn_house_rules_new(&v->n->form, 0, &rules, error);
     if (status == TN_OK)
         status = tn_house_changes(v->house, rules, v->n->record, cell, write_change, v, error);
@@ -216,14 +261,14 @@ static void vary_house(tn_job *job, tn_numbered *n, const vary_settings *setting
         tn_numbered_bad_text(job, &error, "HOUSE", text);
     } else if (tn_job_output(job, settings->output, &out)) {
         varying v = {.n = n, .house = &house, .out = out.stream, .json = settings->json};
-        mpz_inits(v.plan, v.variant, NULL);
+        mpz_inits(v.plan, v.variant, v.cost, v.more, NULL);
         status = vary(&v, settings->at, &error);
         if (status != TN_OK)
             tn_job_fail(job, &error);
         else if (v.count == 0)
             tn_job_note(job, "nothing can be changed by itself: each other value takes the house out of the library");
         tn_job_close(job, &out, status == TN_OK);
-        mpz_clears(v.plan, v.variant, NULL);
+        mpz_clears(v.plan, v.variant, v.cost, v.more, NULL);
     }
     tn_house_clear(&house);
 }
@@ -266,7 +311,8 @@ const tn_command tn_command_vary = {
         "Lists each other value of one choice with which the house stays in its library: of the section, of the "
         "function of a cell, of what is in a face, of a tile. Each line has the number of the house that this makes, "
         "what changes, "
-        "and the difference in floor area, if there is one. All other choices stay as they are where they can; where a "
+        "and the differences in floor area and cost, if there are any. All other choices stay as they are where they "
+        "can; where a "
         "change takes away a "
         "tile or what is in a face, the first that fits takes its place.",
     .example = "$ tartan vary cottage '#10:77' --at 1.body.ground",

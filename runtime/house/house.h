@@ -182,4 +182,7 @@ static inline int64_t tn_opening_from(int64_t ends, int64_t wide)
  * caller frees *rooms. */
 tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
 
+/* The area of the glazed openings to the outside of a room (its lowest cell), in square nanometres. */
+tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room);
+
 #endif
