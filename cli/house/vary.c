@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/change_text.h"
 #include "cli/house/numbered_parts.h"
 #include "runtime/house/schedule/cost.h"
-#include "runtime/house/variant/change.h"
 
 typedef struct vary_settings {
     tn_settings common;
@@ -24,83 +24,6 @@ typedef struct varying {
     mpz_t plan, variant, cost, more; /* of the house, and what a change adds to it, in hundredths */
     size_t count;
 } varying;
-
-static const char *text_of(const varying *v, uint32_t string)
-{
-    return tn_text(v->n->form.module, string);
-}
-
-/* ---- words */
-
-typedef struct change_words {
-    char where[160], from[TN_VARIANT_TEXT], to[TN_VARIANT_TEXT];
-} change_words;
-
-static void name_cell(const varying *v, uint32_t index, char *text, size_t size)
-{
-    const tn_cell *cell = &v->house->cells[index];
-    const tn_house_form *form = &v->n->form;
-    snprintf(text, size, "%u.%s.%s", cell->tray + 1, text_of(v, form->schema->fields[cell->zone].name),
-             text_of(v, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
-}
-
-static void name_face(const varying *v, uint32_t index, char *text, size_t size)
-{
-    static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "above",
-                                        [TN_HOUSE_BACK] = "back",
-                                        [TN_HOUSE_FRONT] = "front",
-                                        [TN_HOUSE_LEFT] = "left",
-                                        [TN_HOUSE_RIGHT] = "right"};
-    const tn_face *face = &v->house->faces[index];
-    char cell[96], other[96];
-    name_cell(v, face->first, cell, sizeof cell);
-    if (face->second == TN_NO_CELL) {
-        snprintf(text, size, "%s, %s", cell, sides[face->side]);
-        return;
-    }
-    name_cell(v, face->second, other, sizeof other);
-    snprintf(text, size, "%s to %s", cell, other);
-}
-
-static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char *text, size_t size)
-{
-    tn_variants tiles;
-    tn_error error;
-    text[0] = '\0';
-    if (tn_tile_variants(house, cell, &tiles, &error) == TN_OK && variant < tiles.count && size >= TN_VARIANT_TEXT)
-        tn_variant_text(house->form, &tiles.variants[variant], text);
-    tn_variants_clear(&tiles);
-}
-
-static void find_words(const varying *v, const tn_house_change *c, change_words *w)
-{
-    const tn_house_form *form = &v->n->form;
-    const tn_choice_record *choice;
-    switch (c->kind) {
-    case TN_CHANGE_SECTION:
-        choice = tn_form_choice(form, c->of);
-        snprintf(w->where, sizeof w->where, "section %s", text_of(v, choice->name));
-        snprintf(w->from, sizeof w->from, "%s",
-                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->from].spelling));
-        snprintf(w->to, sizeof w->to, "%s",
-                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->to].spelling));
-        return;
-    case TN_CHANGE_FUNCTION:
-        name_cell(v, c->of, w->where, sizeof w->where);
-        snprintf(w->from, sizeof w->from, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->from)->name));
-        snprintf(w->to, sizeof w->to, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->to)->name));
-        return;
-    case TN_CHANGE_FACE:
-        name_face(v, c->of, w->where, sizeof w->where);
-        snprintf(w->from, sizeof w->from, "%s", tn_form_kind_text(form, (uint32_t)c->from));
-        snprintf(w->to, sizeof w->to, "%s", tn_form_kind_text(form, (uint32_t)c->to));
-        return;
-    default:
-        name_cell(v, c->of, w->where, sizeof w->where);
-        name_tile(v->house, c->of, c->from, w->from, sizeof w->from);
-        name_tile(v->house, c->of, c->to, w->to, sizeof w->to);
-    }
-}
 
 /* ---- changes */
 
@@ -148,7 +71,7 @@ static void write_money(const varying *v)
 }
 
 /* A JSON object; false where out of memory. */
-static bool write_json(const varying *v, const tn_house_change *change, const change_words *w, double more)
+static bool write_json(const varying *v, const tn_house_change *change, const tn_change_words *w, double more)
 {
     static const char *const kinds[] = {"section", "function", "face", "tile"};
     tn_buffer text = {0};
@@ -172,7 +95,7 @@ static bool write_json(const varying *v, const tn_house_change *change, const ch
     return fine;
 }
 
-static void write_line(const varying *v, const change_words *w, double more)
+static void write_line(const varying *v, const tn_change_words *w, double more)
 {
     gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
     if (more != 0)
@@ -187,7 +110,7 @@ static void write_line(const varying *v, const change_words *w, double more)
 static tn_status write_change(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
 {
     varying *v = context;
-    change_words w;
+    tn_change_words w;
     mpz_set_ui(v->variant, 0);
     tn_status status = tn_house_variants_rank(v->n->variants, changed, v->variant, error);
     if (status == TN_OK)
@@ -195,7 +118,7 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
     if (status != TN_OK)
         return status;
     mpz_sub(v->more, v->more, v->cost);
-    find_words(v, change, &w);
+    tn_change_text(v->house, change, &w);
     double more = square_metres(floor_area(changed) - floor_area(v->house));
     v->count++;
     if (v->json)
@@ -210,14 +133,14 @@ static tn_status find_cell(const varying *v, const char *at, uint32_t *cell, tn_
     char text[96];
     *cell = TN_NO_CELL;
     for (uint32_t i = 0; at && i < v->house->cell_count; i++) {
-        name_cell(v, i, text, sizeof text);
+        tn_cell_text(v->house, i, text, sizeof text);
         if (strcmp(text, at) == 0)
             *cell = i;
     }
     if (!at || *cell != TN_NO_CELL)
         return TN_OK;
     tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--at: the house has no cell `%.60s`", at);
-    name_cell(v, 0, text, sizeof text);
+    tn_cell_text(v->house, 0, text, sizeof text);
     tn_error_help(error, "a cell is TRAY.ZONE.STOREY, such as %s; trays count from 1",
                   v->house->cell_count ? text : "1.body.ground");
     return status;

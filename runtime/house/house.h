@@ -137,7 +137,8 @@ typedef struct tn_variants {
 tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error);
 void tn_variants_clear(tn_variants *variants);
 
-/* Why a tile does not stand: of its sides, turned and mirrored, the one where it comes furthest in this order. */
+/* Why a tile does not stand: of its sides, turned and mirrored, the one where most of its boxes stand,
+ * then the one that is later in this order. */
 typedef enum tn_tile_obstacle {
     TN_TILE_STANDS,
     TN_TILE_NO_SIDE, /* no side that it may stand against */

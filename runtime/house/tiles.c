@@ -282,7 +282,14 @@ bool tn_tile_is_for(const tn_house *house, uint32_t cell, uint32_t tile)
     return !house->cells[cell].open && is_for(house->form, tile, house->cells[cell].function);
 }
 
-/* Turned to each side, plain and mirrored: the failure that comes last in tn_tile_obstacle is kept. */
+/* The failure of the more boxes, or else the later one in tn_tile_obstacle, came further. */
+static bool is_further(const tn_tile_failure *a, const tn_tile_failure *b)
+{
+    bool boxes = a->obstacle >= TN_TILE_BEYOND && b->obstacle >= TN_TILE_BEYOND;
+    return boxes && a->box != b->box ? a->box > b->box : a->obstacle > b->obstacle;
+}
+
+/* Turned to each side, plain and mirrored: the failure that came furthest is kept. */
 static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failure *failure, tn_error *error)
 {
     tn_variants v = {0};
@@ -298,7 +305,7 @@ static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failur
             failure->obstacle = TN_TILE_STANDS;
             break;
         }
-        if (p.failure.obstacle > failure->obstacle)
+        if (is_further(&p.failure, failure))
             *failure = p.failure;
     }
     tn_variants_clear(&v);
