@@ -1,5 +1,5 @@
 /* Finds the order in which faces are painted. */
-#include "runtime/geometry/hidden.h"
+#include "runtime/geometry/hidden/hidden.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/watch.h"
-#include "runtime/geometry/hidden_parts.h"
+#include "runtime/geometry/hidden/hidden_parts.h"
 #include "runtime/geometry/mesh.h"
 
 #define EDGE_ON 1e-7 /* of the square of its longest side: a triangle with less area in the picture is a line */

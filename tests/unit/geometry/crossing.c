@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 
 static uint64_t count(size_t vertices, double *positions, size_t faces, uint32_t *corners)
 {

@@ -2,7 +2,7 @@
 #ifndef TARTAN_GEOMETRY_HIDDEN_PARTS_H
 #define TARTAN_GEOMETRY_HIDDEN_PARTS_H
 
-#include "runtime/geometry/hidden.h"
+#include "runtime/geometry/hidden/hidden.h"
 
 /* Adds what is painted next. */
 tn_status tn_painting_add(tn_painting *painting, tn_patch patch, tn_error *error);

@@ -1,8 +1,10 @@
-/* Writes what a house is made of: everything as JSON, or its rooms as a table. */
-#include "runtime/house/describe.h"
+/* Writes what a house is made of: everything as JSON, its rooms as a table, its parts with their costs as another. */
+#include "runtime/house/schedule/describe.h"
+#include "runtime/house/schedule/cost.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- numbers beyond 64 bits */
 
@@ -181,10 +183,64 @@ static void put_roofs(const tn_solids *solids, tn_buffer *out)
     }
 }
 
+/* ---- parts and what they cost */
+
+/* Appends a text that GMP made, and frees it. */
+static void put_digits(tn_buffer *out, char *digits)
+{
+    tn_buffer_append(out, digits, strlen(digits));
+    free(digits);
+}
+
+static void put_hundredths(tn_buffer *out, const mpz_t hundredths)
+{
+    mpz_t whole;
+    mpz_init(whole);
+    unsigned long rest = mpz_fdiv_q_ui(whole, hundredths, 100);
+    put_digits(out, mpz_get_str(NULL, 10, whole));
+    tn_buffer_printf(out, ".%02lu", rest);
+    mpz_clear(whole);
+}
+
+static void put_part(const tn_house *house, const tn_cost_line *line, tn_buffer *out)
+{
+    const tn_module *module = house->form->module;
+    mpq_t area;
+    mpq_init(area);
+    mpq_set_z(area, line->area);
+    tn_buffer_printf(out, "{\"part\": ");
+    tn_buffer_append_json(out, tn_form_part_text(house->form, line->part));
+    tn_buffer_printf(out, ", \"number\": %zu, \"area\": \"", line->count);
+    put_digits(out, mpq_get_str(NULL, 10, area));
+    tn_buffer_printf(out, "\", \"volume\": \"");
+    put_digits(out, mpq_get_str(NULL, 10, line->volume));
+    tn_buffer_printf(out, "\"");
+    if (line->material != TN_NO_RECORD) {
+        tn_buffer_printf(out, ", \"material\": ");
+        tn_buffer_append_json(out, tn_text(module, module->MATERIAL_records[line->material].name));
+        tn_buffer_printf(out, ", \"cost\": \"");
+        put_hundredths(out, line->hundredths);
+        tn_buffer_printf(out, "\"");
+    }
+    tn_buffer_append(out, "}", 1);
+    mpq_clear(area);
+}
+
+static void put_parts(const tn_house *house, const tn_costs *costs, tn_buffer *out)
+{
+    bool any = false;
+    for (size_t i = 0; i < costs->count; i++)
+        if (costs->lines[i].count > 0) {
+            next_line(out, &any);
+            put_part(house, &costs->lines[i], out);
+        }
+}
+
 tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
 {
     uint32_t *rooms;
     tn_buffer line = {0};
+    tn_costs costs = {0};
     tn_status status = tn_house_rooms(house, &rooms, error);
     if (status != TN_OK)
         return status;
@@ -206,7 +262,18 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
     put_solids(house, solids, out);
     tn_buffer_printf(out, "],\n  \"roofs\": [");
     put_roofs(solids, out);
-    tn_buffer_printf(out, "]\n}\n");
+    if (status == TN_OK)
+        status = tn_house_costs(house, solids, &costs, error);
+    tn_buffer_printf(out, "],\n  \"parts\": [");
+    put_parts(house, &costs, out);
+    tn_buffer_printf(out, "]");
+    if (status == TN_OK && tn_form_has_costs(house->form)) {
+        tn_buffer_printf(out, ",\n  \"cost\": \"");
+        put_hundredths(out, costs.hundredths);
+        tn_buffer_printf(out, "\"");
+    }
+    tn_buffer_printf(out, "\n}\n");
+    tn_costs_clear(&costs);
     free(rooms);
     free(line.data);
     return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
@@ -228,7 +295,7 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
     tn_status status = tn_house_rooms(house, &rooms, error);
     if (status != TN_OK)
         return status;
-    tn_buffer_printf(out, "function,storey,cells,gross_m2,net_m2\r\n");
+    tn_buffer_printf(out, "function,storey,cells,gross_m2,net_m2,glazed_m2\r\n");
     for (uint32_t i = 0; i < house->cell_count; i++) {
         if (rooms[i] != i)
             continue;
@@ -242,8 +309,69 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
         put_square_metres(out, gross);
         tn_buffer_append(out, ",", 1);
         put_square_metres(out, net);
+        tn_buffer_append(out, ",", 1);
+        put_square_metres(out, tn_room_glazing(house, rooms, i));
         tn_buffer_append(out, "\r\n", 2);
     }
     free(rooms);
     return out->failed ? tn_fail_memory(error) : TN_OK;
+}
+
+/* ---- a table of parts */
+
+/* A number over a power of ten, to six places, rounded half up. */
+static void put_millionths(tn_buffer *out, const mpq_t number, unsigned long power)
+{
+    mpz_t top, bottom;
+    mpz_inits(top, bottom, NULL);
+    mpz_ui_pow_ui(bottom, 10, power - 6);
+    mpz_mul(bottom, bottom, mpq_denref(number));
+    mpz_mul_2exp(top, mpq_numref(number), 1);
+    mpz_add(top, top, bottom);
+    mpz_mul_2exp(bottom, bottom, 1);
+    mpz_fdiv_q(top, top, bottom);
+    unsigned long rest = mpz_fdiv_q_ui(top, top, 1000000);
+    put_digits(out, mpz_get_str(NULL, 10, top));
+    tn_buffer_printf(out, ".%06lu", rest);
+    mpz_clears(top, bottom, NULL);
+}
+
+static void put_part_row(const tn_house *house, const tn_cost_line *line, tn_buffer *out)
+{
+    static const char *const units[] = {"each", "sf", "m2", "cf", "m3"};
+    const tn_module *module = house->form->module;
+    mpq_t area;
+    mpq_init(area);
+    mpq_set_z(area, line->area);
+    tn_buffer_printf(out, "%s,%zu,", tn_form_part_text(house->form, line->part), line->count);
+    put_millionths(out, area, 18);
+    tn_buffer_append(out, ",", 1);
+    put_millionths(out, line->volume, 27);
+    if (line->material == TN_NO_RECORD) {
+        tn_buffer_printf(out, ",,,,\r\n");
+    } else {
+        const tn_material_record *material = &module->MATERIAL_records[line->material];
+        tn_buffer_printf(out, ",%s,%" PRId64 ".%06" PRId64 ",%s,", tn_text(module, material->name),
+                         material->price / 1000000, material->price % 1000000, units[material->unit]);
+        put_hundredths(out, line->hundredths);
+        tn_buffer_append(out, "\r\n", 2);
+    }
+    mpq_clear(area);
+}
+
+tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
+{
+    tn_costs costs;
+    tn_status status = tn_house_costs(house, solids, &costs, error);
+    tn_buffer_printf(out, "part,number,area_m2,volume_m3,material,price,per,cost\r\n");
+    for (size_t i = 0; status == TN_OK && i < costs.count; i++)
+        if (costs.lines[i].count > 0)
+            put_part_row(house, &costs.lines[i], out);
+    if (status == TN_OK && tn_form_has_costs(house->form)) {
+        tn_buffer_printf(out, "total,,,,,,,");
+        put_hundredths(out, costs.hundredths);
+        tn_buffer_append(out, "\r\n", 2);
+    }
+    tn_costs_clear(&costs);
+    return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
 }

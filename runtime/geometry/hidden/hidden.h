@@ -8,8 +8,8 @@
  * Costs: comparisons grow with the overlaps in the picture; only faces without an order are cut, which can take the
  * square of their number: where it takes more than TN_PIECE_CORNERS_MAX corners they are painted by their depth.
  */
-#ifndef TARTAN_GEOMETRY_HIDDEN_H
-#define TARTAN_GEOMETRY_HIDDEN_H
+#ifndef TARTAN_GEOMETRY_HIDDEN_HIDDEN_H
+#define TARTAN_GEOMETRY_HIDDEN_HIDDEN_H
 
 #include "runtime/base/watch.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/geometry/hidden_parts.h"
+#include "runtime/geometry/hidden/hidden_parts.h"
 
 #define FLAT 1e-9       /* as near to a plane is on it; the whole scene is about 1 large */
 #define CORNERS_MAX 64u /* of a piece; cutting a triangle makes no more in practice: then it stays as it is */

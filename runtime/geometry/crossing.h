@@ -1,6 +1,6 @@
 /* Triangles of a mesh that cross each other. */
-#ifndef TARTAN_FIELD_CROSSING_H
-#define TARTAN_FIELD_CROSSING_H
+#ifndef TARTAN_GEOMETRY_CROSSING_H
+#define TARTAN_GEOMETRY_CROSSING_H
 
 #include "runtime/geometry/mesh.h"
 

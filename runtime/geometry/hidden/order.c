@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/geometry/hidden_parts.h"
+#include "runtime/geometry/hidden/hidden_parts.h"
 
 #define NONE UINT32_MAX
 

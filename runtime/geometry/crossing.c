@@ -1,5 +1,5 @@
 /* Counts the triangles that cross: pairs are looked for in cubes as large as the largest triangle. */
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -138,13 +138,20 @@ static uint64_t count_in_cube(const tn_mesh *mesh, const box *boxes, const entry
     return crossing;
 }
 
+static double largest_of(tn_vector v)
+{
+    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+}
+
+/* Not so small that the cubes could not be numbered. */
 static double largest_side(const box *boxes, size_t count)
 {
-    double side = 1e-300;
-    for (size_t f = 0; f < count; f++)
-        side = fmax(side, fmax(boxes[f].high.x - boxes[f].low.x,
-                               fmax(boxes[f].high.y - boxes[f].low.y, boxes[f].high.z - boxes[f].low.z)));
-    return side * (1 + 1e-9);
+    double side = 1e-300, reach = 0;
+    for (size_t f = 0; f < count; f++) {
+        side = fmax(side, largest_of(tn_sub(boxes[f].high, boxes[f].low)));
+        reach = fmax(reach, fmax(largest_of(boxes[f].low), largest_of(boxes[f].high)));
+    }
+    return fmax(side * (1 + 1e-9), reach * 0x1p-40);
 }
 
 tn_status tn_mesh_crossings(const tn_mesh *mesh, uint64_t *count, tn_error *error)
