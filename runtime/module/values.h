@@ -249,6 +249,11 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_KIT_COUNTED_MAX 32u
 #define TN_CONDITION_TEST 1u /* of a test, not a requirement */
 #define TN_KIT_MAXIMIZE 1u   /* the objective is to be large */
+#define TN_KIT_BREADTH 2u    /* what was opened first comes next */
+
+/* How a placed model is divided into the steps in which it is built. */
+typedef enum tn_kit_steps { TN_STEPS_PLACED, TN_STEPS_PARTS, TN_STEPS_LAYERS, TN_STEPS_COUNT } tn_kit_steps;
+#define TN_STEP_PARTS_MAX 1000000u
 
 /* How the model of a kit is searched for, and how it repeats itself about the origin. */
 #define TN_SEARCH_MAX 1000000000u /* plans of a beam, rounds of annealing */
