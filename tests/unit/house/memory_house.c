@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/house/export/export.h"
+#include "runtime/house/schedule/describe.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
@@ -89,6 +90,24 @@ static tn_status mesh(tn_error *error)
     return status;
 }
 
+/* JSON and the table of parts, both with costs. */
+static tn_status describe(tn_error *error)
+{
+    tn_buffer text = {0};
+    tn_status status = tn_house_describe(&house, &solids, &text, error);
+    if (status == TN_OK)
+        status = tn_house_parts(&house, &solids, &text, error);
+    free(text.data);
+    return status;
+}
+
+static tn_status tile_fails(tn_error *error)
+{
+    tn_tile_failure failure;
+    return house.form->record->tile_count ? tn_tile_fails(&house, 0, house.form->record->tile_first, &failure, error)
+                                          : TN_OK;
+}
+
 static tn_status write_ifc(tn_error *error)
 {
     return tn_house_write_ifc(&house, &solids, "a hut", sink, error);
@@ -109,6 +128,8 @@ static void test_failing(void **state)
     expect_robust(change);
     expect_robust(build);
     expect_robust(mesh);
+    expect_robust(describe);
+    expect_robust(tile_fails);
     expect_robust(write_ifc);
     expect_robust(write_dxf);
 }
