@@ -26,7 +26,10 @@ void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number)
 
 static bool open_asking(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
 {
-    const tn_questions questions = {plans->library, plans->wheres.items, plans->wheres.count, pattern};
+    const tn_questions questions = {.library = plans->library,
+                                    .wheres = plans->wheres.items,
+                                    .where_count = plans->wheres.count,
+                                    .pattern = pattern};
     bool asks = questions.where_count > 0 || pattern;
     return tn_job_open_asking(job, path, asks ? &questions : NULL);
 }

@@ -48,6 +48,32 @@ static tn_status search(const tn_module *module, tn_error *error)
     return status;
 }
 
+/* Counts inside of the first model's space. */
+static tn_status count_inside(const tn_module *module, tn_error *error)
+{
+    tn_place_rules rules = {0};
+    uint64_t count = 0;
+    tn_status status = tn_place_rules_of_model(module, 0, &rules, error);
+    if (status == TN_OK)
+        status = tn_count_inside(&rules, NULL, 2, 1, NULL, &count, error);
+    if (status == TN_OK)
+        assert_true(count > 0);
+    tn_place_rules_clear(&rules);
+    return status;
+}
+
+/* Divides what was placed into steps. */
+static tn_status divide(const tn_module *module, const tn_placed_measures *measured, tn_placed_model *model,
+                        tn_error *error)
+{
+    tn_placed_steps steps;
+    tn_status status = tn_placed_steps_make(module, measured, true, 1, NULL, model, &steps, error);
+    if (status == TN_OK)
+        assert_true(steps.count > 1);
+    tn_placed_steps_clear(&steps);
+    return status;
+}
+
 /* TN_OK where all was done. */
 static tn_status run(void)
 {
