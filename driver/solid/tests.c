@@ -26,9 +26,9 @@ static uint64_t asked_of(const tn_module *module, const tn_solid_record *record)
 {
     uint64_t asked = 0;
     for (uint32_t i = 0; i < record->asked_count; i++)
-        asked |= tn_solid_asked(module, module->SOLID_MEASURE_records[record->asked_first + i].function);
+        asked |= tn_number_asked(module, module->SOLID_MEASURE_records[record->asked_first + i].function);
     for (uint32_t i = 0; i < record->requirement_count; i++)
-        asked |= tn_solid_asked(module, module->REQUIREMENT_records[record->requirement_first + i].holds);
+        asked |= tn_number_asked(module, module->REQUIREMENT_records[record->requirement_first + i].holds);
     return asked;
 }
 
@@ -74,7 +74,7 @@ static void write_measures(const testing *t)
 /* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
 static void write_found(const testing *t, uint32_t function, char *text, size_t size)
 {
-    uint64_t asked = tn_solid_asked(t->module, function);
+    uint64_t asked = tn_number_asked(t->module, function);
     size_t used = 0;
     text[0] = '\0';
     for (int i = 0; i < TN_SOLID_MEASURED_COUNT && used < size; i++)

@@ -129,8 +129,11 @@ typedef enum tn_fitness_term {
 #define TN_FACE_LINES_MAX 1000u
 #define TN_TILES_MAX 10000u
 #define TN_TILE_BOXES_MAX 1000u
-#define TN_SLOPE_MAX 1000u             /* either number of a slope */
-#define TN_AREA_MAX (INT64_C(1) << 62) /* square micrometres: about 4.6 square kilometres */
+#define TN_MATERIALS_MAX 1000u
+#define TN_PRICE_MAX INT64_C(1000000000000000) /* millionths: a thousand million */
+#define TN_RATIO_MAX 1000u                     /* either number of the glazing of a room to its floor */
+#define TN_SLOPE_MAX 1000u                     /* either number of a slope */
+#define TN_AREA_MAX (INT64_C(1) << 62)         /* square micrometres: about 4.6 square kilometres */
 
 typedef enum tn_choice_kind { TN_CHOICE_PLAIN, TN_CHOICE_STOREYS, TN_CHOICE_ROOF, TN_CHOICE_KIND_COUNT } tn_choice_kind;
 
@@ -193,8 +196,30 @@ typedef enum tn_area_test {
     TN_AREA_TEST_COUNT
 } tn_area_test;
 
+/* What a material may be for; the openings of the form follow, then what stands in rooms, by its first TILE_BOX. */
+typedef enum tn_material_part {
+    TN_OF_WALL,
+    TN_OF_PARTY,
+    TN_OF_PARTITION,
+    TN_OF_POST,
+    TN_OF_DECK,
+    TN_OF_ROOF,
+    TN_OF_COUNT
+} tn_material_part;
+
+/* What a price is for: each part, or so much of its face or of its volume. */
+typedef enum tn_price_unit {
+    TN_PER_EACH,
+    TN_PER_SQUARE_FOOT,
+    TN_PER_SQUARE_METRE,
+    TN_PER_CUBIC_FOOT,
+    TN_PER_CUBIC_METRE,
+    TN_PRICE_UNIT_COUNT
+} tn_price_unit;
+
 /* Flags of openings and of the boxes of tiles. */
 #define TN_PASSAGE 1u
+#define TN_GLAZED 2u
 #define TN_TILE_KEEP 1u
 #define TN_TILE_X_FROM_RIGHT 2u
 #define TN_TILE_X_TO_RIGHT 4u

@@ -2,7 +2,7 @@
  * bits; and the mesh of any field is closed and manifold, and no triangles cross. */
 #include <math.h>
 
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 #include "runtime/geometry/measure.h"
 #include "tests/support/openmesh_takes.h"
 #include "tests/unit/field/support.h"

@@ -11,7 +11,7 @@
 
 #include "driver/open/open.h"
 #include "runtime/place/count/count.h"
-#include "runtime/place/measure.h"
+#include "runtime/place/steps.h"
 #include "runtime/place/search/search.h"
 #include "tests/support/failing_memory.h"
 
@@ -101,6 +101,10 @@ static tn_status run(void)
             tn_count_buildings(&(tn_place_rules){.module = opened.module}, NULL, 2, false, 1, NULL, &counts, &error);
     if (status == TN_OK)
         assert_true(counts.buildings > 0 && counts.buildings < counts.fixed);
+    if (status == TN_OK)
+        status = count_inside(opened.module, &error);
+    if (status == TN_OK)
+        status = divide(opened.module, &measured, &model, &error);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&model);
     tn_place_rules_clear(&rules);
