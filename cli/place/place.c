@@ -216,7 +216,7 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
     TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
-    TEXT("fitness", 0, "EXPRESSION", fitness,
+    TEXT("fitness", 0, "EXPR", fitness,
          "of a connection grammar: take the alternative for which this is at least 1, or largest: `elements <= 30`"),
     TEXT("steps", 0, "STEPS", steps,
          "of a kit: the steps in which the model is built: part, layer, or how many parts a step has"),
@@ -242,7 +242,7 @@ static const tn_option options[] = {
 const tn_command tn_command_place = {
     .name = "place",
     .summary = "place parts by a connection grammar or a kit",
-    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--fitness EXPRESSION] [--stats [json]] [--program FILE]\nFILE.kit "
+    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--fitness EXPR] [--stats [json]] [--program FILE]\nFILE.kit "
              "[--model NAME] [-o "
              "OUT]... [--steps part|layer|N] [--sheet]\n"
              "FILE --trace",
