@@ -242,10 +242,11 @@ static const tn_option options[] = {
 const tn_command tn_command_place = {
     .name = "place",
     .summary = "place parts by a connection grammar or a kit",
-    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--fitness EXPR] [--stats [json]] [--program FILE]\nFILE.kit "
-             "[--model NAME] [-o "
-             "OUT]... [--steps part|layer|N] [--sheet]\n"
-             "FILE --trace",
+    .usage =
+        "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.pcfg... --fitness EXPR\nFILE.kit "
+        "[--model NAME] [-o "
+        "OUT]... [--steps part|layer|N] [--sheet]\n"
+        "FILE --trace",
     .description =
         "Derives a model from a connection grammar and writes it. The files are one grammar together, in the order "
         "given, and the first rule's symbol is expanded: its alternatives are tried in their order, and the first that "
