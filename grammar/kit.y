@@ -54,6 +54,7 @@ static const tn_kit_nodes no_nodes = {0};
 %token PRICE "`price`" IN "`in`" WITH "`with`" STOP "`stop`" TURN "`turn`" INSIDE "`inside`" START "`start`" BY "`by`"
 %token COLOUR "`colour`" REQUIRE "`require`" COUNT "`count`" X "`x`"
 %token MINIMIZE "`minimize`" MAXIMIZE "`maximize`" SEARCH "`search`" SYMMETRY "`symmetry`" STOCK "`stock`"
+%token ASKED "a question"
 %token ORDER "`order`" STEPS "`steps`" REPEAT "`repeat`"
 %token COMMA "`,`" END "`;`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`" BAR "`|`"
 %token EQUALS "`=`" PLUS "`+`" MINUS "`-`" STAR "`*`" SLASH "`/`"
@@ -77,25 +78,30 @@ static const tn_kit_nodes no_nodes = {0};
 %%
 
 file
+    : statements
+    | ASKED conditions                      { tn_kit_add(parse, node(parse, TN_KIT_TEST, @2, no_text, $2)); }
+    ;
+
+statements
     : %empty
-    | file USE STRING END                   { tn_kit_add_use(parse, $3); }
-    | file statement END                    { tn_kit_add(parse, $2); }
-    | file PART part_name doc OPEN_BRACE features CLOSE_BRACE
+    | statements USE STRING END                   { tn_kit_add_use(parse, $3); }
+    | statements statement END                    { tn_kit_add(parse, $2); }
+    | statements PART part_name doc OPEN_BRACE features CLOSE_BRACE
                                             { tn_kit_node *n = node(parse, TN_KIT_PART, tn_span_join(@2, @7), $3, $6);
                                               if (n) n->doc = $4;
                                               tn_kit_add(parse, n); yyerrok; }
-    | file MODEL NAME doc OPEN_BRACE lines CLOSE_BRACE
+    | statements MODEL NAME doc OPEN_BRACE lines CLOSE_BRACE
                                             { tn_kit_node *n = node(parse, TN_KIT_MODEL, tn_span_join(@2, @7), $3, $6);
                                               if (n) n->doc = $4;
                                               tn_kit_add(parse, n); yyerrok; }
-    | file TEST NAME OPEN_BRACE EXPECT conditions END CLOSE_BRACE
+    | statements TEST NAME OPEN_BRACE EXPECT conditions END CLOSE_BRACE
                                             { tn_kit_add(parse, node(parse, TN_KIT_TEST, tn_span_join(@2, @8), $3, $6)); }
-    | file PART part_name doc OPEN_BRACE features error CLOSE_BRACE
+    | statements PART part_name doc OPEN_BRACE features error CLOSE_BRACE
                                             { yyerrok; tn_kit_lost(parse); }
-    | file MODEL NAME doc OPEN_BRACE lines error CLOSE_BRACE
+    | statements MODEL NAME doc OPEN_BRACE lines error CLOSE_BRACE
                                             { yyerrok; tn_kit_lost(parse); }
-    | file error END                        { yyerrok; tn_kit_lost(parse); }
-    | file error CLOSE_BRACE                { yyerrok; tn_kit_lost(parse); }
+    | statements error END                        { yyerrok; tn_kit_lost(parse); }
+    | statements error CLOSE_BRACE                { yyerrok; tn_kit_lost(parse); }
     ;
 
 doc
@@ -405,7 +411,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before)));
+                           (size_t)count, parse->asks ? "write conditions, as `components = 1, count(3005) <= 30`" : likely_fix(found, YYTRANSLATE(parse->token_before)));
     return 0;
 }
 
@@ -416,11 +422,11 @@ static void tn_kit_error(const tn_span *span, tn_growth_parse *parse, void *scan
     tn_report(parse->diagnostics, E_TOO_DEEP, *span, "the file cannot be read further");
 }
 
-tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
+static tn_kit_file *parse_text(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens, bool asks)
 {
     tn_kit_file *result = TN_NEW(arena, tn_kit_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
+    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens, .asks = asks};
     if (!result)
         return NULL;
     if (!tn_growth_readable(&parse)) {
@@ -434,4 +440,14 @@ tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t
     tn_kit_lexer_free(scanner);
     result->damaged |= outcome != 0;
     return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
+}
+
+tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens)
+{
+    return parse_text(arena, diagnostics, file, tokens, false);
+}
+
+tn_kit_file *tn_parse_kit_conditions(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file)
+{
+    return parse_text(arena, diagnostics, file, NULL, true);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/common/interrupt.h"
+#include "driver/place/kit.h"
 #include "runtime/place/count/count.h"
 #include "runtime/place/joints.h"
 
@@ -41,7 +42,9 @@ static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted
 static void write_counts(const tn_count_kit_options *options, const tn_building_counts *counts, FILE *out)
 {
     uint64_t parts = options->parts.value;
-    if (options->json && options->fixed)
+    if (options->json && options->inside)
+        fprintf(out, "{\"parts\":%" PRIu64 ",\"inside\":%" PRIu64 "}\n", parts, counts->fixed);
+    else if (options->json && options->fixed)
         fprintf(out, "{\"parts\":%" PRIu64 ",\"fixed\":%" PRIu64 "}\n", parts, counts->fixed);
     else if (options->json)
         fprintf(out,
@@ -49,7 +52,25 @@ static void write_counts(const tn_count_kit_options *options, const tn_building_
                 ",\"quarter_turn\":%" PRIu64 "}\n",
                 parts, counts->buildings, counts->fixed, counts->half, counts->quarter);
     else
-        fprintf(out, "%" PRIu64 "\n", options->fixed ? counts->fixed : counts->buildings);
+        fprintf(out, "%" PRIu64 "\n", options->fixed || options->inside ? counts->fixed : counts->buildings);
+}
+
+/* Which parts lie on the lattice, the model that is named says. */
+static tn_status count_inside(tn_job *job, const tn_count_kit_options *options, const bool *wanted, uint64_t *count,
+                              tn_error *error)
+{
+    tn_place_rules rules;
+    uint32_t model;
+    tn_status status = tn_kit_choose(&job->opened, options->inside, &model);
+    tn_job_status(job, status);
+    if (status != TN_OK)
+        return TN_STOPPED; /* has been said */
+    status = tn_place_rules_of_model(job->opened.module, model, &rules, error);
+    if (status == TN_OK)
+        status = tn_count_inside(&rules, wanted, (uint32_t)options->parts.value, options->threads,
+                                 tn_interrupt_waiting(), count, error);
+    tn_place_rules_clear(&rules);
+    return status;
 }
 
 static bool has_parts(tn_job *job)
@@ -75,10 +96,22 @@ void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const ch
         tn_help(tn_job_diagnostics(job), d, "say how many: --parts 3");
         return;
     }
+    if (options->inside && options->fixed) {
+        tn_job_usage(job,
+                     "--fixed and --inside do not go together: inside of a space each building counts where it stands");
+        return;
+    }
     if (has_parts(job) && choose_parts(job, &options->kinds, &wanted)) {
         tn_job_show(job);
-        tn_status status = tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
-                                              options->threads, tn_interrupt_waiting(), &counts, &error);
+        size_t said = tn_job_diagnostics(job)->count;
+        tn_status status = options->inside
+                               ? count_inside(job, options, wanted, &counts.fixed, &error)
+                               : tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
+                                                    options->threads, tn_interrupt_waiting(), &counts, &error);
+        if (tn_job_diagnostics(job)->count > said) {
+            free(wanted);
+            return;
+        }
         if (status != TN_OK) {
             tn_job_fail(job, &error);
         } else if (tn_job_output(job, path, &output)) {

@@ -8,6 +8,7 @@ typedef struct tn_count_kit_options {
     tn_option_number parts;
     tn_option_list kinds; /* parts by name; none: all of the kit */
     unsigned threads;     /* 0: all processors */
+    const char *inside;   /* a model of the kit, or NULL */
     bool fixed, json;
 } tn_count_kit_options;
 

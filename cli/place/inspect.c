@@ -6,13 +6,13 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/place.h"
-#include "driver/place/kit.h"
+#include "driver/place/asked.h"
 #include "driver/place/shape.h"
 #include "runtime/place/read.h"
 
 typedef struct inspect_settings {
     tn_settings common;
-    const char *kit, *model, *output;
+    const char *kit, *model, *output, *require;
     bool json;
 } inspect_settings;
 
@@ -23,6 +23,7 @@ typedef struct inspection {
     tn_ldraw ldraw;
     tn_placed_measures measures;
     uint32_t chosen; /* model of the kit whose conditions it is held to */
+    tn_opened asked; /* --require */
 } inspection;
 
 /* ---- what is written */
@@ -148,6 +149,27 @@ static tn_status read_model(inspection *n, tn_error *error)
     return status;
 }
 
+/* Reads --require before the model is read. */
+static bool ask(inspection *n)
+{
+    const tn_module *module = n->module;
+    tn_error error;
+    const char **parts = calloc((size_t)module->KIT_PART_count + 1, sizeof *parts);
+    if (!parts) {
+        tn_fail_memory(&error);
+        tn_job_fail(n->job, &error);
+        return false;
+    }
+    for (uint32_t i = 0; i < module->KIT_PART_count; i++)
+        parts[i] = tn_text(module, module->KIT_PART_records[i].name);
+    tn_status status = tn_kit_ask("--require", n->settings->require, parts, module->KIT_PART_count, &n->asked);
+    free(parts);
+    if (status != TN_OK)
+        tn_kit_ask_failed(&n->job->opened, &n->asked);
+    tn_job_status(n->job, status);
+    return status == TN_OK;
+}
+
 static void inspect(inspection *n)
 {
     const tn_kit_model_record *space = NULL;
@@ -165,6 +187,8 @@ static void inspect(inspection *n)
             return;
         space = &n->module->KIT_MODEL_records[n->chosen];
     }
+    if (n->settings->require && !ask(n))
+        return;
     tn_status status = read_model(n, &error);
     if (status == TN_OK)
         status = tn_placed_measure(n->module, space, &n->ldraw.model, tn_interrupt_waiting(), &n->measures, &error);
@@ -174,6 +198,8 @@ static void inspect(inspection *n)
     }
     say(n);
     write_findings(n);
+    if (n->settings->require)
+        tn_job_status(n->job, tn_kit_hold(&n->job->opened, &n->asked, &n->ldraw.model, &n->measures));
     if (space)
         tn_job_status(n->job, tn_kit_conditions(&n->job->opened, n->chosen, &n->measures, false, NULL, &tally));
 }
@@ -191,6 +217,7 @@ static int run(const tn_command *command, const tn_settings *common)
         inspect(&n);
     tn_placed_measures_clear(&n.measures);
     tn_ldraw_clear(&n.ldraw);
+    tn_close(&n.asked);
     return tn_job_end(&job);
 }
 
@@ -199,6 +226,8 @@ static const tn_option options[] = {
     TEXT("kit", 'k', "FILE", kit,
          "the kit that knows the parts: a .kit file, a module, or one of the standard library"),
     TEXT("model", 'm', "NAME", model, "hold it to what this model of the kit requires; its space is what `fill` is of"),
+    TEXT("require", 'r', "CONDITIONS", require,
+         "conditions as in a kit, `components = 1, floating = 0`: exit code 1 where one fails"),
     TEXT("output", 'o', "FILE", output, "draw it, by the file's ending .svg, .png or .pdf: red parts overlap or float"),
     FLAG("json", 0, json, "write JSON, with the parts that there is something to say about"),
     OPTION_WERROR,
@@ -207,13 +236,15 @@ static const tn_option options[] = {
 const tn_command tn_command_inspect = {
     .name = "inspect",
     .summary = "say what is wrong with a model of parts",
-    .usage = "MODEL.ldr --kit KIT [--model NAME] [-o FILE.svg|png|pdf]\nMODEL.mpd --kit KIT --json",
+    .usage =
+        "MODEL.ldr --kit KIT [--model NAME] [--require CONDITIONS] [-o FILE.svg|png|pdf]\nMODEL.mpd --kit KIT --json",
     .description =
         "Reads a model from an LDraw file, whoever made it, and measures it with the parts of a kit: pieces, joints "
         "and "
         "open connectors, parts that float or overlap, parts without which it falls apart, size, mass, price, balance. "
         "Sub-files are put in their places; parts that the kit lacks are named.\n\n"
-        "With --model the exit code is 1 where the model does not meet what that model of the kit requires.",
+        "With --model the exit code is 1 where the model does not meet what that model of the kit requires, with "
+        "--require where it does not meet the conditions given.",
     .example = "$ tartan inspect wall.ldr --kit bricks -o wall.svg",
     .options = options,
     .option_count = OPTION_COUNT(options),

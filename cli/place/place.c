@@ -36,6 +36,8 @@ static bool check_options(tn_job *job)
     else if (s->steps && !tn_place_read_steps(s->steps, &layers, &parts))
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--steps cannot be %.100s", s->steps),
                 "write `--steps part`, `--steps layer`, or how many parts a step has: `--steps 5`");
+    else if (s->fitness && s->trace)
+        tn_job_usage(job, "--trace shows what does not fit, and --fitness chooses by value: leave one out");
     else if (s->sheet && !picture)
         tn_job_usage(job, "--sheet is of a picture: name one with -o");
     else if (s->keep_partial && s->outputs.count == 0 && !s->program)
@@ -53,6 +55,30 @@ static void report(void *context, const tn_place_event *event)
     tn_place_trace(p->job, &p->rules, event, stdout);
 }
 
+static double value_of(void *context, const tn_placed_model *model, const char *const *ahead, size_t ahead_count)
+{
+    return tn_place_fitness_value(&((placing *)context)->fitness, model, ahead, ahead_count);
+}
+
+/* --fitness, before the run. */
+static bool make_fitness(placing *p)
+{
+    const char *text = p->settings->fitness;
+    if (!text)
+        return true;
+    if (p->rules.space) {
+        tn_help(tn_job_diagnostics(p->job), tn_job_usage(p->job, "--fitness is of connection grammars"),
+                "what is better of two models of a kit, the model says: `minimize elements;`");
+        return false;
+    }
+    tn_status status = tn_place_fitness_make(&p->rules, text, &p->fitness);
+    if (status == TN_OK)
+        return true;
+    tn_kit_ask_failed(&p->job->opened, &p->fitness.asked);
+    tn_job_status(p->job, status);
+    return false;
+}
+
 static tn_place_options options_of(placing *p)
 {
     const place_settings *s = p->settings;
@@ -66,6 +92,7 @@ static tn_place_options options_of(placing *p)
                               .keep_steps = s->program != NULL,
                               .keep_filled = s->trace,
                               .interpret = s->engine == 1,
+                              .value = s->fitness ? value_of : NULL,
                               .watch = p->watch,
                               .report = s->trace ? report : NULL,
                               .context = p};
@@ -144,7 +171,7 @@ static void run_placing(placing *p)
         tn_job_fail(p->job, &error);
         return;
     }
-    if (!check_search(p))
+    if (!check_search(p) || !make_fitness(p))
         return;
     tn_place_options options = options_of(p);
     tn_job_show(p->job);
@@ -174,6 +201,7 @@ static int run(const tn_command *command, const tn_settings *common)
         run_placing(&p);
     tn_placed_steps_clear(&p.steps);
     tn_placed_model_clear(&p.model);
+    tn_place_fitness_clear(&p.fitness);
     tn_place_rules_clear(&p.rules);
     return tn_job_end(&job);
 }
@@ -188,6 +216,8 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
     TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
+    TEXT("fitness", 0, "EXPR", fitness,
+         "of a connection grammar: take the alternative for which this is at least 1, or largest: `elements <= 30`"),
     TEXT("steps", 0, "STEPS", steps,
          "of a kit: the steps in which the model is built: part, layer, or how many parts a step has"),
     FLAG("sheet", 0, sheet, "of a kit: draw a picture for each step, side by side"),
@@ -212,9 +242,11 @@ static const tn_option options[] = {
 const tn_command tn_command_place = {
     .name = "place",
     .summary = "place parts by a connection grammar or a kit",
-    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.kit [--model NAME] [-o "
-             "OUT]... [--steps part|layer|N] [--sheet]\n"
-             "FILE --trace",
+    .usage =
+        "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.pcfg... --fitness EXPR\nFILE.kit "
+        "[--model NAME] [-o "
+        "OUT]... [--steps part|layer|N] [--sheet]\n"
+        "FILE --trace",
     .description =
         "Derives a model from a connection grammar and writes it. The files are one grammar together, in the order "
         "given, and the first rule's symbol is expanded: its alternatives are tried in their order, and the first that "

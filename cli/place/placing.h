@@ -4,11 +4,12 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/place/place.h"
+#include "driver/place/asked.h"
 
 typedef struct place_settings {
     tn_settings common;
     tn_option_list outputs;
-    const char *program, *model, *steps;
+    const char *program, *model, *steps, *fitness;
     tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, search_limit, threads;
     int stats, engine;
     bool trace, header, keep_partial, sheet;
@@ -23,6 +24,7 @@ typedef struct placing {
     tn_placed_model model;
     uint32_t chosen; /* model of a kit */
     tn_placed_steps steps;
+    tn_place_fitness fitness;
     bool has_steps;  /* they were asked for, and the parts are in their order */
     tn_watch *watch; /* NULL once an interrupt was answered */
 } placing;

@@ -353,7 +353,11 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
 static bool asks_kit(tn_job *job, const count_settings *settings)
 {
     const tn_count_kit_options *kit = &settings->kit;
-    const char *option = kit->parts.given ? "parts" : kit->fixed ? "fixed" : kit->kinds.count ? "part" : NULL;
+    const char *option = kit->parts.given   ? "parts"
+                         : kit->fixed       ? "fixed"
+                         : kit->inside      ? "inside"
+                         : kit->kinds.count ? "part"
+                                            : NULL;
     if (option)
         tn_job_usage(job, "--%s is about a kit, and %.200s is none", option, settings->common.operands.items[0]);
     return option != NULL;
@@ -426,6 +430,8 @@ static const tn_option options[] = {
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     NUMBER("parts", 0, "N", kit.parts, 1, 32, "of a kit: count the buildings of N parts"),
     LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),
+    TEXT("inside", 0, "MODEL", kit.inside,
+         "of a kit: count those inside of the space of this model, each where it stands"),
     FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn"),
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
@@ -438,7 +444,7 @@ const tn_command tn_command_count = {
     .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
              "[--json | -o HISTOGRAM.svg]\n"
              "FILE --library HOUSES [--plan PLAN] [--json]\n"
-             "FILE.kit --parts N [--part NAME]... [--fixed] [--json]",
+             "FILE.kit --parts N [--part NAME]... [--fixed | --inside MODEL] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
         "each pruning rule it counts the generated plans that the rule prunes; for each requirement, the plans of "
@@ -454,7 +460,8 @@ const tn_command tn_command_count = {
         "and functions, those with openings, and the houses. They are counted plan by plan; --plan counts those of one "
         "plan.\n\n"
         "For a kit (docs/kit-language.md) it counts buildings: sets of N parts that hang together by their connectors. "
-        "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart.",
+        "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart. "
+        "--inside counts those in the space of a model of the kit, each where it stands.",
     .example = "$ tartan count lahave-houses --json",
     .options = options,
     .option_count = OPTION_COUNT(options),

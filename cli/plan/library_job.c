@@ -60,7 +60,10 @@ bool tn_job_range(tn_job *job, const tn_library *library, const char *from, cons
 
 static bool open_asking(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
 {
-    const tn_questions questions = {plans->library, plans->wheres.items, plans->wheres.count, pattern};
+    const tn_questions questions = {.library = plans->library,
+                                    .wheres = plans->wheres.items,
+                                    .where_count = plans->wheres.count,
+                                    .pattern = pattern};
     bool asks = questions.where_count > 0 || pattern;
     return tn_job_open_asking(job, path, asks ? &questions : NULL);
 }

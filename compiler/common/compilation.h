@@ -12,13 +12,15 @@ typedef struct tn_questions {
     const char *library;       /* the library that is asked about; NULL: the only one */
     const char *const *wheres; /* expressions: further requirements, called where@1 and so on */
     size_t where_count;
-    const char *pattern; /* an open plan, or NULL: its trays become functions of the module */
+    const char *pattern;      /* an open plan, or NULL: its trays become functions of the module */
+    const char *const *parts; /* of a kit, or NULL: the text is a list of conditions, which may count these parts */
+    size_t part_count;
 } tn_questions;
 
 typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
     bool warnings_are_errors;
-    const tn_questions *questions; /* of a .plan file, or NULL */
+    const tn_questions *questions; /* of a .plan file, or about parts; or NULL */
     /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins).
      */
     const tn_input *more;

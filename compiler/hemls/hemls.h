@@ -104,6 +104,7 @@ typedef struct tn_growth_parse {
     int last_token, token_before;
     const char *meant; /* what an unknown word was probably meant to be, or NULL */
     bool evolves;      /* the last unknown word is a setting of an evolution */
+    bool asks;         /* of a .kit text: it is conditions alone */
     bool reported;     /* the line at hand was complained of already */
     void *result;      /* tn_hemls_file or tn_study_file */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */

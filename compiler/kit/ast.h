@@ -109,6 +109,9 @@ typedef struct tn_kit_file {
  * where that is not NULL. */
 tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
+/* The same for conditions alone, which become a test without a name. */
+tn_kit_file *tn_parse_kit_conditions(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
+
 void *tn_kit_lexer_new(tn_growth_parse *parse);
 void tn_kit_lexer_free(void *scanner);
 

@@ -40,11 +40,34 @@ static tn_status emit(tn_compilation *c, const tn_imports *imports, tn_kit *kit,
                    : TN_MEMORY;
 }
 
+/* Conditions alone, about parts that are named. */
+static tn_status compile_conditions(tn_compilation *c, const tn_questions *questions, tn_error *error)
+{
+    tn_kit kit = {.arena = c->arena, .diagnostics = &c->diagnostics, .parts.arena = c->arena};
+    tn_kit_file *file = tn_parse_kit_conditions(c->arena, &c->diagnostics, 0);
+    tn_unit unit = {.file = 0, .recorded = c->sources.files[0].path, .tree = file}, *units[] = {&unit};
+    const tn_imports imports = {units, 1};
+    for (size_t i = 0; i < questions->part_count; i++)
+        if (!tn_names_get(&kit.parts, questions->parts[i]))
+            tn_names_put(&kit.parts, questions->parts[i], (void *)(uintptr_t)questions->parts[i]);
+    if (file && file->first)
+        tn_kit_check_conditions(&kit, file->first);
+    if (!file || tn_arena_failed(c->arena) || c->diagnostics.failed)
+        return tn_fail_memory(error);
+    if (file->damaged || !file->first || c->diagnostics.error_count > 0)
+        return TN_INVALID;
+    tn_builder *builder = tn_compilation_begin(c, &imports, error);
+    return builder ? tn_compilation_finish(c, builder, tn_emit_kit_conditions(builder, &kit, file->first, error), error)
+                   : TN_MEMORY;
+}
+
 static tn_status compile(tn_compilation *c, const tn_compile_options *options, tn_error *error)
 {
     tn_imports imports;
     tn_diagnostics *diagnostics = &c->diagnostics;
     tn_kit kit = {.arena = c->arena, .diagnostics = diagnostics};
+    if (options->questions && options->questions->parts)
+        return compile_conditions(c, options->questions, error);
     tn_status status = tn_import_all(c, options, kit_files, parse_unit, &imports);
     bool right = status == TN_OK && tn_check_kit(&kit, &imports);
     if (status != TN_OK || tn_arena_failed(c->arena) || diagnostics->failed)

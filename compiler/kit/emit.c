@@ -481,3 +481,22 @@ tn_status tn_emit_kit(tn_builder *builder, tn_kit *kit, const tn_kit_file *file,
     tn_formula_clear(&e.formula);
     return tn_arena_failed(kit->arena) ? tn_fail_memory(error) : e.status;
 }
+
+tn_status tn_emit_kit_conditions(tn_builder *builder, tn_kit *kit, const tn_kit_node *conditions, tn_error *error)
+{
+    emitting e = {.kit = kit, .builder = builder, .error = error, .status = TN_OK};
+    tn_span at = conditions->span;
+    for (const tn_kit_node *one = conditions->inner.first; one; one = one->next) {
+        add_place(&e, one->span);
+        emit_function(&e, one->expression);
+    }
+    emit_records(&e, (tn_kit_record){.name = tn_builder_string(builder, "conditions"),
+                                     .unit_x = 1,
+                                     .unit_y = 1,
+                                     .unit_z = 1,
+                                     .file = at.file,
+                                     .begin = at.begin,
+                                     .end = at.end});
+    tn_formula_clear(&e.formula);
+    return tn_arena_failed(kit->arena) ? tn_fail_memory(error) : e.status;
+}

@@ -156,6 +156,9 @@ bool tn_kit_rule_takes(const tn_kit_rule *rule, const tn_kit_type *type);
 tn_status tn_emit_kit(tn_builder *builder, tn_kit *kit, const tn_kit_file *file, const char *name, size_t length,
                       tn_error *error);
 
+/* Conditions alone: a kit without parts and models, and a function for each, whose place is that of its code. */
+tn_status tn_emit_kit_conditions(tn_builder *builder, tn_kit *kit, const tn_kit_node *conditions, tn_error *error);
+
 void tn_format_kit(tn_format *format);
 void tn_kit_list(tn_listing *listing);
 

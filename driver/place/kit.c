@@ -68,32 +68,38 @@ static void write_found(const tn_module *module, uint32_t function, const tn_pla
     }
 }
 
+bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition, const char *who,
+                  const tn_placed_measures *measured, const char *help)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    char found[300];
+    if (tn_kit_condition_holds(module, condition->holds, measured))
+        return true;
+    write_found(module, condition->holds, measured, found, sizeof found);
+    tn_diagnostic *d = tn_report(list, E_PLACE_CONDITION, (tn_span){condition->file, condition->begin, condition->end},
+                                 "%s does not meet this: %s", who, found);
+    if (help)
+        tn_help(list, d, "%s", help);
+    return false;
+}
+
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
                             const char *help, tn_kit_tally *tally)
 {
     const tn_module *module = opened->module;
     const tn_kit_model_record *record = &module->KIT_MODEL_records[model];
-    tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_status status = TN_OK;
+    size_t before = tally->failed;
+    char who[140];
+    snprintf(who, sizeof who, "model %.100s", tn_text(module, record->name));
     for (uint32_t i = 0; i < record->condition_count; i++) {
         const tn_kit_condition_record *condition = &module->KIT_CONDITION_records[record->condition_first + i];
-        char found[300];
         if (condition->flags & TN_CONDITION_TEST && !tests)
             continue;
-        if (tn_kit_condition_holds(module, condition->holds, measured)) {
-            tally->passed++;
-            continue;
-        }
-        tally->failed++;
-        status = TN_INVALID;
-        write_found(module, condition->holds, measured, found, sizeof found);
-        tn_diagnostic *d =
-            tn_report(list, E_PLACE_CONDITION, (tn_span){condition->file, condition->begin, condition->end},
-                      "model %.100s does not meet this: %s", tn_text(module, record->name), found);
-        if (help)
-            tn_help(list, d, "%s", help);
+        bool holds = tn_kit_holds(opened, module, condition, who, measured, help);
+        tally->passed += holds;
+        tally->failed += !holds;
     }
-    return status;
+    return tally->failed > before ? TN_INVALID : TN_OK;
 }
 
 static tn_status test_model(tn_opened *opened, uint32_t model, tn_watch *watch, tn_kit_tally *tally)

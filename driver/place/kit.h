@@ -23,6 +23,11 @@ typedef struct tn_kit_tally {
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
                             const char *help, tn_kit_tally *tally);
 
+/* Does a condition of a module hold? Where not, that is added to the diagnostics of `opened` (E1316) of `who`, with
+ * what was found. */
+bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition, const char *who,
+                  const tn_placed_measures *measured, const char *help);
+
 /* Places every model of a kit, seed 0, and holds each to its requirements and tests. */
 tn_status tn_kit_tests_run(tn_opened *opened, tn_watch *watch, tn_kit_tally *tally);
 

@@ -49,6 +49,8 @@ typedef struct derivation {
     cursor_stack pending, ahead;
     filled_boxes boxes;
     refusal refused;
+    const char **ahead_parts; /* placed by the lookahead at hand, where alternatives have values */
+    size_t ahead_count, ahead_capacity;
     uint64_t idle; /* expansions since the last step */
     tn_placed_model *model;
     tn_place_fault *fault;

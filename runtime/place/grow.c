@@ -105,11 +105,43 @@ static tn_status try_one(derivation *d, uint32_t *next, bool *fits, uint32_t *ch
     return status;
 }
 
+static tn_status no_value(derivation *d, const tn_place_symbol *symbol)
+{
+    tn_fail(d->error, TN_INVALID, E_PLACE_VALUE, "no alternative of %.100s has a fitness of 0 or more", symbol->name);
+    tn_error_help(d->error, "the largest is taken where none reaches 1; a comparison is 1 or 0, as `elements <= 30`");
+    return TN_INVALID;
+}
+
+/* By value: the first of at least 1, else the largest, the last of equals, as in the published program. */
+static tn_status choose_best(derivation *d, const tn_place_symbol *symbol, uint32_t *chosen)
+{
+    double best = 0;
+    bool found = false, best_fits = false;
+    for (uint32_t i = symbol->first; i < symbol->first + symbol->count && !(found && best >= 1); i++) {
+        bool fits;
+        d->model->counts.tries++;
+        tn_status status = tn_look_ahead(d, i, &fits);
+        if (status != TN_OK)
+            return status;
+        double value = fits ? d->options.value(d->options.context, d->model, d->ahead_parts, d->ahead_count) : 0;
+        if (!(value >= best))
+            continue;
+        found = true;
+        best = value;
+        best_fits = fits;
+        *chosen = i;
+    }
+    d->model->counts.fallbacks += found && !best_fits;
+    return found ? TN_OK : no_value(d, symbol);
+}
+
 /* The first alternative that fits, else the last. */
 static tn_status choose(derivation *d, const tn_place_symbol *symbol, uint32_t *chosen)
 {
     bool fits = false;
     uint32_t end = symbol->first + symbol->count;
+    if (d->options.value)
+        return choose_best(d, symbol, chosen);
     if (tn_nothing_fits(d, symbol)) { /* they were all tried at once */
         d->model->counts.tries += symbol->count;
         *chosen = end - 1;
@@ -322,6 +354,7 @@ tn_status tn_place_derive(const tn_place_rules *rules, const tn_place_options *o
     free(d.pending.items);
     free(d.ahead.items);
     free(d.boxes.items);
+    free(d.ahead_parts);
     return status;
 }
 

@@ -69,7 +69,10 @@ typedef struct tn_place_options {
     bool keep_steps;
     bool keep_filled; /* to say what is in the way */
     bool interpret;   /* run every lookahead step by step rather than as tests that were worked out once */
-    tn_watch *watch;  /* borrowed, or NULL: the work gives up (TN_STOPPED) once this says so */
+    /* How good an alternative is, after whose lookahead the model would have these parts more; NULL: 1 where it fits.
+     * The first of at least 1 is taken, else the best, the last of equals; what does not fit is worth 0. */
+    double (*value)(void *context, const tn_placed_model *model, const char *const *ahead, size_t ahead_count);
+    tn_watch *watch; /* borrowed, or NULL: the work gives up (TN_STOPPED) once this says so */
     void *context;
     void (*report)(void *context,
                    const tn_place_event *event); /* of every alternative; lookaheads are run step by step */

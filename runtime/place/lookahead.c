@@ -1,6 +1,8 @@
 /* Looking ahead: does an alternative fit? Each symbol in it is replaced by its last alternative. */
 #include "runtime/place/derivation.h"
 
+#include "runtime/base/array.h"
+
 /* The frame at hand of a lookahead: one of its own, or the derivation's. `kept` counts the derivation's frames that it
  * did not drop. NULL where the last was dropped. */
 static tn_frame *trial_frame(derivation *d, size_t kept)
@@ -33,6 +35,13 @@ static tn_status try_step(derivation *d, uint32_t index, uint32_t alternative, s
             d->refused = (refusal){index, box};
         return TN_OK;
     }
+    case TN_STEP_PART:
+        if (!d->options.value)
+            return TN_OK;
+        if (!tn_array_reserve(&d->ahead_parts, &d->ahead_capacity, d->ahead_count, 1, sizeof *d->ahead_parts))
+            return tn_fail_memory(d->error);
+        d->ahead_parts[d->ahead_count++] = step->text;
+        return TN_OK;
     case TN_STEP_BOUND_BOX:
     case TN_STEP_BOUND_BALL:
         return tn_set_bound(d, frame, step);
@@ -58,7 +67,7 @@ tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits)
     uint64_t taken = 0;
     uint32_t index, of;
     const tn_step *step;
-    d->trial.count = d->ahead.count = 0;
+    d->trial.count = d->ahead.count = d->ahead_count = 0;
     *fits = true;
     tn_status status = tn_pending_push(d, &d->ahead, alternative);
     while (status == TN_OK && *fits && (step = tn_pending_next(d, &d->ahead, &index, &of)) != NULL) {

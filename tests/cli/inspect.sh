@@ -81,4 +81,10 @@ PY
 grep -q E1318 err || fail "it does not say why: $(cat err)"
 "$TARTAN" place "$here/../../examples/brick-wall/wall.pcfg" "$here/../../examples/brick-wall/bricks.pcfg" -o wall.ldr
 is 'pieces of the wall of a connection grammar' "$("$TARTAN" inspect wall.ldr --kit bricks --json | python3 -c 'import json, sys; r = json.load(sys.stdin); print(r["components"], r["overlaps"], r["unknown"])')" '1 0 0'
+printf '1 4 0 0 0 1 0 0 0 1 0 0 0 1 3005.dat\n1 4 0 -24 0 1 0 0 0 1 0 0 0 1 3005.dat\n' >"$scratch/two.ldr"
+golden required "tartan inspect $scratch/two.ldr --kit bricks --require 'components = 1, floating = 0 and count(3005) = 2' | tail -n 1"
+golden required_not "tartan inspect $scratch/two.ldr --kit bricks --require 'components = 1, count(3004) > 0 or height > 48, mass in 1..2' | tail -n 1"
+golden required_unknown "tartan inspect $scratch/two.ldr --kit bricks --require 'count(3006) = 1'"
+golden required_wrong "tartan inspect $scratch/two.ldr --kit bricks --require 'components ='"
+golden required_json "tartan inspect $scratch/two.ldr --kit bricks --json --require 'components = 2' --diagnostics json"
 exit $((failures > 0))

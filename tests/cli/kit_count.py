@@ -74,3 +74,46 @@ for names, most in ((["3005"], 6), (["3004"], 4), (["3003"], 4), (["3622"], 3), 
         assert ask(names, parts, "--fixed", "--threads", "3") == {"parts": parts, "fixed": len(buildings)}
         total += len(buildings)
 assert total > 10000, total
+
+# Inside of a space: the same sets, each where it stands, which no part leaves.
+def grow_inside(buildings, names, room):
+    larger = set()
+    for building in buildings:
+        filled = set().union(*(cells(p) for p in building))
+        for part in building:
+            larger.update(building | {other} for other in neighbours(part, names) if not cells(other) & filled and cells(other) <= room)
+    return larger
+
+
+KIT = """use "bricks";
+rule any at stud, tube = %s;
+model room { inside box(%d studs, %d plates, %d studs)%s; start stud at (%d, 0, %d) by any; }
+"""
+inside = 0
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "room.kit")
+    for names, size, step, hole, most in ((["3005", "3004"], (3, 6, 2), 3, False, 4), (["3001", "3005"], (4, 6, 3), 3, True, 3), (["3024", "3023", "3005"], (2, 4, 3), 1, True, 3),
+                                          (["3003"], (4, 9, 4), 3, False, 4), (["3023", "3070b"], (3, 2, 2), 1, False, 3)):
+        wide, high, deep = size
+        room = set(itertools.product(range(wide), range(high), range(deep)))
+        text = ""
+        if hole:
+            room -= {(0, y, 0) for y in range(high)}
+            text = " and not box(1 stud, %d plates, 1 stud) at (%d, 0, %d)" % (high, 10 - 10 * wide, 10 - 10 * deep)
+        with open(path, "w") as file:
+            file.write(KIT % (" | ".join(names), wide, high, deep, text, 10 * wide - 10, 10 * deep - 10))
+        buildings = set()
+        for name in names:
+            for turned in (False, True) if PARTS[name][0] != PARTS[name][2] else (False,):
+                places = itertools.product(range(wide), range(0, high, step), range(deep))
+                buildings.update(frozenset([(*at, turned, name)]) for at in places if cells((*at, turned, name)) <= room)
+        for parts in range(1, most + 1):
+            if parts > 1:
+                buildings = grow_inside(buildings, names, room)
+            command = [tartan, "count", path, "--parts", str(parts), "--inside", "room", "--json", "--threads", str(1 + parts % 3)]
+            for name in names:
+                command += ["--part", name]
+            said = subprocess.run(command, capture_output=True, text=True)
+            assert said.returncode == 0 and json.loads(said.stdout) == {"parts": parts, "inside": len(buildings)}, (names, parts, len(buildings), said)
+            inside += len(buildings)
+assert inside > 1000, inside

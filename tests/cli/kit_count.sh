@@ -28,4 +28,9 @@ golden of_plans "tartan count bricks --parts 2 --trays 1..2"
 golden file "tartan count bricks --part 3005 --parts 3 -o $scratch/number && cat $scratch/number"
 
 python3 "$here/kit_count.py" "$TARTAN" "$here/../../stdlib/bricks.kit" || fail 'a number is not what listing all buildings gives'
+printf 'use "bricks";\nrule any at stud, tube = 3004 | 3005;\nmodel room { inside box(3 studs, 2 bricks, 2 studs); start stud at (0, 0, 10) by any; }\n' >"$scratch/room.kit"
+golden inside "tartan count $scratch/room.kit --parts 2 --inside room --part 3004 --part 3005; tartan count $scratch/room.kit --parts 2 --inside room --part 3003"
+golden inside_of_none "tartan count $scratch/room.kit --parts 2 --inside rom"
+golden inside_fixed "tartan count $scratch/room.kit --parts 2 --inside room --fixed"
+golden inside_of_plans "tartan count ../../../examples/narrow-lot/narrow.plan --inside room"
 exit $((failures > 0))

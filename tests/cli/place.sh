@@ -97,6 +97,17 @@ golden map_places "tartan map $scratch/touch.pcfg --genome 1"
 golden missing "tartan place $scratch/tuch.pcfg"
 golden output_ending "tartan place $scratch/touch.pcfg -o $scratch/x.txt"
 golden output_twice "tartan place $scratch/touch.pcfg -o - --stats"
+# By a value: the first alternative of at least 1, else the largest, the last of equals.
+printf "%s\n" "S -> 'PlaceBoundingBox(9,9,9)' 'Move(0,-3,0)' 'Place(3001)' S | 'Move(0,-3,0)' 'Place(3003)' S |" >"$scratch/value.pcfg"
+golden fitness "tartan place $scratch/value.pcfg --fitness 'elements <= 3'"
+golden fitness_counts "tartan place $scratch/value.pcfg --fitness 'count(3001) <= 2 and elements <= 5'"
+golden fitness_equals "tartan place $scratch/value.pcfg --fitness '0'"
+golden fitness_below "tartan place $scratch/value.pcfg --fitness '0 - elements - 1'"
+golden fitness_term "tartan place $scratch/value.pcfg --fitness 'fill'"
+golden fitness_wrong "tartan place $scratch/value.pcfg --fitness 'elements < '"
+golden fitness_several "tartan place $scratch/value.pcfg --fitness 'elements < 3, elements > 1'"
+golden fitness_of_kit "tartan place ../../../examples/gatehouse/gatehouse.kit --fitness elements"
+golden fitness_traced "tartan place $scratch/value.pcfg --fitness elements --trace"
 golden header_alone "tartan place $scratch/touch.pcfg --header"
 
 # ---- the published program
@@ -117,6 +128,10 @@ if [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/place/model.py" ]; then
     published sphere8 0 '24 782 1026' sphere8.pcfg brick.pcfg brick_defs.pcfg close.pcfg
     published castle_plain 0 '310 5888 6193' castle/wall_constraints.pcfg brick.pcfg brick_defs.pcfg tile.pcfg close.pcfg
     published castle_s0 0 '321 6310 6182' castle/wall_constraints.pcfg brick.pcfg castle/brick_defs.pcfg tile.pcfg close.pcfg
+    for model in stack_readme rotation_translation; do
+        "$TARTAN" place "$oracle/grammars/$model.pcfg" --fitness 'elements <= 3' -o "$scratch/$model.ldr" 2>"$scratch/$model.err" || fail "$model does not end"
+        cmp "$scratch/$model.ldr" "$oracle/expected/$model.ldr" || fail "$model is not the published program's"
+    done
     python3 -B "$source/tests/place_oracle.py" "$oracle/model.py" "$TARTAN" 0 60 || fail 'random grammars differ'
 fi
 exit "$failures"

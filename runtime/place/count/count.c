@@ -22,7 +22,9 @@ typedef struct count_work {
     uint32_t parts;
     counting *threads;
     tn_watch *watch;
-    uint32_t *roots, *firsts; /* [item]: a root's look, and which of the slots that join it is taken first */
+    const uint8_t *forbidden; /* [slot], or NULL: all may be taken */
+    uint32_t *roots;          /* [item]: a slot */
+    uint32_t *firsts;         /* [item]: which of the slots that join the root is taken first; NULL: each in its turn */
     size_t item_count;
 } count_work;
 
@@ -104,25 +106,34 @@ static tn_status grow(count_work *w, counting *c, uint32_t chosen, size_t root, 
 
 /* ---- all of it */
 
-/* The buildings whose lowest slot is a root, and whose second part is the item's: those that come after it in the list
- * of what joins the root are not taken. */
+/* The buildings whose lowest slot is a root and which have one of the `count` slots that join it, of which the item
+ * takes one first: those that come after it in the list are not taken. */
+static tn_status count_from(count_work *w, counting *c, size_t root, size_t count, size_t item, tn_error *error)
+{
+    uint32_t *own = &c->untried[c->room];
+    if (!w->firsts)
+        return grow(w, c, 1, root, count, error);
+    return w->firsts[item] < count && c->marks[own[w->firsts[item]]] == SEEN
+               ? take(w, c, 1, root, own[w->firsts[item]], w->firsts[item], error)
+               : TN_OK;
+}
+
 static tn_status count_item(void *context, unsigned thread, size_t item, tn_error *error)
 {
     count_work *w = context;
     const tn_lattice *l = w->lattice;
     counting *c = &w->threads[thread];
-    size_t root = l->middle + w->roots[item];
+    size_t root = w->roots[item];
     tn_status status = tn_watch_check(w->watch, error);
     if (status != TN_OK)
         return status;
     block(l, c->marks, root, 1);
     if (w->parts == 2) {
-        c->count += w->firsts[item] == 0 ? count_last(l, c, root, root, NULL, 0) : 0;
+        c->count += !w->firsts || w->firsts[item] == 0 ? count_last(l, c, root, root, NULL, 0) : 0;
     } else {
         uint32_t *own = &c->untried[c->room];
         size_t count = add_joining(l, c, root, root, own);
-        if (w->firsts[item] < count && c->marks[own[w->firsts[item]]] == SEEN)
-            status = take(w, c, 1, root, own[w->firsts[item]], w->firsts[item], error);
+        status = count_from(w, c, root, count, item, error);
         for (size_t i = 0; i < count; i++)
             c->marks[own[i]] &= (uint8_t)~SEEN;
     }
@@ -142,7 +153,7 @@ static tn_status make_items(count_work *w, tn_error *error)
         return tn_fail_memory(error);
     for (uint32_t look = 0; look < l->look_count; look++) {
         for (uint32_t i = l->looks[look].joining_count; i-- > 0;) { /* what takes longest first */
-            w->roots[w->item_count] = look;
+            w->roots[w->item_count] = (uint32_t)l->middle + look;
             w->firsts[w->item_count++] = i;
         }
     }
@@ -165,16 +176,33 @@ static tn_status make_threads(count_work *w, unsigned threads, tn_error *error)
         c->marks = calloc(l->slot_count, sizeof *c->marks);
         c->untried = calloc(c->room * w->parts, sizeof *c->untried);
         status = c->marks && c->untried ? TN_OK : tn_fail_memory(error);
+        if (status == TN_OK && w->forbidden)
+            memcpy(c->marks, w->forbidden, l->slot_count);
     }
     return status;
 }
 
-static tn_status count_fixed(const tn_lattice *l, uint32_t parts, unsigned threads, tn_watch *watch, uint64_t *count,
-                             tn_error *error)
+/* Every slot that is allowed is a root. */
+static tn_status make_roots(count_work *w, tn_error *error)
 {
-    count_work w = {.lattice = l, .parts = parts, .watch = watch};
+    size_t slots = w->lattice->slot_count;
+    w->roots = calloc(slots + 1, sizeof *w->roots);
+    if (!w->roots)
+        return tn_fail_memory(error);
+    for (size_t slot = 0; slot < slots; slot++)
+        if (!w->forbidden[slot])
+            w->roots[w->item_count++] = (uint32_t)slot;
+    return TN_OK;
+}
+
+static tn_status count_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
+                            tn_watch *watch, uint64_t *count, tn_error *error)
+{
+    count_work w = {.lattice = l, .parts = parts, .watch = watch, .forbidden = forbidden};
     tn_crew *crew = tn_crew_new(threads, watch);
-    tn_status status = crew ? make_items(&w, error) : tn_fail_memory(error);
+    tn_status status = crew ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = forbidden ? make_roots(&w, error) : make_items(&w, error);
     if (status == TN_OK)
         status = make_threads(&w, tn_crew_threads(crew), error);
     if (status == TN_OK)
@@ -192,6 +220,17 @@ static tn_status count_fixed(const tn_lattice *l, uint32_t parts, unsigned threa
     return status;
 }
 
+tn_status tn_count_allowed(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
+                           tn_watch *watch, uint64_t *count, tn_error *error)
+{
+    *count = 0;
+    if (parts > 1)
+        return count_sets(l, forbidden, parts, threads, watch, count, error);
+    for (size_t slot = 0; slot < l->slot_count; slot++)
+        *count += !forbidden[slot];
+    return TN_OK;
+}
+
 tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, uint32_t parts, bool fixed,
                              unsigned threads, tn_watch *watch, tn_building_counts *counts, tn_error *error)
 {
@@ -202,7 +241,7 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
         status = tn_lattice_size(&lattice, parts, error);
     counts->fixed = lattice.look_count;
     if (status == TN_OK && parts > 1 && lattice.look_count > 0)
-        status = count_fixed(&lattice, parts, threads, watch, &counts->fixed, error);
+        status = count_sets(&lattice, NULL, parts, threads, watch, &counts->fixed, error);
     if (status == TN_OK && !fixed && lattice.look_count > 0) {
         status = tn_count_turned(&lattice, parts, 2, watch, &counts->half, error);
         if (status == TN_OK)

@@ -19,6 +19,16 @@ typedef struct tn_building_counts {
 tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, uint32_t parts, bool fixed,
                              unsigned threads, tn_watch *watch, tn_building_counts *counts, tn_error *error);
 
+/* Counts the sets of `parts` parts that hang together, each where it stands, inside of the space of the rules' model:
+ * on the lattice of what the model's rule places first where it starts. E1338 where it places none of the wanted parts
+ * there. Otherwise as above. */
+tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
+                          tn_watch *watch, uint64_t *count, tn_error *error);
+
+/* The sets of so many slots that hang together and are allowed: [slot], 0 where it is. */
+tn_status tn_count_allowed(const tn_lattice *lattice, const uint8_t *forbidden, uint32_t parts, unsigned threads,
+                           tn_watch *watch, uint64_t *count, tn_error *error);
+
 /* Those that are taken to themselves by quarter turns, so many at once (1 or 2), about any vertical. */
 tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
                           tn_error *error);

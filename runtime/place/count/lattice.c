@@ -1,6 +1,7 @@
 /* Finds which parts join and which overlap, in all of their looks. */
 #include "runtime/place/count/lattice.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -234,19 +235,18 @@ void tn_lattice_clear(tn_lattice *l)
 
 /* ---- slots */
 
-tn_status tn_lattice_size(tn_lattice *l, uint32_t parts, tn_error *error)
+/* A table of so many places about the middle. */
+static tn_status make_table(tn_lattice *l, const int64_t reach[3], const char *what, tn_error *error)
 {
     double slots = l->look_count;
-    int32_t wide = l->most[0] > l->most[2] ? l->most[0] : l->most[2];
     for (int k = 0; k < 3; k++) {
-        int64_t reach = ((k == 1 ? 1 : 2) * (int64_t)parts + 2) * ((k == 1 ? l->most[1] : wide) / l->step[k] + 1);
-        l->reach[k] = (int32_t)(reach < 1 << 24 ? reach : 1 << 24);
+        l->reach[k] = (int32_t)(reach[k] < 1 << 24 ? reach[k] : 1 << 24);
         l->side[k] = 2 * l->reach[k] + 1;
         slots *= l->side[k];
     }
     if (slots > (double)SLOTS_MAX) {
-        tn_fail(error, TN_LIMIT, E_PLACE_LIMIT,
-                "buildings of %u parts need a table of %.3g places, and %zu is the most", parts, slots, SLOTS_MAX);
+        tn_fail(error, TN_LIMIT, E_PLACE_LIMIT, "buildings %s need a table of %.3g places, and %zu is the most", what,
+                slots, SLOTS_MAX);
         tn_error_help(error, "count buildings of fewer parts, or fewer kinds of parts (--part)");
         return TN_LIMIT;
     }
@@ -267,6 +267,27 @@ tn_status tn_lattice_size(tn_lattice *l, uint32_t parts, tn_error *error)
             l->pairs[look->overlapping_first + i].slots += (int64_t)l->pairs[look->overlapping_first + i].look - a;
     }
     return TN_OK;
+}
+
+tn_status tn_lattice_size(tn_lattice *l, uint32_t parts, tn_error *error)
+{
+    int32_t wide = l->most[0] > l->most[2] ? l->most[0] : l->most[2];
+    int64_t reach[3];
+    char what[40];
+    for (int k = 0; k < 3; k++)
+        reach[k] = ((k == 1 ? 1 : 2) * (int64_t)parts + 2) * ((k == 1 ? l->most[1] : wide) / l->step[k] + 1);
+    snprintf(what, sizeof what, "of %u parts", parts);
+    return make_table(l, reach, what, error);
+}
+
+tn_status tn_lattice_cover(tn_lattice *l, const tn_cell_box *box, tn_error *error)
+{
+    int64_t reach[3];
+    for (int k = 0; k < 3; k++) {
+        int64_t low = llabs((long long)box->low[k]), high = llabs((long long)box->high[k]);
+        reach[k] = ((low > high ? low : high) + l->most[k]) / l->step[k] + 2;
+    }
+    return make_table(l, reach, "inside of this space", error);
 }
 
 uint32_t tn_slot_look(const tn_lattice *l, size_t slot, int32_t corner[3])

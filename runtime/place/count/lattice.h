@@ -41,6 +41,10 @@ void tn_lattice_clear(tn_lattice *lattice);
 /* Makes the table large enough for buildings of so many parts about the middle. TN_LIMIT (E1313) past 2^28 slots. */
 tn_status tn_lattice_size(tn_lattice *lattice, uint32_t parts, tn_error *error);
 
+/* Makes the table hold all parts whose lowest corner is inside of a box of cells, and what joins or overlaps these. The
+ * same limit. */
+tn_status tn_lattice_cover(tn_lattice *lattice, const tn_cell_box *box, tn_error *error);
+
 /* The look of a slot, and its lowest corner in cells from that of the middle. */
 uint32_t tn_slot_look(const tn_lattice *lattice, size_t slot, int32_t corner[3]);
 

@@ -11,7 +11,7 @@
 
 #include "driver/open/open.h"
 #include "runtime/place/count/count.h"
-#include "runtime/place/measure.h"
+#include "runtime/place/steps.h"
 #include "runtime/place/search/search.h"
 #include "tests/support/failing_memory.h"
 
@@ -48,6 +48,32 @@ static tn_status search(const tn_module *module, tn_error *error)
     return status;
 }
 
+/* Counts inside of the first model's space. */
+static tn_status count_inside(const tn_module *module, tn_error *error)
+{
+    tn_place_rules rules = {0};
+    uint64_t count = 0;
+    tn_status status = tn_place_rules_of_model(module, 0, &rules, error);
+    if (status == TN_OK)
+        status = tn_count_inside(&rules, NULL, 2, 1, NULL, &count, error);
+    if (status == TN_OK)
+        assert_true(count > 0);
+    tn_place_rules_clear(&rules);
+    return status;
+}
+
+/* Divides what was placed into steps. */
+static tn_status divide(const tn_module *module, const tn_placed_measures *measured, tn_placed_model *model,
+                        tn_error *error)
+{
+    tn_placed_steps steps;
+    tn_status status = tn_placed_steps_make(module, measured, true, 1, NULL, model, &steps, error);
+    if (status == TN_OK)
+        assert_true(steps.count > 1);
+    tn_placed_steps_clear(&steps);
+    return status;
+}
+
 /* TN_OK where all was done. */
 static tn_status run(void)
 {
@@ -75,6 +101,10 @@ static tn_status run(void)
             tn_count_buildings(&(tn_place_rules){.module = opened.module}, NULL, 2, false, 1, NULL, &counts, &error);
     if (status == TN_OK)
         assert_true(counts.buildings > 0 && counts.buildings < counts.fixed);
+    if (status == TN_OK)
+        status = count_inside(opened.module, &error);
+    if (status == TN_OK)
+        status = divide(opened.module, &measured, &model, &error);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&model);
     tn_place_rules_clear(&rules);
