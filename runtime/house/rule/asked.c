@@ -39,23 +39,29 @@ static bool has_kind(const tn_module *module, const tn_meeting_record *meeting, 
     return meeting->kind_count == 0;
 }
 
+bool tn_house_meets_at(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face)
+{
+    if (face->second == TN_NO_CELL || !has_kind(house->form->module, meeting, face->kind))
+        return false;
+    const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
+    return (tn_house_decide(house, meeting->first, a) && tn_house_decide(house, meeting->second, b)) ||
+           (tn_house_decide(house, meeting->first, b) && tn_house_decide(house, meeting->second, a));
+}
+
 static void meets(const tn_house *house, const tn_meeting_record *meeting, uint64_t *relation, size_t words)
 {
     for (size_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        if (face->second == TN_NO_CELL || !has_kind(house->form->module, meeting, face->kind))
+        if (!tn_house_meets_at(house, meeting, face))
             continue;
-        const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
-        bool so = tn_house_decide(house, meeting->first, a) && tn_house_decide(house, meeting->second, b);
-        if (so || (tn_house_decide(house, meeting->first, b) && tn_house_decide(house, meeting->second, a)))
-            add(relation, words, a->tray < b->tray ? a->tray : b->tray, (a->tray > b->tray ? a->tray : b->tray) + 1u);
+        uint32_t a = house->cells[face->first].tray, b = house->cells[face->second].tray;
+        add(relation, words, a < b ? a : b, (a > b ? a : b) + 1u);
     }
 }
 
 /* ---- walks */
 
-/* Can one walk through the face? Never into a void; up and down by stairs alone. */
-static bool is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face)
+bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face)
 {
     if (face->second == TN_NO_CELL || house->cells[face->first].open || house->cells[face->second].open ||
         !has_kind(house->form->module, walk, face->kind))
@@ -81,7 +87,7 @@ static bool is_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint3
         for (size_t i = 0; i < house->face_count; i++) {
             const tn_face *face = &house->faces[i];
             uint32_t next = face->first == at ? face->second : face->second == at ? face->first : TN_NO_CELL;
-            if (next == TN_NO_CELL || rules->seen[next] || !is_step(house, walk, face))
+            if (next == TN_NO_CELL || rules->seen[next] || !tn_house_is_step(house, walk, face))
                 continue;
             rules->seen[next] = true;
             if (tn_house_decide(house, walk->second, &house->cells[next]))
