@@ -102,7 +102,7 @@ if(TARTAN_WITH_STORE)
   list(APPEND parts tartan-store)
 endif()
 tartan_library(tartan FOLDERS ${TARTAN_COMPILER_FOLDERS} USES ${parts} tartan-growth tartan-runtime
-  NEEDS PkgConfig::JANSSON PkgConfig::GMP PkgConfig::XXHASH ${threads} MODULES jansson)
+  NEEDS PkgConfig::JANSSON PkgConfig::GMP PkgConfig::XXHASH PkgConfig::ZSTD ${threads} MODULES jansson libzstd)
 
 install(TARGETS tartan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/tartan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")

@@ -21,6 +21,6 @@ listed and drawn. With the libraries and headers to do so in C.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # Programs that are linked to the archives, or by pkg-config --static, need more.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, pkg-config")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, libzstd-dev, pkg-config")
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)

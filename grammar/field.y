@@ -151,8 +151,10 @@ static tn_expression *call(tn_growth_parse *parse, tn_span span, const char *nam
     return arguments;
 }
 
-static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
+static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, bool at_definition)
 {
+    if (at_definition && found == YYSYMBOL_OPEN)
+        return "only a function has parameters: write `fn ring(a, b) = sqrt(a*a + b*b)`";
     switch (before) {
     case YYSYMBOL_USE: return "a path stands in double quotes, as in `use \"shapes\"`";
     case YYSYMBOL_LET: return "write `let radius = 2.5`";
@@ -191,10 +193,13 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     int count = yypcontext_expected_tokens(context, kinds, MOST);
     if (count < 0)
         return count;
-    for (int i = 0; i < count; i++)
+    bool at_definition = false;
+    for (int i = 0; i < count; i++) {
         expected[i] = yysymbol_name(kinds[i]);
+        at_definition = at_definition || kinds[i] == YYSYMBOL_EQUALS;
+    }
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before)));
+                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before), at_definition));
     return 0;
 }
 

@@ -54,13 +54,14 @@ static const tn_kit_nodes no_nodes = {0};
 %token PRICE "`price`" IN "`in`" WITH "`with`" STOP "`stop`" TURN "`turn`" INSIDE "`inside`" START "`start`" BY "`by`"
 %token COLOUR "`colour`" REQUIRE "`require`" COUNT "`count`" X "`x`"
 %token MINIMIZE "`minimize`" MAXIMIZE "`maximize`" SEARCH "`search`" SYMMETRY "`symmetry`" STOCK "`stock`"
+%token ORDER "`order`" STEPS "`steps`" REPEAT "`repeat`"
 %token COMMA "`,`" END "`;`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`" BAR "`|`"
 %token EQUALS "`=`" PLUS "`+`" MINUS "`-`" STAR "`*`" SLASH "`/`"
 %token BELOW "`<`" AT_MOST "`<=`" AT_LEAST "`>=`" ABOVE "`>`" UNEQUAL "`!=`" TO_DOTS "`..`" AND "`and`" OR "`or`" NOT "`not`"
 %left OR
 %left AND
 %precedence NOT
-%precedence AT
+%precedence AT TURN REPEAT
 %nonassoc EQUALS BELOW AT_MOST AT_LEAST ABOVE UNEQUAL IN
 %left PLUS MINUS
 %left STAR SLASH
@@ -173,6 +174,9 @@ space
     | space AND space                       { $$ = tn_kit_space_of(parse, TN_KIT_BOTH, @$, $1, $3); }
     | space OR space                        { $$ = tn_kit_space_of(parse, TN_KIT_EITHER, @$, $1, $3); }
     | NOT space                             { $$ = tn_kit_space_of(parse, TN_KIT_NOT, @$, $2, NULL); }
+    | space TURN NUMBER                     { $$ = tn_kit_space_of(parse, TN_KIT_TURNED, @$, $1, NULL); if ($$) $$->count[0] = $3; }
+    | space REPEAT NUMBER BY vector         { $$ = tn_kit_space_of(parse, TN_KIT_REPEATED, @$, $1, NULL);
+                                              if ($$) { $$->count[0] = $3; $$->at = $5; } }
     | space AT vector                       { $$ = tn_kit_space_of(parse, TN_KIT_MOVED, @$, $1, NULL); if ($$) $$->at = $3; }
     ;
 
@@ -231,6 +235,10 @@ line
     | SEARCH NAME NUMBER                    { $$ = counted(parse, TN_KIT_SEARCHES, @$, $2, $3); }
     | SYMMETRY TURN NUMBER                  { $$ = counted(parse, TN_KIT_REPEATS, @$, no_text, $3); }
     | SYMMETRY NAME axis_word               { $$ = node(parse, TN_KIT_REPEATS, @$, $2, no_nodes); if ($$) $$->other = $3; }
+    | ORDER NAME                            { $$ = node(parse, TN_KIT_ORDERS, @$, $2, no_nodes); }
+    | STEPS NAME                            { $$ = node(parse, TN_KIT_STEPS, @$, $2, no_nodes); }
+    | STEPS PART                            { $$ = node(parse, TN_KIT_STEPS, @$, (tn_kit_text){"part", @2}, no_nodes); }
+    | STEPS NUMBER                          { $$ = counted(parse, TN_KIT_STEPS, @$, no_text, $2); }
     | STOCK stocks                          { $$ = node(parse, TN_KIT_STOCKS, @$, no_text, $2); }
     ;
 
@@ -365,6 +373,9 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     case YYSYMBOL_SEARCH: return "write `search beam 50;`, `search anneal 10000;`, `search exact;` or `search greedy;`";
     case YYSYMBOL_SYMMETRY: return "write `symmetry turn 2;`, `symmetry turn 4;`, `symmetry mirror x;` or `symmetry mirror z;`";
     case YYSYMBOL_STOCK: return "write how many of a part there are: `stock 3001 <= 20, 3004 <= 5;`";
+    case YYSYMBOL_ORDER: return "write `order depth;` or `order breadth;`";
+    case YYSYMBOL_STEPS: return "write `steps part;`, `steps layer;`, or how many parts a step has: `steps 5;`";
+    case YYSYMBOL_REPEAT: return "write how often, and how far apart: `post repeat 4 by (3 studs, 0, 0)`";
     case YYSYMBOL_WITH: return "write the rule that goes on there: `3005 with wall`";
     default: break;
     }

@@ -73,6 +73,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
+%token GLAZED "`glazed`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
 %token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
@@ -95,12 +96,13 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <op> comparison
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <form> form_head
-%type <form_clause> thickness relation
+%type <form_clause> thickness relation price
 %type <tile_part> stretch_word
 %type <box_side> side_word
 %type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side
+%type <word> size outside_side number
+%type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
 %type <expr> part tray_sum tray_term tray_signed tray_atom
@@ -268,6 +270,7 @@ spec_word
     | LENGTH DOTS LENGTH                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
     | NUMBER DOTS NUMBER                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
     | AREA DOTS AREA                            { $$ = tn_ast_word_range(parse, @$, $1, $3); }
+    | NUMBER COLON NUMBER                       { $$ = tn_ast_word_ratio(parse, @$, $1, $3); }
     | IN                                        { $$ = NULL; }
     | OPEN spec_alternatives CLOSE              { $$ = tn_ast_group(parse, @$, $2); }
     ;
@@ -625,6 +628,8 @@ form_clause
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
     | tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = $7}); }
+    | material NAME STRING price FOR names material_where
+                                                { $4.name = $2; $4.doc = $3; $4.list = $6; $4.first = $7; $$ = tn_ast_form_clause_new(parse, @$, $4); }
     ;
 
 storey: STOREY                                  { yyerrok; };
@@ -636,6 +641,22 @@ function: FUNCTION                              { yyerrok; };
 opening: OPENING                                { yyerrok; };
 face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
+material: MATERIAL                              { yyerrok; };
+
+price
+    : %empty                                    { $$ = (tn_ast_form_clause){.part = TN_PART_MATERIAL}; }
+    | PRICE number PER NAME                     { $$ = (tn_ast_form_clause){.part = TN_PART_MATERIAL, .length = $2, .detail = $4}; }
+    ;
+
+number
+    : NUMBER
+    | DECIMAL
+    ;
+
+material_where
+    : %empty                                    { $$ = NULL; }
+    | WHERE sections                            { $$ = $2; }
+    ;
 
 thickness
     : WALL                                      { $$ = (tn_ast_form_clause){.part = TN_PART_WALL}; yyerrok; }
@@ -700,6 +721,7 @@ opening_part
     : SILL size                                 { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_SILL, $2); }
     | CLEAR size                                { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_CLEAR, $2); }
     | PASSAGE                                   { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_PASSAGE, NULL); }
+    | GLAZED                                    { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_GLAZED, NULL); }
     ;
 
 tile_parts

@@ -53,7 +53,7 @@ static tn_study_vector same(tn_decimal n);
 %token USE "`use`" TITLE "`title`" RULES "`rules`" STEPS "`steps`" SCALE "`scale`" START "`start`" START_LENGTH "`start-length`"
 %token SEED "`seed`" BRANCH_ANGLE "`branch-angle`" BRANCH_LENGTH "`branch-length`" EDGE_LIMIT "`edge-limit`"
 %token FIXED_CENTRE "`fixed-centre`" FIXED_PERIMETER "`fixed-perimeter`" FACING "`facing`" MIRROR "`mirror`"
-%token GRAVITY "`gravity`" ATTRACTOR "`attractor`" REPELLER "`repeller`" BOUNDARY "`boundary`" FITNESS "`fitness`" RAW "`raw`"
+%token GRAVITY "`gravity`" ATTRACTOR "`attractor`" REPELLER "`repeller`" BOUNDARY "`boundary`" FITNESS "`fitness`" REQUIRE "`require`" RAW "`raw`"
 %token PLANE "`plane`" BOX "`box`" SPHERE "`sphere`" MESH "`mesh`"
 %token AT "`at`" NORMAL "`normal`" FROM "`from`" TO "`to`" RADIUS "`radius`" STRENGTH "`strength`" EXPONENT "`exponent`"
 %token INSIDE "`inside`" OUTSIDE "`outside`" SLIDE "`slide`" STOP "`stop`" SOFT "`soft`" TARGET "`target`" WEIGHT "`weight`"
@@ -104,6 +104,7 @@ statement
     | fitness NAME goal_parts               { $$ = with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $3, @$); }
     | fitness NAME EQUALS expression goal_parts
                                             { $$ = with_expression(with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $5, @$), $4); }
+    | require expression                    { $$ = with_expression(tn_study_item_new(parse, TN_STUDY_REQUIREMENT, @$), $2); }
     | fitness RAW                           { $$ = tn_study_item_new(parse, TN_STUDY_SETS_RAW, @$); }
     ;
 
@@ -125,6 +126,7 @@ mirror: MIRROR                              { yyerrok; };
 gravity: GRAVITY                            { yyerrok; };
 boundary: BOUNDARY                          { yyerrok; };
 fitness: FITNESS                            { yyerrok; };
+require: REQUIRE                            { yyerrok; };
 force
     : ATTRACTOR                             { yyerrok; $$ = TN_ATTRACTOR; }
     | REPELLER                              { yyerrok; $$ = TN_REPELLER; }
@@ -290,6 +292,7 @@ static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t foun
     case YYSYMBOL_BOUNDARY:
         return "a boundary is `plane at 0 0 0 normal 0 0 1`, `box from 0 0 0 to 1 1 1`, `sphere at 0 0 0 radius 2` or `mesh \"hull.stl\"`";
     case YYSYMBOL_FITNESS: return "write `fitness size target 10 weight 2`";
+    case YYSYMBOL_REQUIRE: return "write a condition, as `require crossings = 0`";
     case YYSYMBOL_EQUALS: return "write an expression of terms, as `fitness slope = undulation / size target 0.5`";
     case YYSYMBOL_PLUS:
     case YYSYMBOL_MINUS:
@@ -324,9 +327,11 @@ static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t foun
         return "this is a setting of an evolution: it goes between the braces of `evolution { ... }`, in a study of its own";
     if (found == YYSYMBOL_NAME)
         return "this is no word of studies; see the list in docs/growth.md";
+    if (found == YYSYMBOL_NUMBER && before == YYSYMBOL_NAME)
+        return "between a name and a number stands a word or a sign: `size target 3`, `size <= 3`";
     if (found == YYSYMBOL_NUMBER)
         return "a place has three numbers: x, y and z";
-    return "a statement starts with a word such as `rules`, `steps`, `scale`, `attractor`, `boundary` or `fitness`";
+    return "a statement starts with a word such as `rules`, `steps`, `scale`, `attractor`, `boundary`, `fitness` or `require`";
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)

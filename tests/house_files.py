@@ -4,7 +4,9 @@
 The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity (ISO 16739-1:2018, inherited ones
 included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
 of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed."""
+import csv
 import json
+import math
 import re
 import sys
 from collections import Counter
@@ -165,9 +167,61 @@ def check_dxf(path):
     check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
 
 
+def square_root(fraction):
+    """The floor of the root of a fraction that stands for an area squared."""
+    return math.isqrt(fraction.numerator // fraction.denominator)
+
+
+def check_parts(path, house):
+    """The table of parts, worked out again from the boxes and the lines of the roofs; money to the cent."""
+    kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck"}
+    area, volume, number = Counter(), Counter(), Counter()
+    walls = set()
+    for s in house["solids"]:
+        part = kind_of.get(s["kind"]) or s["name"]
+        x, y, z = (s["box"][i + 1] - s["box"][i] for i in (0, 2, 4))
+        if part in ("wall", "party", "partition"):
+            at = house["faces"][s["of"]]["at"]
+            area[part] += (y if at[0] == at[1] else x) * z
+            number[part] += s["of"] not in walls
+            walls.add(s["of"])
+        else:
+            area[part] += x * y if s["kind"] in ("deck", "roofdeck", "item") else max(x, y) * z
+            number[part] += 1
+        volume[part] += x * y * z
+    for r in house["roofs"]:
+        line, wide = [(F(y), F(z)) for y, z in r["profile"]], r["x"][1] - r["x"][0]
+        number["roof"] += 1
+        for a, b in zip(line, line[1:]):
+            area["roof"] += square_root(((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) * wide**2)
+            volume["roof"] += (b[0] - a[0]) * ((a[1] + b[1]) / 2 - r["base"]) * wide
+    for f in house["faces"]:
+        number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair")
+    unit = {"each": 1, "sf": 304800000**2, "m2": 10**18, "cf": 304800000**3, "m3": 10**27}
+    total = F(0)
+    rows = list(csv.DictReader(open(path, newline="")))
+    given = {p["part"]: p for p in house["parts"]}
+    for row in rows:
+        part = row["part"]
+        if part == "total":
+            check("the total is the sum of the lines", F(row["cost"]) == total == F(house["cost"]))
+            continue
+        check(f"{part}: as many", int(row["number"]) == number[part] == given[part]["number"])
+        if part in area:
+            check(f"{part}: as large", F(given[part]["area"]) == area[part] and F(given[part]["volume"]) == volume[part])
+        if row["cost"]:
+            size = {"each": number[part], "sf": F(given[part]["area"]), "m2": F(given[part]["area"])}.get(row["per"], F(given[part]["volume"]))
+            cents = math.floor(F(row["price"]) * size / unit[row["per"]] * 100 + F(1, 2))
+            check(f"{part}: {row['cost']}", F(row["cost"]) * 100 == cents)
+            total += F(row["cost"])
+    check("every part is in the table", {p for p in number if number[p]} == {r["part"] for r in rows} - {"total"})
+
+
 folder = sys.argv[1]
 made = read_ifc(folder + "/house.ifc")
 check_ifc(made)
-compare(made, json.load(open(folder + "/house.json")))
+house = json.load(open(folder + "/house.json"))
+compare(made, house)
+check_parts(folder + "/house.parts.csv", house)
 check_dxf(folder + "/house.dxf")
 print("\n".join(failures[:20]) or "fine")

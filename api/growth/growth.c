@@ -6,6 +6,7 @@
 
 #include "api/growth/options.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/soundness.h"
 #include "runtime/growth/surface.h"
 
 static tartan_status make(const tartan_module *module, const tartan_growth_options *options, tartan_growth *growth,
@@ -150,6 +151,8 @@ tartan_status tartan_growth_measure(tartan_growth *growth, tartan_measures *meas
     if (status != TARTAN_OK)
         return status;
     tn_status measured = tn_stats_measure(growth->growth, &stats, &found);
+    if (measured == TN_OK)
+        measured = tn_soundness_measure(growth->growth, growth->study.goal.asked, &stats.fitness, &found);
     if (measured == TN_OK)
         measured = tn_faults_find(growth->growth, &faults, &found);
     if (measured != TN_OK) {

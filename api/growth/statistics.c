@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/growth/growth.h"
+#include "runtime/growth/soundness.h"
 
 typedef struct named_value {
     const char *name; /* the module's */
@@ -58,6 +59,8 @@ tartan_status tartan_growth_statistics(tartan_growth *growth, tartan_statistics 
         return status;
     tartan_statistics *made = calloc(1, sizeof *made);
     tn_status measured = made ? tn_stats_measure(growth->growth, &stats, &found) : tn_fail_memory(&found);
+    if (measured == TN_OK)
+        measured = tn_soundness_measure(growth->growth, growth->study.goal.asked, &stats.fitness, &found);
     if (measured == TN_OK && !fill(growth, &stats, made))
         measured = tn_fail_memory(&found);
     tn_stats_clear(&stats);

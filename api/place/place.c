@@ -110,7 +110,7 @@ tartan_status tartan_placement_count(const tartan_placement *placement, tartan_p
 static tn_status write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error)
 {
     (void)error;
-    tn_place_write_ldraw(module, model, out);
+    tn_place_write_ldraw(module, model, NULL, out);
     return TN_OK;
 }
 

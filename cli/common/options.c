@@ -439,6 +439,31 @@ void tn_settings_free(const tn_command *command, tn_settings *settings)
     free(settings);
 }
 
+bool tn_option_given(const tn_option *option, const tn_settings *settings)
+{
+    const void *field = (const char *)settings + option->offset;
+    switch (option->kind) {
+    case TN_OPTION_FLAG:
+        return *(const bool *)field;
+    case TN_OPTION_TEXT:
+    case TN_OPTION_RANK:
+        return *(const char *const *)field != NULL;
+    case TN_OPTION_LIST:
+    case TN_OPTION_WISH:
+        return ((const tn_option_list *)field)->count > 0;
+    case TN_OPTION_NUMBER:
+        return ((const tn_option_number *)field)->given;
+    case TN_OPTION_RANGE:
+        return ((const tn_option_range *)field)->given;
+    case TN_OPTION_REAL:
+        return ((const tn_option_real *)field)->given;
+    case TN_OPTION_CHOICE:
+    case TN_OPTION_MAYBE:
+        return *(const int *)field != 0;
+    }
+    return false;
+}
+
 const char *tn_settings_output(const tn_settings *settings)
 {
     const tn_command *command = settings->command;

@@ -97,6 +97,9 @@ const char *tn_settings_output(const tn_settings *settings);
 extern const tn_option tn_common_options[];
 extern const size_t tn_common_option_count;
 
+/* Was the option given? A choice that is its first word counts as not given. */
+bool tn_option_given(const tn_option *option, const tn_settings *settings);
+
 /* A command's options, its own first, then those. */
 size_t tn_option_total(const tn_command *command);
 const tn_option *tn_option_at(const tn_command *command, size_t i);

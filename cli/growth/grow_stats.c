@@ -13,6 +13,13 @@ static void write_json_named(FILE *out, const tn_fitness_goal *goal, const tn_fi
     }
 }
 
+static void write_json_lacking(FILE *out, const tn_fitness_goal *goal, const tn_fitness *fitness)
+{
+    double lacking = tn_fitness_lacking(fitness, goal);
+    if (goal->required_count)
+        fprintf(out, isfinite(lacking) ? ", \"lacking\": %.17g" : ", \"lacking\": null", lacking);
+}
+
 static void write_json(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats)
 {
     const char *comma = "";
@@ -37,7 +44,13 @@ static void write_json(FILE *out, const tn_growth_system *system, const tn_study
         fprintf(out, "%s\"%s\": %.17g", t ? ", " : "", tn_fitness_term_name((tn_fitness_term)t), value);
     }
     write_json_named(out, &study->goal, &stats->fitness);
-    fputs("}}", out);
+    fputs("}, \"measures\": {", out);
+    for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
+        fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_measured_names[i],
+                stats->fitness.further[i - TN_MEASURED_WIDTH]);
+    fputc('}', out);
+    write_json_lacking(out, &study->goal, &stats->fitness);
+    fputc('}', out);
 }
 
 static void write_table(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats,
@@ -57,6 +70,8 @@ static void write_table(FILE *out, const tn_growth_system *system, const tn_stud
             fprintf(out, ", %.0f past soft boundaries", s->fitness.soft_boundary_nodes);
         for (uint32_t n = 0; n < study->goal.named_count; n++)
             fprintf(out, ", %s %.6g", study->goal.named[n].name, tn_named_value(&study->goal.named[n], &s->fitness));
+        if (study->goal.required_count)
+            fprintf(out, ", %.6g from what is required", tn_fitness_lacking(&s->fitness, &study->goal));
         if (study->has_goal)
             fprintf(out, ", fitness %.6g", tn_fitness_total(&s->fitness, &study->goal, study->options.start_length));
         fputc('\n', out);

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/judged.h"
+#include "cli/house/explained_parts.h"
 #include "runtime/base/utf8.h"
 
 bool tn_is_house_line(const char *text)
@@ -10,18 +10,7 @@ bool tn_is_house_line(const char *text)
     return strchr(text, ';') != NULL;
 }
 
-/* What is explained: a library's clauses, or rules by themselves. */
-typedef struct explaining {
-    tn_job *job;
-    tn_house_judge judge;
-    const tn_house_library_record *library; /* or NULL */
-    const tn_option_list *rules;
-    tn_house house;
-    tn_buffer text;
-    bool full, json;
-} explaining;
-
-static bool choose(explaining *e, const char *library, uint32_t *form)
+static bool choose(tn_house_explaining *e, const char *library, uint32_t *form)
 {
     const tn_module *module = e->job->opened.module;
     tn_diagnostic *d;
@@ -60,31 +49,39 @@ static const char *said(const tn_house_clause *clause)
     return clause->drops ? "does not hold, and is required" : "holds, as required";
 }
 
-static void write_clause(explaining *e, const tn_house_clause *clause)
+static tn_status write_clause(tn_house_explaining *e, const tn_house_clause *clause, tn_error *error)
 {
     tn_buffer_printf(&e->text, "%s %s: %s%s%s%s\n", clause->drops ? "-" : "+", clause->name, said(clause),
                      clause->of_plans ? ", by the plan alone" : "", *clause->doc ? "; " : "", clause->doc);
+    return clause->function == TN_NO_RECORD ? TN_OK : tn_explain_why(e, clause->function, error);
 }
 
-static void write_clause_json(explaining *e, const tn_house_clause *clause, bool first)
+static tn_status write_clause_json(tn_house_explaining *e, const tn_house_clause *clause, bool first, tn_error *error)
 {
     static const char *const kinds[] = {"require", "total", "prune"};
     tn_buffer_printf(&e->text, "%s{\"name\":", first ? "" : ",");
     tn_buffer_append_json(&e->text, clause->name);
-    tn_buffer_printf(&e->text, ",\"kind\":\"%s\",\"of\":\"%s\",\"holds\":%s,\"drops\":%s}",
+    tn_buffer_printf(&e->text, ",\"kind\":\"%s\",\"of\":\"%s\",\"holds\":%s,\"drops\":%s,\"why\":[",
                      clause->trays ? "trays" : kinds[clause->kind], clause->of_plans ? "plan" : "house",
                      clause->holds ? "true" : "false", clause->drops ? "true" : "false");
+    tn_status status = clause->function == TN_NO_RECORD ? TN_OK : tn_explain_why(e, clause->function, error);
+    tn_buffer_printf(&e->text, "]}");
+    return status;
 }
 
-static tn_status write_library(explaining *e, const char *line, tn_error *error)
+static tn_status write_library(tn_house_explaining *e, const char *line, tn_error *error)
 {
     tn_house_clause *clauses = NULL;
     size_t count = 0;
-    bool dropped = false;
+    bool dropped = false, of_plans = false;
+    uint32_t bare = 0;
     const char *name = tn_text(e->judge.module, e->library->name);
     tn_status status = tn_house_judge_clauses(&e->judge, e->library, &e->house, &clauses, &count, error);
     for (size_t i = 0; i < count; i++)
         dropped |= clauses[i].drops;
+    if (status == TN_OK)
+        status = tn_explain_next_bare(e, &bare, error);
+    dropped |= bare < e->house.cell_count;
     if (e->json) {
         tn_buffer_printf(&e->text, "{\"house\":");
         tn_buffer_append_json(&e->text, line);
@@ -94,19 +91,26 @@ static tn_status write_library(explaining *e, const char *line, tn_error *error)
     }
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         if (e->json)
-            write_clause_json(e, &clauses[i], i == 0);
+            status = write_clause_json(e, &clauses[i], i == 0, error);
         else if (e->full || clauses[i].drops)
-            write_clause(e, &clauses[i]);
+            status = write_clause(e, &clauses[i], error);
+        of_plans |= clauses[i].drops && clauses[i].of_plans;
     }
     if (e->json)
-        tn_buffer_printf(&e->text, "]}\n");
+        tn_buffer_printf(&e->text, "]");
+    if (status == TN_OK)
+        status = tn_explain_tiles(e, error);
+    if (status == TN_OK && dropped && !of_plans)
+        status = tn_explain_nearest(e, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "}\n");
     free(clauses);
     return status;
 }
 
 /* ---- rules */
 
-static tn_status write_rule(explaining *e, const char *name, bool first, tn_error *error)
+static tn_status write_rule(tn_house_explaining *e, const char *name, bool first, tn_error *error)
 {
     const tn_module *module = e->judge.module;
     uint32_t rule = tn_house_rule_find(module, name);
@@ -115,15 +119,19 @@ static tn_status write_rule(explaining *e, const char *name, bool first, tn_erro
         return tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "there is no rule `%.80s` about houses of that form", name);
     tn_status status = tn_house_rules_hold(e->judge.rules, module->HOUSE_RULE_records[rule].holds, &holds, error);
     if (e->json)
-        tn_buffer_printf(&e->text, "%s{\"name\":\"%s\",\"matches\":%s}", first ? "" : ",", name,
+        tn_buffer_printf(&e->text, "%s{\"name\":\"%s\",\"matches\":%s,\"why\":[", first ? "" : ",", name,
                          holds ? "true" : "false");
     else
         tn_buffer_printf(&e->text, "%s `%s` %s this house\n", holds ? "+" : "-", name,
                          holds ? "matches" : "does not match");
+    if (status == TN_OK)
+        status = tn_explain_why(e, module->HOUSE_RULE_records[rule].holds, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "]}");
     return status;
 }
 
-static tn_status write_rules(explaining *e, const char *line, tn_error *error)
+static tn_status write_rules(tn_house_explaining *e, const char *line, tn_error *error)
 {
     tn_status status = tn_house_rules_start(e->judge.rules, &e->house, error);
     if (e->json) {
@@ -140,7 +148,7 @@ static tn_status write_rules(explaining *e, const char *line, tn_error *error)
 
 /* ---- the whole */
 
-static void explain(explaining *e, const char *line, size_t max_length)
+static void explain(tn_house_explaining *e, const char *line, size_t max_length)
 {
     tn_error error = {0};
     tn_status status = tn_house_read_open(&e->judge.form, line, strlen(line), max_length, &e->house, &error);
@@ -169,7 +177,7 @@ static void explain(explaining *e, const char *line, size_t max_length)
 void tn_job_explain_house(tn_job *job, const char *library, const tn_option_list *rules, const char *line, bool full,
                           bool json, size_t max_length)
 {
-    explaining e = {.job = job, .rules = rules, .full = full, .json = json};
+    tn_house_explaining e = {.job = job, .rules = rules, .full = full, .json = json};
     uint32_t form;
     tn_error error;
     if (choose(&e, library, &form)) {

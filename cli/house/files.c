@@ -6,14 +6,16 @@
 #include <sys/stat.h>
 
 #include "runtime/geometry/write.h"
-#include "runtime/house/describe.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/picture/draw.h"
+#include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
 
 typedef enum tn_house_file {
     FILE_LINE,
     FILE_JSON,
     FILE_CSV,
+    FILE_PARTS,
     FILE_OBJ,
     FILE_PLY,
     FILE_GLB,
@@ -24,9 +26,9 @@ typedef enum tn_house_file {
     FILE_PNG,
     FILE_KINDS
 } tn_house_file;
-static const char *const endings[] = {NULL,   ".json", ".csv", ".obj", ".ply", ".glb",
-                                      ".ifc", ".dxf",  ".svg", ".pdf", ".png"};
-#define ENDINGS ".json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
+static const char *const endings[] = {NULL,   ".json", ".csv", ".parts.csv", ".obj", ".ply",
+                                      ".glb", ".ifc",  ".dxf", ".svg",       ".pdf", ".png"};
+#define ENDINGS ".json, .csv, .parts.csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
 
 /* A house on its way to files. */
 typedef struct tn_house_writer {
@@ -49,7 +51,7 @@ static tn_house_file file_kind(const char *path)
     size_t size = strlen(path);
     if (strcmp(path, "-") == 0)
         return FILE_LINE;
-    for (int i = 1; i < FILE_KINDS; i++)
+    for (int i = FILE_KINDS - 1; i > 0; i--) /* `.parts.csv` before `.csv` */
         if (size > strlen(endings[i]) && strcasecmp(path + size - strlen(endings[i]), endings[i]) == 0)
             return (tn_house_file)i;
     return FILE_KINDS;
@@ -79,13 +81,41 @@ static const unsigned char part_colours[TN_SOLID_COUNT][3] = {
     [TN_SOLID_LEAF] = {176, 92, 60},
 };
 
+/* The groups of models: a kind of part, or what it is made of. */
+static void group_blocks(const tn_house *house, tn_blocks *blocks)
+{
+    for (size_t i = 0; tn_form_has_costs(house->form) && i < blocks->count; i++) {
+        tn_house_block *b = &blocks->items[i];
+        uint32_t material = tn_part_material(house, tn_solid_made_part(house, b->kind, b->of, b->item));
+        if (material != TN_NO_RECORD)
+            b->group = TN_SOLID_COUNT + material - house->form->record->material_first;
+    }
+}
+
+static tn_status name_groups(const tn_house_form *form, tn_mesh *mesh, tn_error *error)
+{
+    mesh->group_names = calloc(mesh->group_count, sizeof *mesh->group_names);
+    if (!mesh->group_names)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < mesh->group_count; i++) {
+        uint32_t material = form->record->material_first + i - TN_SOLID_COUNT;
+        snprintf(mesh->group_names[i], sizeof mesh->group_names[i], "%s",
+                 i < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)i)
+                                    : tn_text(form->module, form->module->MATERIAL_records[material].name));
+    }
+    return TN_OK;
+}
+
 static tn_status make_mesh(const tn_house_writer *w, tn_mesh *mesh, tn_error *error)
 {
     tn_blocks blocks;
     tn_status status = tn_blocks_of(w->house, w->solids, &blocks, error);
     *mesh = (tn_mesh){0};
+    group_blocks(w->house, &blocks);
     if (status == TN_OK)
-        status = tn_blocks_mesh(&blocks, NULL, mesh, error);
+        status = tn_blocks_mesh(&blocks, TN_SOLID_COUNT + w->house->form->record->material_count, mesh, error);
+    if (status == TN_OK)
+        status = name_groups(w->house->form, mesh, error);
     for (size_t i = 0; status == TN_OK && i < 3 * mesh->vertex_count; i++)
         mesh->positions[i] /= 1e9; /* metres */
     tn_blocks_clear(&blocks);
@@ -116,10 +146,23 @@ static tn_status write_dxf(const tn_house_writer *w, FILE *out, tn_error *error)
     return count ? tn_house_write_dxf(w->house, w->solids, aspects, count, out, error) : TN_STOPPED;
 }
 
+/* Of the kinds of parts, then of the form's materials. */
+static void mix_colours(const tn_house_form *form, unsigned char colours[TN_SOLID_COUNT + TN_MATERIALS_MAX][3])
+{
+    memcpy(colours, part_colours, sizeof part_colours);
+    for (uint32_t i = 0; i < form->record->material_count; i++) {
+        uint32_t colour = form->module->MATERIAL_records[form->record->material_first + i].colour;
+        for (uint32_t k = 0; k < 3; k++)
+            colours[TN_SOLID_COUNT + i][k] = (unsigned char)(colour >> (16 - 8 * k) & 255);
+    }
+}
+
 static tn_status write_mesh(const tn_house_writer *w, tn_house_file kind, FILE *out, tn_error *error)
 {
     tn_mesh mesh;
-    tn_mesh_style style = {.unit = TN_MESH_UNIT_M, .colours = part_colours};
+    unsigned char colours[TN_SOLID_COUNT + TN_MATERIALS_MAX][3];
+    tn_mesh_style style = {.unit = TN_MESH_UNIT_M, .colours = (const unsigned char(*)[3])colours};
+    mix_colours(w->house->form, colours);
     tn_status status = make_mesh(w, &mesh, error);
     if (status == TN_OK)
         status = kind == FILE_OBJ   ? tn_mesh_write_obj(&mesh, &style, out, error)
@@ -160,9 +203,10 @@ static void draw(const tn_house_writer *w, const char *path)
 static tn_status write_text(const tn_house_writer *w, tn_house_file kind, FILE *out, tn_error *error)
 {
     tn_buffer text = {0};
-    tn_status status = kind == FILE_JSON  ? tn_house_describe(w->house, w->solids, &text, error)
-                       : kind == FILE_CSV ? tn_house_schedule(w->house, &text, error)
-                                          : tn_house_write(w->house, &text, error);
+    tn_status status = kind == FILE_JSON    ? tn_house_describe(w->house, w->solids, &text, error)
+                       : kind == FILE_CSV   ? tn_house_schedule(w->house, &text, error)
+                       : kind == FILE_PARTS ? tn_house_parts(w->house, w->solids, &text, error)
+                                            : tn_house_write(w->house, &text, error);
     if (status == TN_OK && kind == FILE_LINE)
         tn_buffer_append(&text, "\n", 1);
     if (status == TN_OK && text.failed)

@@ -4,8 +4,9 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/house/change_text.h"
 #include "cli/house/numbered_parts.h"
-#include "runtime/house/variant/change.h"
+#include "runtime/house/schedule/cost.h"
 
 typedef struct vary_settings {
     tn_settings common;
@@ -20,86 +21,9 @@ typedef struct varying {
     const tn_house *house;
     FILE *out;
     bool json;
-    mpz_t plan, variant;
+    mpz_t plan, variant, cost, more; /* of the house, and what a change adds to it, in hundredths */
     size_t count;
 } varying;
-
-static const char *text_of(const varying *v, uint32_t string)
-{
-    return tn_text(v->n->form.module, string);
-}
-
-/* ---- words */
-
-typedef struct change_words {
-    char where[160], from[TN_VARIANT_TEXT], to[TN_VARIANT_TEXT];
-} change_words;
-
-static void name_cell(const varying *v, uint32_t index, char *text, size_t size)
-{
-    const tn_cell *cell = &v->house->cells[index];
-    const tn_house_form *form = &v->n->form;
-    snprintf(text, size, "%u.%s.%s", cell->tray + 1, text_of(v, form->schema->fields[cell->zone].name),
-             text_of(v, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
-}
-
-static void name_face(const varying *v, uint32_t index, char *text, size_t size)
-{
-    static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "above",
-                                        [TN_HOUSE_BACK] = "back",
-                                        [TN_HOUSE_FRONT] = "front",
-                                        [TN_HOUSE_LEFT] = "left",
-                                        [TN_HOUSE_RIGHT] = "right"};
-    const tn_face *face = &v->house->faces[index];
-    char cell[96], other[96];
-    name_cell(v, face->first, cell, sizeof cell);
-    if (face->second == TN_NO_CELL) {
-        snprintf(text, size, "%s, %s", cell, sides[face->side]);
-        return;
-    }
-    name_cell(v, face->second, other, sizeof other);
-    snprintf(text, size, "%s to %s", cell, other);
-}
-
-static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char *text, size_t size)
-{
-    tn_variants tiles;
-    tn_error error;
-    text[0] = '\0';
-    if (tn_tile_variants(house, cell, &tiles, &error) == TN_OK && variant < tiles.count && size >= TN_VARIANT_TEXT)
-        tn_variant_text(house->form, &tiles.variants[variant], text);
-    tn_variants_clear(&tiles);
-}
-
-static void find_words(const varying *v, const tn_house_change *c, change_words *w)
-{
-    const tn_house_form *form = &v->n->form;
-    const tn_choice_record *choice;
-    switch (c->kind) {
-    case TN_CHANGE_SECTION:
-        choice = tn_form_choice(form, c->of);
-        snprintf(w->where, sizeof w->where, "section %s", text_of(v, choice->name));
-        snprintf(w->from, sizeof w->from, "%s",
-                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->from].spelling));
-        snprintf(w->to, sizeof w->to, "%s",
-                 text_of(v, form->module->SHAPE_records[choice->shape_first + c->to].spelling));
-        return;
-    case TN_CHANGE_FUNCTION:
-        name_cell(v, c->of, w->where, sizeof w->where);
-        snprintf(w->from, sizeof w->from, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->from)->name));
-        snprintf(w->to, sizeof w->to, "%s", text_of(v, tn_form_rule(form, (uint32_t)c->to)->name));
-        return;
-    case TN_CHANGE_FACE:
-        name_face(v, c->of, w->where, sizeof w->where);
-        snprintf(w->from, sizeof w->from, "%s", tn_form_kind_text(form, (uint32_t)c->from));
-        snprintf(w->to, sizeof w->to, "%s", tn_form_kind_text(form, (uint32_t)c->to));
-        return;
-    default:
-        name_cell(v, c->of, w->where, sizeof w->where);
-        name_tile(v->house, c->of, c->from, w->from, sizeof w->from);
-        name_tile(v->house, c->of, c->to, w->to, sizeof w->to);
-    }
-}
 
 /* ---- changes */
 
@@ -117,8 +41,37 @@ static double square_metres(tn_int128 square_nanometres)
     return (double)square_nanometres / 1e18;
 }
 
+/* What the house costs, in hundredths; 0 where its form has no materials. */
+static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *error)
+{
+    tn_solids solids = {0};
+    tn_costs costs = {0};
+    mpz_set_ui(hundredths, 0);
+    if (!tn_form_has_costs(house->form))
+        return TN_OK;
+    tn_status status = tn_house_solids(house, &solids, error);
+    if (status == TN_OK)
+        status = tn_house_costs(house, &solids, &costs, error);
+    if (status == TN_OK)
+        mpz_set(hundredths, costs.hundredths);
+    tn_costs_clear(&costs);
+    tn_solids_clear(&solids);
+    return status;
+}
+
+/* "+12.50" */
+static void write_money(const varying *v)
+{
+    mpz_t whole;
+    mpz_init(whole);
+    unsigned long rest = mpz_tdiv_q_ui(whole, v->more, 100);
+    mpz_abs(whole, whole);
+    gmp_fprintf(v->out, "%c%Zd.%02lu", mpz_sgn(v->more) < 0 ? '-' : '+', whole, rest);
+    mpz_clear(whole);
+}
+
 /* A JSON object; false where out of memory. */
-static bool write_json(const varying *v, const tn_house_change *change, const change_words *w, double more)
+static bool write_json(const varying *v, const tn_house_change *change, const tn_change_words *w, double more)
 {
     static const char *const kinds[] = {"section", "function", "face", "tile"};
     tn_buffer text = {0};
@@ -128,31 +81,44 @@ static bool write_json(const varying *v, const tn_house_change *change, const ch
     tn_buffer_append_json(&text, w->from);
     tn_buffer_printf(&text, ",\"to\":");
     tn_buffer_append_json(&text, w->to);
-    tn_buffer_printf(&text, ",\"area_m2\":%.6f}\n", more);
+    tn_buffer_printf(&text, ",\"area_m2\":%.6f", more);
     gmp_fprintf(v->out, "{\"house\":\"#%Zd:%Zd\",", v->plan, v->variant);
     fwrite(text.data, 1, text.size, v->out);
+    if (tn_form_has_costs(v->house->form)) {
+        fputs(",\"cost\":\"", v->out);
+        write_money(v);
+        fputc('"', v->out);
+    }
+    fputs("}\n", v->out);
     bool fine = !text.failed;
     free(text.data);
     return fine;
 }
 
-static void write_line(const varying *v, const change_words *w, double more)
+static void write_line(const varying *v, const tn_change_words *w, double more)
 {
     gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
     if (more != 0)
         fprintf(v->out, ", %+.2f m2", more);
+    if (mpz_sgn(v->more) != 0) {
+        fputs(", cost ", v->out);
+        write_money(v);
+    }
     fputc('\n', v->out);
 }
 
 static tn_status write_change(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
 {
     varying *v = context;
-    change_words w;
+    tn_change_words w;
     mpz_set_ui(v->variant, 0);
     tn_status status = tn_house_variants_rank(v->n->variants, changed, v->variant, error);
+    if (status == TN_OK)
+        status = cost_of(changed, v->more, error);
     if (status != TN_OK)
         return status;
-    find_words(v, change, &w);
+    mpz_sub(v->more, v->more, v->cost);
+    tn_change_text(v->house, change, &w);
     double more = square_metres(floor_area(changed) - floor_area(v->house));
     v->count++;
     if (v->json)
@@ -167,14 +133,14 @@ static tn_status find_cell(const varying *v, const char *at, uint32_t *cell, tn_
     char text[96];
     *cell = TN_NO_CELL;
     for (uint32_t i = 0; at && i < v->house->cell_count; i++) {
-        name_cell(v, i, text, sizeof text);
+        tn_cell_text(v->house, i, text, sizeof text);
         if (strcmp(text, at) == 0)
             *cell = i;
     }
     if (!at || *cell != TN_NO_CELL)
         return TN_OK;
     tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--at: the house has no cell `%.60s`", at);
-    name_cell(v, 0, text, sizeof text);
+    tn_cell_text(v->house, 0, text, sizeof text);
     tn_error_help(error, "a cell is TRAY.ZONE.STOREY, such as %s; trays count from 1",
                   v->house->cell_count ? text : "1.body.ground");
     return status;
@@ -191,6 +157,8 @@ static tn_status vary(varying *v, const char *at, tn_error *error)
     }
     if (status == TN_OK) /* is it a house of the library? */
         status = tn_house_variants_rank(v->n->variants, v->house, v->variant, error);
+    if (status == TN_OK)
+        status = cost_of(v->house, v->cost, error);
     if (status == TN_OK)
         status = tn_house_rules_new(&v->n->form, 0, &rules, error);
     if (status == TN_OK)
@@ -216,14 +184,14 @@ static void vary_house(tn_job *job, tn_numbered *n, const vary_settings *setting
         tn_numbered_bad_text(job, &error, "HOUSE", text);
     } else if (tn_job_output(job, settings->output, &out)) {
         varying v = {.n = n, .house = &house, .out = out.stream, .json = settings->json};
-        mpz_inits(v.plan, v.variant, NULL);
+        mpz_inits(v.plan, v.variant, v.cost, v.more, NULL);
         status = vary(&v, settings->at, &error);
         if (status != TN_OK)
             tn_job_fail(job, &error);
         else if (v.count == 0)
             tn_job_note(job, "nothing can be changed by itself: each other value takes the house out of the library");
         tn_job_close(job, &out, status == TN_OK);
-        mpz_clears(v.plan, v.variant, NULL);
+        mpz_clears(v.plan, v.variant, v.cost, v.more, NULL);
     }
     tn_house_clear(&house);
 }
@@ -266,7 +234,8 @@ const tn_command tn_command_vary = {
         "Lists each other value of one choice with which the house stays in its library: of the section, of the "
         "function of a cell, of what is in a face, of a tile. Each line has the number of the house that this makes, "
         "what changes, "
-        "and the difference in floor area, if there is one. All other choices stay as they are where they can; where a "
+        "and the differences in floor area and cost, if there are any. All other choices stay as they are where they "
+        "can; where a "
         "change takes away a "
         "tile or what is in a face, the first that fits takes its place.",
     .example = "$ tartan vary cottage '#10:77' --at 1.body.ground",

@@ -7,7 +7,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
 

@@ -1,64 +1,31 @@
 /* tartan place: places parts by a connection grammar, and writes the model. */
-#include "cli/place/place.h"
+#include "cli/place/placing.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "cli/common/interrupt.h"
-#include "cli/common/mesh_output.h"
-#include "cli/common/option_rows.h"
 #include "driver/place/kit.h"
-#include "driver/place/shape.h"
 #include "runtime/place/search/search.h"
-
-typedef struct place_settings {
-    tn_settings common;
-    tn_option_list outputs;
-    const char *program, *model;
-    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, search_limit, threads;
-    int stats, engine;
-    bool trace, header, keep_partial;
-} place_settings;
-
-typedef enum out_format { OUT_LDRAW, OUT_LIST, OUT_PICTURE, OUT_MESH, OUT_NONE } out_format;
-
-typedef struct placing {
-    tn_job *job;
-    const place_settings *settings;
-    tn_place_rules rules;
-    tn_placed_model model;
-    uint32_t chosen; /* model of a kit */
-    tn_watch *watch; /* NULL once an interrupt was answered */
-} placing;
-
-static out_format format_of(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    if (strcmp(path, "-") == 0 || (dot && strcasecmp(dot, ".ldr") == 0))
-        return OUT_LDRAW;
-    if (dot && strcasecmp(dot, ".csv") == 0)
-        return OUT_LIST;
-    tn_out_format format = tn_out_format_of(path);
-    bool picture = format == TN_OUT_SVG || format == TN_OUT_PNG || format == TN_OUT_PDF;
-    return format == TN_OUT_NONE ? OUT_NONE : picture ? OUT_PICTURE : OUT_MESH;
-}
 
 static bool check_options(tn_job *job)
 {
     const place_settings *s = (const place_settings *)job->settings;
     uint32_t standard = s->program && strcmp(s->program, "-") == 0;
-    bool ldraw = false;
+    bool ldraw = false, picture = false, layers;
+    size_t parts;
     for (size_t i = 0; i < s->outputs.count; i++) {
         const char *path = s->outputs.items[i];
         standard += strcmp(path, "-") == 0;
-        ldraw |= format_of(path) == OUT_LDRAW;
-        if (format_of(path) != OUT_NONE)
+        ldraw |= tn_place_format(path) == OUT_LDRAW;
+        picture |= tn_place_format(path) == OUT_PICTURE;
+        if (tn_place_format(path) != OUT_NONE)
             continue;
         tn_diagnostic *d = tn_job_usage(job, "the name %.200s does not say which format to write", path);
         tn_help(tn_job_diagnostics(job), d,
-                "end its name in .ldr (a model), .csv (a list of its parts), .svg, .png or .pdf (a picture), "
+                "end its name in .ldr (a model), .mpd (a model with a sub-file for each step), .csv (a list of its "
+                "parts), .svg, .png or .pdf (a picture), "
                 "or .obj, .ply, .stl or .glb (a mesh)");
         return false;
     }
@@ -66,131 +33,16 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
     else if (s->header && !ldraw)
         tn_job_usage(job, "--header is of an .ldr file: name one with -o");
+    else if (s->steps && !tn_place_read_steps(s->steps, &layers, &parts))
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--steps cannot be %.100s", s->steps),
+                "write `--steps part`, `--steps layer`, or how many parts a step has: `--steps 5`");
+    else if (s->sheet && !picture)
+        tn_job_usage(job, "--sheet is of a picture: name one with -o");
     else if (s->keep_partial && s->outputs.count == 0 && !s->program)
         tn_job_usage(job, "--keep-partial does nothing without a file: name one with -o");
     else
         return true;
     return false;
-}
-
-/* ---- what is written */
-
-static void write_header(const placing *p, FILE *out)
-{
-    const tn_module *module = p->rules.module;
-    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
-    fprintf(out, "0 %s\n0 seed %" PRIu64 ", rules %016" PRIx64 ", %s\n",
-            tn_text(module, p->rules.space ? p->rules.space->name : module->GRAMMAR_records[0].name),
-            p->settings->seed.value, producer ? (uint64_t)producer->sources_hash : 0,
-            producer ? tn_text(module, producer->version) : "tartan");
-}
-
-/* Pictures and meshes show the parts of a kit. */
-static bool has_shapes(placing *p)
-{
-    tn_error error;
-    if (p->rules.space)
-        return true;
-    tn_fail(&error, TN_INVALID, E_PLACE_NO_SHAPE, "a connection grammar does not say what its parts look like");
-    tn_error_help(&error, "write an .ldr file, and draw it by `tartan inspect FILE.ldr --kit bricks -o FILE.svg`");
-    tn_job_fail(p->job, &error);
-    return false;
-}
-
-static void write_picture(placing *p, const char *path)
-{
-    tn_placed_measures measures;
-    tn_error error;
-    if (!has_shapes(p))
-        return;
-    tn_status status = tn_placed_measure(p->rules.module, NULL, &p->model, p->watch, &measures, &error);
-    if (status == TN_OK)
-        status = tn_placed_draw(p->rules.module, &p->model, &measures, NULL, NULL, &(tn_picture){.path = path}, &error);
-    if (status != TN_OK)
-        tn_job_fail(p->job, &error);
-    tn_placed_measures_clear(&measures);
-}
-
-static void write_mesh(placing *p, const char *path)
-{
-    static const tn_out_changes none = {.triangulate = false};
-    tn_out_format format = tn_out_format_of(path);
-    unsigned char(*palette)[3] = NULL;
-    tn_mesh mesh = {0};
-    tn_output output;
-    tn_error error;
-    if (!has_shapes(p) || !tn_job_output(p->job, path, &output))
-        return;
-    tn_status status = tn_placed_mesh(p->rules.module, &p->model, &mesh, &palette, &error);
-    if (status == TN_OK)
-        status = tn_out_rework(&none, format, &mesh, &error);
-    const tn_mesh_style style = {.unit = TN_MESH_UNIT_MM, .colours = (const unsigned char(*)[3])palette};
-    if (status == TN_OK)
-        status = tn_out_mesh(&mesh, format, &style, output.stream, &error);
-    if (status != TN_OK)
-        tn_job_fail(p->job, &error);
-    tn_job_close(p->job, &output, status == TN_OK);
-    tn_mesh_clear(&mesh);
-    free(palette);
-}
-
-static void write_output(placing *p, const char *path)
-{
-    tn_output output;
-    tn_error error;
-    tn_status status = TN_OK;
-    if (format_of(path) == OUT_PICTURE || format_of(path) == OUT_MESH) {
-        (format_of(path) == OUT_PICTURE ? write_picture : write_mesh)(p, path);
-        return;
-    }
-    if (!tn_job_output(p->job, path, &output))
-        return;
-    if (format_of(path) == OUT_LIST) {
-        status = tn_place_write_list(p->rules.module, &p->model, output.stream, &error);
-    } else {
-        if (p->settings->header || p->rules.space)
-            write_header(p, output.stream);
-        tn_place_write_ldraw(p->rules.module, &p->model, output.stream);
-    }
-    if (status != TN_OK)
-        tn_job_fail(p->job, &error);
-    tn_job_close(p->job, &output, status == TN_OK);
-}
-
-static void write_program(placing *p)
-{
-    tn_output output;
-    if (!tn_job_output(p->job, p->settings->program, &output))
-        return;
-    tn_place_write_program(&p->model, &p->rules, output.stream);
-    tn_job_commit(p->job, &output);
-}
-
-static void print_summary(placing *p)
-{
-    tn_output output;
-    tn_error error;
-    tn_status status = TN_OK;
-    if (!tn_job_output(p->job, NULL, &output))
-        return;
-    if (p->settings->stats)
-        tn_place_stats(&p->model, p->settings->stats == 2, output.stream);
-    else
-        status = tn_place_summary(&p->model, output.stream, &error);
-    if (status != TN_OK)
-        tn_job_fail(p->job, &error);
-    tn_job_close(p->job, &output, status == TN_OK);
-}
-
-static void write_all(placing *p)
-{
-    const place_settings *s = p->settings;
-    for (size_t i = 0; i < s->outputs.count; i++)
-        write_output(p, s->outputs.items[i]);
-    if (s->program)
-        write_program(p);
-    if (s->stats || (s->outputs.count == 0 && !s->program && !s->trace))
-        print_summary(p);
 }
 
 /* ---- the run */
@@ -304,9 +156,10 @@ static void run_placing(placing *p)
     if (status == TN_OK || found)
         status = check_conditions(p);
     tn_job_status(p->job, status);
-    if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0))
-        write_all(p);
-    else if (p->model.count > 0)
+    if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0)) {
+        if (tn_place_find_steps(p))
+            tn_place_write_all(p);
+    } else if (p->model.count > 0)
         tn_job_note(p->job, "%zu part%s placed before; nothing was written", p->model.count,
                     p->model.count == 1 ? " was" : "s were");
 }
@@ -319,6 +172,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (check_options(&job) && tn_job_open_joined(&job, common->operands.items, common->operands.count))
         run_placing(&p);
+    tn_placed_steps_clear(&p.steps);
     tn_placed_model_clear(&p.model);
     tn_place_rules_clear(&p.rules);
     return tn_job_end(&job);
@@ -328,11 +182,15 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     LIST("output", 'o', "FILE", outputs,
          "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
-         "a model on standard output; of a kit also a picture (.svg, .png, .pdf) or a mesh (.obj, .ply, .stl, .glb "
+         "a model on standard output; of a kit also .mpd, with a sub-file for each step, a picture (.svg, .png, .pdf) "
+         "or a mesh (.obj, .ply, .stl, .glb "
          "...)"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
     TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
+    TEXT("steps", 0, "STEPS", steps,
+         "of a kit: the steps in which the model is built: part, layer, or how many parts a step has"),
+    FLAG("sheet", 0, sheet, "of a kit: draw a picture for each step, side by side"),
     MAYBE("stats", 0, "[table|json]", stats, "table|json",
           "print figures: parts, steps, alternatives looked at, cells"),
     FLAG("trace", 0, trace, "print of every symbol which alternatives did not fit, and what was in the way"),
@@ -354,9 +212,9 @@ static const tn_option options[] = {
 const tn_command tn_command_place = {
     .name = "place",
     .summary = "place parts by a connection grammar or a kit",
-    .usage =
-        "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.kit [--model NAME] [-o OUT]...\n"
-        "FILE --trace",
+    .usage = "FILE.pcfg... [-o OUT]... [--seed N] [--stats [json]] [--program FILE]\nFILE.kit [--model NAME] [-o "
+             "OUT]... [--steps part|layer|N] [--sheet]\n"
+             "FILE --trace",
     .description =
         "Derives a model from a connection grammar and writes it. The files are one grammar together, in the order "
         "given, and the first rule's symbol is expanded: its alternatives are tried in their order, and the first that "
@@ -365,8 +223,8 @@ const tn_command tn_command_place = {
         "part has no room, the run ends with exit code 1, says what is in the way and since when, and writes nothing "
         "unless --keep-partial is given.\n\n"
         "A kit's model is placed inside its space, and then held to what it requires. Its .ldr file begins with how it "
-        "was "
-        "made.",
+        "was made. With --steps, parts are written in an order in which they can be built: each joins what stands, and "
+        "is put in from above; a warning counts those that cannot.",
     .example = "$ tartan place wall.pcfg bricks.pcfg -o wall.ldr -o parts.csv",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -9,7 +9,7 @@
 #include "cli/common/progress.h"
 #include "cli/plan/plan_output.h"
 #include "driver/house/judge.h"
-#include "driver/open/digits.h"
+#include "driver/plan/made.h"
 
 typedef struct enumerate_settings {
     tn_settings common;
@@ -39,58 +39,25 @@ typedef struct enumeration {
     bool limited;
 } enumeration;
 
-static void refuse_range(tn_job *job)
-{
-    const enumerate_settings *settings = settings_of(job);
-    tn_diagnostic *d = tn_job_usage(job, "no rank is from %.60s on and before %.60s", settings->from, settings->to);
-    tn_help(tn_job_diagnostics(job), d, "write the smaller rank after --from");
-}
-
-static void note_end(tn_job *job, const mpz_t kept)
-{
-    char *digits = tn_digits(kept, false);
-    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?",
-                settings_of(job)->from);
-    free(digits);
-}
-
 /* The ranks asked for, no further than the library goes. False where no stretch was asked for. */
 static bool find_range(enumeration *e)
 {
     const enumerate_settings *settings = settings_of(e->job);
-    mpz_t kept, zero;
-    mpz_inits(kept, zero, NULL);
-    tn_library_kept(e->ready->library, TN_ALL_LENGTHS, kept);
-    tn_job_rank(settings->from, zero, e->rank);
-    tn_job_rank(settings->to, kept, e->to);
-    bool backwards = settings->to && mpz_cmp(e->rank, e->to) > 0;
-    if (backwards)
-        refuse_range(e->job);
-    else if (mpz_sgn(kept) > 0 && mpz_cmp(e->rank, kept) >= 0)
-        note_end(e->job, kept);
-    if (mpz_cmp(e->to, kept) > 0)
-        mpz_set(e->to, kept);
-    if (mpz_cmp(e->rank, e->to) > 0)
-        mpz_set(e->rank, e->to);
+    bool found = tn_job_range(e->job, e->ready->library, settings->from, settings->to, e->rank, e->to);
     mpz_set(e->first, e->rank);
-    mpz_clears(kept, zero, NULL);
-    return !backwards;
+    return found;
 }
 
 /* What decides the result. The limit is left out: a library can be resumed to go on past it. */
 static char *describe(const enumerate_settings *settings)
 {
-    const char *from = settings->from ? settings->from : "0", *to = settings->to ? settings->to : "";
-    size_t size = strlen(from) + strlen(to) + 80;
-    char *text = malloc(size);
-    if (!text)
-        return NULL;
-    int used = snprintf(text, size, "enumerate --from %s%s%s%s", from, *to ? " --to " : "", to,
-                        settings->mirror ? " --mirror" : "");
-    if (settings->plans.trays.given)
-        snprintf(text + used, size - (size_t)used, " --trays %" PRIu64 "..%" PRIu64, settings->plans.trays.low,
-                 settings->plans.trays.high);
-    return text;
+    const tn_enumerated asked = {settings->from,
+                                 settings->to,
+                                 settings->mirror,
+                                 settings->plans.trays.given,
+                                 settings->plans.trays.low,
+                                 settings->plans.trays.high};
+    return tn_enumerated_words(&asked);
 }
 
 static void resume(enumeration *e)

@@ -228,6 +228,17 @@ static const struct {
     {TN_OP_IS_BETWEEN, TN_OP_SHORT_OF_BETWEEN, TN_OP_SHORT_OF_OUTSIDE},
 };
 
+bool tn_expression_is_condition(const tn_expression *expression)
+{
+    bool joins = expression->op == TN_OP_IS_BOTH || expression->op == TN_OP_IS_EITHER || expression->op == TN_OP_IS_NOT;
+    for (const tn_expression *e = expression->first; joins && e; e = e->next)
+        if (!tn_expression_is_condition(e))
+            return false;
+    for (size_t i = 0; !joins && i < sizeof shortfalls / sizeof *shortfalls; i++)
+        joins = shortfalls[i].comparison == expression->op;
+    return joins;
+}
+
 static void add_shortfall(tn_formula *formula, const tn_expression *e, bool wanted)
 {
     for (size_t i = 0; i < sizeof shortfalls / sizeof *shortfalls; i++) {

@@ -56,6 +56,9 @@ void tn_expression_check(tn_diagnostics *diagnostics, const tn_expression_scope 
 /* The code of the expression's value: begins the formula and ends it. TN_OK or TN_MEMORY. */
 tn_status tn_expression_code(const tn_expression *expression, tn_formula *formula, tn_error *error);
 
+/* Is it a comparison, or made of some by `and`, `or` and `not`? */
+bool tn_expression_is_condition(const tn_expression *expression);
+
 /* The code of how far the expression, taken for a condition, is from holding: 0 where it holds, else above 0, and no
  * value where it has none. Of a <= b it is max(0, a - b), of a = b |a - b|, of `and` the sum, of `or` the least; `not`
  * is pushed inward, to the opposite comparisons; a strict comparison that fails, and `!=`, give at least 1e-9. What is

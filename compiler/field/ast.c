@@ -46,7 +46,7 @@ void tn_field_set(tn_growth_parse *parse, tn_field_setting setting)
         tn_diagnostic *d =
             tn_report(parse->diagnostics, E_FIELD_REPEATED, setting.span, "`%s` is there twice", words[setting.kind]);
         tn_note(parse->diagnostics, d, &first->span, "the first is here");
-        tn_help(parse->diagnostics, d, "leave one of them out");
+        tn_help(parse->diagnostics, d, "a file has one, for all its surfaces: leave one of them out");
         return;
     }
     tn_field_setting *copy = TN_NEW(parse->arena, tn_field_setting);

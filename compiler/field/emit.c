@@ -24,15 +24,15 @@ typedef struct emit {
 
 /* ---- what all surfaces share */
 
-static double constant(emit *e, const tn_expression *of, const char *what)
+static double constant(emit *e, const tn_expression *of, const char *what, const char *help)
 {
     uint32_t node = tn_field_expand(&e->nodes, of);
     bool known = e->nodes.fits == TN_FIELD_FITS && e->nodes.count > node && e->nodes.items[node].op == TN_OP_NUMBER;
     if (known)
         return e->nodes.items[node].number;
-    tn_diagnostic *d =
-        tn_report(e->diagnostics, E_FIELD_CONSTANT, of->span, "%s is a number that can be computed at once", what);
-    tn_help(e->diagnostics, d, "it depends on no coordinate; what does is a `fn` or a `surface`");
+    tn_diagnostic *d = tn_report(e->diagnostics, E_FIELD_CONSTANT, of->span,
+                                 "%s is a number, but this depends on the point where it is computed", what);
+    tn_help(e->diagnostics, d, "%s", help);
     e->wrong = true;
     return 0;
 }
@@ -41,7 +41,8 @@ static void check_constants(emit *e)
 {
     for (uint32_t i = 0; i < e->checked->definition_count; i++)
         if (e->checked->definitions[i]->kind == TN_FIELD_LET)
-            constant(e, e->checked->definitions[i]->body, "what `let` names");
+            constant(e, e->checked->definitions[i]->body, "what `let` names",
+                     "write `surface` for `let`: other formulas may use a surface by its name");
 }
 
 static void refuse_box(emit *e, tn_span span, const char *what, const char *help)
@@ -59,7 +60,7 @@ static void take_corner(emit *e, const tn_expression *corner, double out[3])
         return;
     }
     for (const tn_expression *number = corner->first; number; number = number->next)
-        out[axis++] = constant(e, number, "a corner's coordinate");
+        out[axis++] = constant(e, number, "a corner's coordinate", "write numbers, or names that `let` gave to numbers");
 }
 
 static void take_box(emit *e, const tn_field_setting *box)

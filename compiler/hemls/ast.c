@@ -113,7 +113,7 @@ void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *fo
     if (parse->reported)
         return;
     size_t used = 0, size = span.end > span.begin ? span.end - span.begin : 0;
-    for (size_t i = 0; i < count && count <= 4 && used < sizeof list; i++)
+    for (size_t i = 0; i < count && count <= 6 && used < sizeof list; i++)
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
                                  i == 0           ? ", but "
                                  : i + 1 == count ? " or "

@@ -49,7 +49,9 @@ typedef enum tn_kit_kind {
     TN_KIT_BOTH,
     TN_KIT_EITHER,
     TN_KIT_NOT,
-    TN_KIT_MOVED, /* inner: one, at */
+    TN_KIT_MOVED,    /* inner: one, at */
+    TN_KIT_TURNED,   /* inner: one, count[0] */
+    TN_KIT_REPEATED, /* inner: one, count[0], at */
     /* of a rule */
     TN_KIT_DRAWN,  /* inner: PLACES with weights */
     TN_KIT_PLACES, /* inner: PLACED, perhaps none; count[0]: weight */
@@ -63,6 +65,8 @@ typedef enum tn_kit_kind {
     TN_KIT_MAXIMIZES,
     TN_KIT_SEARCHES, /* name, count[0] */
     TN_KIT_REPEATS,  /* count[0]: turns; or name: mirror, other: an axis */
+    TN_KIT_ORDERS,   /* name */
+    TN_KIT_STEPS,    /* name, or count[0] */
     TN_KIT_STOCKS,   /* inner: STOCKED */
     TN_KIT_STOCKED,  /* name: of a part, count[0] */
     TN_KIT_CONDITION /* expression */

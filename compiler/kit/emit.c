@@ -371,6 +371,8 @@ static void emit_model(emitting *e, const tn_kit_model *model, uint32_t start, c
                                   .search_amount = (uint32_t)model->amount,
                                   .objective = TN_NO_RECORD,
                                   .symmetry = model->symmetry,
+                                  .steps = model->steps,
+                                  .step_parts = (uint32_t)model->step_parts,
                                   .stock_first = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_STOCK)};
     for (const tn_kit_node *line = node->inner.first; line; line = line->next)
         if (line->kind == TN_KIT_REQUIRES)
@@ -383,6 +385,7 @@ static void emit_model(emitting *e, const tn_kit_model *model, uint32_t start, c
         record.objective = emit_function(e, model->objective->inner.first->expression);
         record.flags = model->objective->kind == TN_KIT_MAXIMIZES ? TN_KIT_MAXIMIZE : 0;
     }
+    record.flags |= model->breadth ? TN_KIT_BREADTH : 0;
     emit_stock(e, model->stocks);
     record.stock_count = (uint32_t)tn_builder_count(e->builder, TN_SECTION_KIT_STOCK) - record.stock_first;
     set_bounds(e->kit, &model->region, &record);

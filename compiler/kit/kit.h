@@ -66,7 +66,10 @@ typedef struct tn_kit_model {
     int64_t colour, amount; /* amount: of the search */
     tn_kit_search search;
     tn_symmetry symmetry;
-    const tn_kit_node *objective, *searches, *repeats, *stocks; /* or NULL */
+    const tn_kit_node *objective, *searches, *repeats, *stocks, *orders, *divides; /* or NULL */
+    bool breadth;
+    tn_kit_steps steps;
+    int64_t step_parts;
     struct tn_kit_model *next;
 } tn_kit_model;
 

@@ -138,12 +138,14 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_NUMBER, number->span, "%s is a whole number from %lld to %lld",
                                  what, (long long)low, (long long)high);
     tn_help(kit->diagnostics, d, "as in `%s`",
-            strcmp(what, "a colour") == 0     ? "in 4"
-            : strcmp(what, "a symmetry") == 0 ? "turns 4"
-            : strcmp(what, "a turn") == 0     ? "turn 1"
-            : strcmp(what, "a stock") == 0    ? "stock 3001 <= 20"
-            : strcmp(what, "an amount") == 0  ? "search beam 50"
-                                              : "4 x 2");
+            strcmp(what, "a colour") == 0             ? "in 4"
+            : strcmp(what, "a symmetry") == 0         ? "turns 4"
+            : strcmp(what, "a turn") == 0             ? "turn 1"
+            : strcmp(what, "a stock") == 0            ? "stock 3001 <= 20"
+            : strcmp(what, "an amount") == 0          ? "search beam 50"
+            : strcmp(what, "a step") == 0             ? "steps 5"
+            : strcmp(what, "a number of copies") == 0 ? "repeat 4 by (3 studs, 0, 0)"
+                                                      : "4 x 2");
     return false;
 }
 

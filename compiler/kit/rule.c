@@ -65,8 +65,23 @@ static size_t count_features(tn_kit *kit, const tn_kit_node *places)
     return count;
 }
 
-static void add_feature(feature *to, const tn_kit_box *box, const tn_kit_joint *joint, uint32_t turns,
-                        const int32_t by[3])
+static bool joins(const tn_kit_type *a, const tn_kit_type *b)
+{
+    return a->joins == b || b->joins == a;
+}
+
+/* How many of the four turns a connector does not tell apart, whatever it joins. */
+static uint32_t turns_alike(const tn_kit *kit, const tn_kit_type *type)
+{
+    uint32_t turns = type->turns;
+    for (const tn_kit_type *other = kit->type_list.first; other; other = other->next)
+        if (joins(type, other) && other->turns < turns)
+            turns = other->turns;
+    return turns;
+}
+
+static void add_feature(const tn_kit *kit, feature *to, const tn_kit_box *box, const tn_kit_joint *joint,
+                        uint32_t turns, const int32_t by[3])
 {
     int32_t a[3], b[3];
     turn(turns, box ? box->low : joint->at, a);
@@ -77,9 +92,10 @@ static void add_feature(feature *to, const tn_kit_box *box, const tn_kit_joint *
     }
     to->v[0] = -1;
     if (joint) {
-        uint32_t axis = tn_kit_side_of(joint->axis) == TN_KIT_ASIDE ? 2 + (bearing(joint->axis) + turns) % 4
-                                                                    : (uint32_t)joint->axis;
-        to->v[0] = (int32_t)(joint->type->index * TN_AXIS_COUNT + axis);
+        bool aside = tn_kit_side_of(joint->axis) == TN_KIT_ASIDE;
+        uint32_t axis = aside ? 2 + (bearing(joint->axis) + turns) % 4 : (uint32_t)joint->axis;
+        uint32_t about = aside ? 0 : turns % (4 / turns_alike(kit, joint->type));
+        to->v[0] = (int32_t)((joint->type->index * TN_AXIS_COUNT + axis) * 4 + about);
     }
 }
 
@@ -96,9 +112,9 @@ static void list_features(tn_kit *kit, const tn_kit_node *places, uint32_t turns
         tn_kit_offset(kit, placed, at, &own);
         turn(turns, at, by);
         for (uint32_t i = 0; i < part->box_count; i++)
-            add_feature(next++, &part->boxes[i], NULL, turns + own, by);
+            add_feature(kit, next++, &part->boxes[i], NULL, turns + own, by);
         for (uint32_t i = 0; i < part->joint_count; i++)
-            add_feature(next++, NULL, &part->joints[i], turns + own, by);
+            add_feature(kit, next++, NULL, &part->joints[i], turns + own, by);
     }
     for (int k = 0; k < 3; k++) {
         low[k] = INT32_MAX;
@@ -154,11 +170,6 @@ static tn_kit_placement simplest(const symmetry *like, tn_kit_placement p)
 }
 
 /* ---- placements */
-
-static bool joins(const tn_kit_type *a, const tn_kit_type *b)
-{
-    return a->joins == b || b->joins == a;
-}
 
 /* Does a connector of a part, turned so often, face a connector of this side? (Of one aside the head has turned so that
  * it points along x.) */

@@ -97,6 +97,54 @@ static void check_symmetry(tn_kit *kit, tn_kit_model *model, const tn_kit_node *
     tn_help(kit->diagnostics, d, "there is: symmetry turn 2, turn 4, mirror x, mirror z");
 }
 
+/* ---- orders */
+
+static void check_order(tn_kit *kit, tn_kit_model *model, const tn_kit_node *node)
+{
+    static const char *const words[] = {"depth", "breadth"};
+    if (is_twice(kit, model->orders, node, "`order`", "leave one out"))
+        return;
+    model->orders = node;
+    if (!node->name.text)
+        return;
+    model->breadth = strcmp(node->name.text, words[1]) == 0;
+    if (model->breadth || strcmp(node->name.text, words[0]) == 0)
+        return;
+    tn_diagnostic *d =
+        tn_report(kit->diagnostics, E_KIT_ORDER, node->name.span, "there is no order `%.100s`", node->name.text);
+    const char *near = tn_nearest(node->name.text, words, 2);
+    if (near)
+        tn_suggest(kit->diagnostics, d, "%s", near);
+    else
+        tn_help(kit->diagnostics, d, "there is: order depth, order breadth");
+}
+
+static void check_steps(tn_kit *kit, tn_kit_model *model, const tn_kit_node *node)
+{
+    static const char *const words[] = {"part", "layer"};
+    if (is_twice(kit, model->divides, node, "`steps`", "leave one out"))
+        return;
+    model->divides = node;
+    model->steps = TN_STEPS_PARTS;
+    model->step_parts = 1;
+    if (tn_kit_given(&node->count[0])) {
+        tn_kit_whole(kit, &node->count[0], 1, TN_STEP_PARTS_MAX, "a step", &model->step_parts);
+        return;
+    }
+    if (!node->name.text || strcmp(node->name.text, words[0]) == 0)
+        return;
+    model->steps = TN_STEPS_LAYERS;
+    if (strcmp(node->name.text, words[1]) == 0)
+        return;
+    tn_diagnostic *d =
+        tn_report(kit->diagnostics, E_KIT_ORDER, node->name.span, "there are no steps `%.100s`", node->name.text);
+    const char *near = tn_nearest(node->name.text, words, 2);
+    if (near)
+        tn_suggest(kit->diagnostics, d, "%s", near);
+    else
+        tn_help(kit->diagnostics, d, "there is: steps part, steps layer, steps 5");
+}
+
 /* ---- stock */
 
 static void check_stocked(tn_kit *kit, const tn_kit_node *stocks, const tn_kit_node *node)
@@ -136,6 +184,12 @@ void tn_kit_check_search(tn_kit *kit, tn_kit_model *model, const tn_kit_node *no
         break;
     case TN_KIT_REPEATS:
         check_symmetry(kit, model, node);
+        break;
+    case TN_KIT_ORDERS:
+        check_order(kit, model, node);
+        break;
+    case TN_KIT_STEPS:
+        check_steps(kit, model, node);
         break;
     default:
         check_stock(kit, model, node);

@@ -4,7 +4,13 @@
 #include "compiler/common/limits.h"
 #include "compiler/kit/kit.h"
 
-enum { SHAPES_MAX = 20000 };
+enum { SHAPES_MAX = 20000, REPEATED_MAX = 1000 };
+
+/* Where a space is, in LDU, and by how many quarter turns about the vertical it is turned. */
+typedef struct spot {
+    double at[3];
+    uint32_t turns;
+} spot;
 
 static tn_expression *number(tn_kit *kit, tn_span span, double value)
 {
@@ -39,11 +45,11 @@ static tn_expression *square(tn_kit *kit, tn_span span, int axis, double centre)
 }
 
 /* Within a radius of the middle of a shape, along two axes or three. */
-static tn_expression *within(tn_kit *kit, tn_span span, const double at[3], double radius, bool round)
+static tn_expression *within(tn_kit *kit, tn_span span, const double centre[3], double radius, bool round)
 {
-    tn_expression *sum = of(kit, TN_OP_ADD, span, square(kit, span, 0, at[0]), square(kit, span, 2, at[2]));
+    tn_expression *sum = of(kit, TN_OP_ADD, span, square(kit, span, 0, centre[0]), square(kit, span, 2, centre[2]));
     if (round)
-        sum = of(kit, TN_OP_ADD, span, sum, square(kit, span, 1, at[1]));
+        sum = of(kit, TN_OP_ADD, span, sum, square(kit, span, 1, centre[1]));
     return of(kit, TN_OP_IS_AT_MOST, span, sum, number(kit, span, radius * radius));
 }
 
@@ -99,19 +105,21 @@ static bool read_sizes(tn_kit *kit, const tn_kit_node *node, int shape, double s
     return false;
 }
 
-static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const double at[3])
+static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const spot *at)
 {
     double size[3] = {0};
     tn_kit_region region = {.inside = NULL};
     int shape = find_shape(kit, node);
     if (shape == SHAPE_COUNT || !read_sizes(kit, node, shape, size))
         return region;
-    double wide = shape == BOX ? size[0] / 2 : size[0], deep = shape == BOX ? size[2] / 2 : size[0];
+    bool across = at->turns % 2;
+    double wide = shape == BOX ? size[across ? 2 : 0] / 2 : size[0],
+           deep = shape == BOX ? size[across ? 0 : 2] / 2 : size[0];
     double high = shape == CYLINDER ? size[1] : shape == BOX ? size[1] : size[0];
     double reach[3] = {wide, high, deep};
     for (int k = 0; k < 3; k++) {
-        region.low[k] = at[k] - (k == 1 && shape != SPHERE ? 0 : reach[k]);
-        region.high[k] = at[k] + reach[k];
+        region.low[k] = at->at[k] - (k == 1 && shape != SPHERE ? 0 : reach[k]);
+        region.high[k] = at->at[k] + reach[k];
     }
     tn_span span = node->span;
     tn_expression *upright = between(kit, span, 1, region.low[1], region.high[1]);
@@ -120,15 +128,15 @@ static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const
                            of(kit, TN_OP_IS_BOTH, span, between(kit, span, 0, region.low[0], region.high[0]), upright),
                            between(kit, span, 2, region.low[2], region.high[2]));
     else if (shape == CYLINDER)
-        region.inside = of(kit, TN_OP_IS_BOTH, span, within(kit, span, at, size[0], false), upright);
+        region.inside = of(kit, TN_OP_IS_BOTH, span, within(kit, span, at->at, size[0], false), upright);
     else
-        region.inside = within(kit, span, at, size[0], true);
+        region.inside = within(kit, span, at->at, size[0], true);
     return region;
 }
 
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const double at[3]);
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot *at);
 
-static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const double at[3])
+static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const spot *at)
 {
     tn_kit_region none = {.inside = NULL};
     tn_kit_space *space = tn_names_get(&kit->spaces, node->name.text);
@@ -153,36 +161,88 @@ static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const do
     return region;
 }
 
-static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const double at[3])
+static tn_kit_region join_regions(tn_kit *kit, tn_span span, const tn_kit_region *a, const tn_kit_region *b, bool both)
 {
-    bool both = node->kind == TN_KIT_BOTH;
-    tn_kit_region a = region_of(kit, node->inner.first, at), b = region_of(kit, node->inner.last, at);
-    tn_kit_region region = a.endless && both ? b : a;
-    region.endless = both ? a.endless && b.endless : a.endless || b.endless;
-    for (int k = 0; k < 3 && !a.endless && !b.endless; k++) {
-        region.low[k] = (a.low[k] < b.low[k]) == both ? b.low[k] : a.low[k];
-        region.high[k] = (a.high[k] < b.high[k]) == both ? a.high[k] : b.high[k];
+    tn_kit_region region = a->endless && both ? *b : *a;
+    region.endless = both ? a->endless && b->endless : a->endless || b->endless;
+    for (int k = 0; k < 3 && !a->endless && !b->endless; k++) {
+        region.low[k] = (a->low[k] < b->low[k]) == both ? b->low[k] : a->low[k];
+        region.high[k] = (a->high[k] < b->high[k]) == both ? a->high[k] : b->high[k];
     }
     region.inside =
-        a.inside && b.inside ? of(kit, both ? TN_OP_IS_BOTH : TN_OP_IS_EITHER, node->span, a.inside, b.inside) : NULL;
+        a->inside && b->inside ? of(kit, both ? TN_OP_IS_BOTH : TN_OP_IS_EITHER, span, a->inside, b->inside) : NULL;
     return region;
 }
 
-static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const double at[3])
+static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const spot *at)
 {
-    double to[3];
-    int64_t by;
+    tn_kit_region a = region_of(kit, node->inner.first, at), b = region_of(kit, node->inner.last, at);
+    return join_regions(kit, node->span, &a, &b, node->kind == TN_KIT_BOTH);
+}
+
+/* The spot moved so many times by what stands behind `at` or `by`; turned as the spot is. */
+static bool move_spot(tn_kit *kit, const tn_kit_node *node, const spot *at, double times, spot *to)
+{
+    double by[3];
     for (int k = 0; k < 3; k++) {
-        if (!tn_kit_measure(kit, &node->at.at[k], &by))
-            return (tn_kit_region){.inside = NULL};
-        to[k] = at[k] + (double)by / 1e6;
+        int64_t value;
+        if (!tn_kit_measure(kit, &node->at.at[k], &value))
+            return false;
+        by[k] = times * (double)value / 1e6;
     }
-    return region_of(kit, node->inner.first, to);
+    *to = *at;
+    for (uint32_t t = 0; t < at->turns % 4; t++) {
+        double x = by[0];
+        by[0] = -by[2];
+        by[2] = x;
+    }
+    for (int k = 0; k < 3; k++)
+        to->at[k] += by[k];
+    return true;
+}
+
+static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const spot *at)
+{
+    spot to;
+    return move_spot(kit, node, at, 1, &to) ? region_of(kit, node->inner.first, &to) : (tn_kit_region){.inside = NULL};
+}
+
+static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const spot *at)
+{
+    int64_t turns;
+    spot to = *at;
+    if (!tn_kit_whole(kit, &node->count[0], 0, 3, "a turn", &turns))
+        return (tn_kit_region){.inside = NULL};
+    to.turns += (uint32_t)turns;
+    return region_of(kit, node->inner.first, &to);
+}
+
+/* What is inside of any of so many copies from the first on: halves are joined, so that the condition is not deep. */
+static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const spot *at, int64_t first, int64_t count)
+{
+    spot to;
+    if (count > 1) {
+        tn_kit_region a = region_copies(kit, node, at, first, count / 2);
+        if (!a.inside)
+            return a;
+        tn_kit_region b = region_copies(kit, node, at, first + count / 2, count - count / 2);
+        return join_regions(kit, node->span, &a, &b, false);
+    }
+    return move_spot(kit, node, at, (double)first, &to) ? region_of(kit, node->inner.first, &to)
+                                                        : (tn_kit_region){.inside = NULL};
+}
+
+static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const spot *at)
+{
+    int64_t count;
+    return tn_kit_whole(kit, &node->count[0], 1, REPEATED_MAX, "a number of copies", &count)
+               ? region_copies(kit, node, at, 0, count)
+               : (tn_kit_region){.inside = NULL};
 }
 
 /* Recursion is as deep as spaces nest, which was checked for each, and as names lead to one another, which is checked
  * by the number of shapes. */
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const double at[3])
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot *at)
 {
     tn_kit_region region = {.inside = NULL};
     if (node->depth > TN_NESTING_MAX || ++kit->shapes > SHAPES_MAX) {
@@ -197,6 +257,10 @@ static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const doubl
         return region_named(kit, node, at);
     case TN_KIT_MOVED:
         return region_moved(kit, node, at);
+    case TN_KIT_TURNED:
+        return region_turned(kit, node, at);
+    case TN_KIT_REPEATED:
+        return region_repeated(kit, node, at);
     case TN_KIT_NOT:
         region = region_of(kit, node->inner.first, at);
         region.inside = of(kit, TN_OP_IS_NOT, node->span, region.inside, NULL);
@@ -209,10 +273,10 @@ static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const doubl
 
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node)
 {
-    static const double origin[3] = {0};
+    static const spot origin = {.turns = 0};
     size_t errors = kit->diagnostics->error_count;
     kit->shapes = 0;
-    tn_kit_region region = region_of(kit, node, origin);
+    tn_kit_region region = region_of(kit, node, &origin);
     if (kit->diagnostics->error_count > errors || !region.inside)
         return (tn_kit_region){.inside = NULL};
     if (region.inside->depth > TN_NESTING_MAX) {

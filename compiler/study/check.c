@@ -145,7 +145,7 @@ static void check_boundary(check *c, const tn_study_item *item)
 uint32_t tn_study_term(const char *name)
 {
     uint32_t term = 0;
-    while (term < TN_FITNESS_TERM_COUNT && strcmp(tn_measured_names[term], name) != 0)
+    while (term < TN_MEASURED_COUNT && strcmp(tn_measured_names[term], name) != 0)
         term++;
     return term;
 }
@@ -167,13 +167,13 @@ static void unknown_term(check *c, const tn_study_item *item)
 {
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_UNKNOWN_TERM, item->text_span, "there is no fitness term `%s`", item->text);
-    const char *near = tn_nearest(item->text, tn_measured_names, TN_FITNESS_TERM_COUNT);
+    const char *near = tn_nearest(item->text, tn_measured_names, TN_MEASURED_COUNT);
     if (near)
         tn_help(c->diagnostics, d, "did you mean `%s`?", near);
     else
         tn_help(c->diagnostics, d,
-                "terms are size, smoothness, soft-boundary, subdivisions, symmetry and undulation; others are made of "
-                "them: `fitness %.60s = undulation / size`",
+                "docs/growth.md lists the terms, as size, undulation and area; others are made of them: "
+                "`fitness %.60s = undulation / size`",
                 item->text);
 }
 
@@ -182,7 +182,8 @@ static void check_expression(check *c, const tn_study_item *item)
     tn_expression_check(c->diagnostics, &tn_study_scope, item->expression);
     if (strlen(item->text) > TN_NAME_MAX)
         tn_report(c->diagnostics, E_MEASURE, item->text_span, "a term's name has at most %u bytes", TN_NAME_MAX);
-    if (!tn_expression_reserves(&tn_study_scope, item->text))
+    /* a goal's own name hides a term of that name */
+    if (tn_study_term(item->text) < TN_MEASURED_COUNT || !tn_expression_reserves(&tn_study_scope, item->text))
         return;
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_MEASURE, item->text_span, "`%s` is a name that expressions use", item->text);
@@ -196,7 +197,7 @@ static bool check_goal(check *c, const tn_study_item *item)
         return false;
     if (item->expression)
         check_expression(c, item);
-    else if (tn_study_term(item->text) == TN_FITNESS_TERM_COUNT) {
+    else if (tn_study_term(item->text) == TN_MEASURED_COUNT) {
         unknown_term(c, item);
         return false;
     }
@@ -216,6 +217,19 @@ static void take_goal(check *c, const tn_study_item *item)
     c->study->goal_count += i == c->study->goal_count;
 }
 
+static void take_requirement(check *c, const tn_study_item *item)
+{
+    tn_expression *condition = item->expression;
+    if (!condition)
+        return;
+    tn_expression_check(c->diagnostics, &tn_study_scope, condition);
+    if (condition->depth <= TN_NESTING_MAX && !tn_expression_is_condition(condition)) {
+        tn_diagnostic *d = tn_report(c->diagnostics, E_MEASURE, condition->span, "this is no condition");
+        tn_help(c->diagnostics, d, "compare it with something, as in `require crossings = 0`");
+    }
+    c->study->requirements[c->study->requirement_count++] = item;
+}
+
 static void take_item(check *c, const tn_study_item *item)
 {
     check_parts(c, item);
@@ -231,6 +245,9 @@ static void take_item(check *c, const tn_study_item *item)
         break;
     case TN_STUDY_GOAL:
         take_goal(c, item);
+        break;
+    case TN_STUDY_REQUIREMENT:
+        take_requirement(c, item);
         break;
     default:
         take_setting(c, item);
@@ -255,7 +272,8 @@ static bool make_lists(check *c, const tn_imports *imports)
     c->study->forces = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
     c->study->boundaries = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
     c->study->goals = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
-    return c->study->forces && c->study->boundaries && c->study->goals;
+    c->study->requirements = TN_NEW_ARRAY(c->arena, const tn_study_item *, count);
+    return c->study->forces && c->study->boundaries && c->study->goals && c->study->requirements;
 }
 
 static void check_whole(check *c, const tn_imports *imports, bool damaged)
@@ -269,9 +287,9 @@ static void check_whole(check *c, const tn_imports *imports, bool damaged)
     if (study->force_count > TN_SURROUNDINGS_MAX || study->boundary_count > TN_SURROUNDINGS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
                   "this study has more forces or boundaries than the limit of %u", TN_SURROUNDINGS_MAX);
-    if (study->goal_count > TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX)
+    if (study->goal_count > TN_EXPRESSIONS_MAX || study->requirement_count > TN_EXPRESSIONS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
-                  "this study has more fitness expressions than the limit of %u", TN_EXPRESSIONS_MAX);
+                  "this study has more goals or requirements than the limit of %u", TN_EXPRESSIONS_MAX);
 }
 
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study)

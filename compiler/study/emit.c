@@ -89,20 +89,36 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
 
 static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_study_item *goal, tn_error *error)
 {
-    tn_goal_record record = {.term = goal->expression ? TN_FITNESS_TERM_COUNT : tn_study_term(goal->text),
+    uint32_t term = tn_study_term(goal->text);
+    bool plain = !goal->expression && term < TN_FITNESS_TERM_COUNT;
+    tn_goal_record record = {.term = plain ? term : TN_FITNESS_TERM_COUNT,
                              .target = part_or(goal, TN_PART_TARGET, 0),
                              .weight = part_or(goal, TN_PART_WEIGHT, 1),
                              .file = goal->span.file,
                              .begin = goal->span.begin,
                              .end = goal->span.end};
-    if (goal->expression) {
-        tn_status status = tn_expression_code(goal->expression, formula, error);
+    if (!plain) {
+        tn_expression measured = {.op = TN_OP_TERM, .term = term};
+        tn_status status = tn_expression_code(goal->expression ? goal->expression : &measured, formula, error);
         if (status != TN_OK)
             return status;
         record.name = tn_builder_string(builder, goal->text);
         record.function = tn_formula_emit(builder, TN_FUNCTION_MEASURE, goal->text, formula);
     }
     tn_builder_add_GOAL(builder, &record);
+    return TN_OK;
+}
+
+static tn_status emit_requirement(tn_builder *builder, tn_formula *formula, const tn_study_item *requirement,
+                                  tn_error *error)
+{
+    tn_status status = tn_expression_violation(requirement->expression, formula, error);
+    if (status != TN_OK)
+        return status;
+    uint32_t violation = tn_formula_emit(builder, TN_FUNCTION_MEASURE, NULL, formula);
+    tn_builder_add_GROWTH_REQUIREMENT(builder,
+                                      &(tn_growth_requirement_record){violation, requirement->span.file,
+                                                                      requirement->span.begin, requirement->span.end});
     return TN_OK;
 }
 
@@ -118,6 +134,8 @@ tn_status tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *
         emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
     for (uint32_t i = 0; i < study->goal_count && status == TN_OK; i++)
         status = emit_goal(builder, &formula, study->goals[i], error);
+    for (uint32_t i = 0; i < study->requirement_count && status == TN_OK; i++)
+        status = emit_requirement(builder, &formula, study->requirements[i], error);
     tn_formula_clear(&formula);
     return status;
 }

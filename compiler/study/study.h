@@ -34,6 +34,7 @@ typedef enum tn_study_kind {
     TN_STUDY_FORCE,
     TN_STUDY_BOUNDARY,
     TN_STUDY_GOAL,
+    TN_STUDY_REQUIREMENT,
 } tn_study_kind;
 
 /* An optional part of a statement. */
@@ -68,7 +69,7 @@ typedef struct tn_study_item {
     const char *text; /* a path, a title or a term */
     tn_span text_span;
     tn_study_part *parts;      /* the last first */
-    tn_expression *expression; /* of a goal that is one, which `text` names */
+    tn_expression *expression; /* of a requirement, or of a goal that is one, which `text` names */
     tn_use *use;               /* of `use` and `rules`: where it leads */
     struct tn_study_item *next;
 } tn_study_item;
@@ -102,8 +103,8 @@ void tn_study_lost(tn_growth_parse *parse);
 typedef struct tn_checked_study {
     const char *name;
     const tn_study_item *settings[TN_STUDY_SETTING_COUNT]; /* NULL: not given */
-    const tn_study_item **forces, **boundaries, **goals;
-    uint32_t force_count, boundary_count, goal_count;
+    const tn_study_item **forces, **boundaries, **goals, **requirements;
+    uint32_t force_count, boundary_count, goal_count, requirement_count;
     uint32_t flags;
     tn_span span;
 } tn_checked_study;
@@ -114,7 +115,7 @@ bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_impor
 /* What fitness expressions speak of: everything that is measured of a surface. */
 extern const tn_expression_scope tn_study_scope;
 
-/* The tn_fitness_term of a name, or their number. */
+/* The tn_measured of a name, or their number. */
 uint32_t tn_study_term(const char *name);
 
 /* TN_OK or TN_MEMORY. */

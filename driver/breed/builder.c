@@ -62,10 +62,10 @@ static tn_status take_goals(tn_design_scorer *s, tn_error *error)
     for (uint32_t i = 0; i < s->record->goal_count; i++) {
         const tn_solid_goal_record *goal = &module->SOLID_GOAL_records[s->record->goal_first + i];
         s->wishes[s->wish_count++] = (wish){tn_text(module, goal->name), goal->function, goal->target, goal->weight};
-        s->asked |= tn_solid_asked(module, goal->function);
+        s->asked |= tn_number_asked(module, goal->function);
     }
     for (uint32_t i = 0; i < s->record->requirement_count; i++)
-        s->asked |= tn_solid_asked(module, module->REQUIREMENT_records[s->record->requirement_first + i].violation);
+        s->asked |= tn_number_asked(module, module->REQUIREMENT_records[s->record->requirement_first + i].violation);
     return TN_OK;
 }
 
@@ -184,15 +184,17 @@ static void score_goals(const tn_design_scorer *s, const double *values, tn_scor
         double part = tn_goal_share(value_of(s, w->function, values), w->target, w->weight);
         total += part;
         if (s->separately)
-            score->objectives[i] = part + lacks;
+            score->objectives[i] = part;
     }
     for (size_t i = 0; i < s->more.count; i++) {
         double part = tn_goal_part(&s->more.items[i], values);
         total += part;
         if (s->separately)
-            score->objectives[s->wish_count + i] = part + lacks;
+            score->objectives[s->wish_count + i] = part;
     }
-    if (!s->separately)
+    if (s->separately)
+        score->violation = lacks;
+    else
         score->objectives[0] = total;
     if (isfinite(total))
         return;

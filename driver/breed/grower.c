@@ -9,6 +9,7 @@
 
 #include "driver/breed/inputs.h"
 #include "runtime/growth/picture/draw.h"
+#include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
 #include "runtime/mesh/openmesh.h"
 
@@ -129,7 +130,12 @@ static const char *name_of(const tn_grower *g, uint32_t goal)
 /* An expression may have no value for a surface: a division by its undulation, where it is flat. */
 static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
 {
-    double side = g->study.options.start_length, total = 0;
+    double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal), total = lacking;
+    if (!isfinite(lacking)) {
+        score->state = TN_SCORE_FAILED;
+        snprintf(message, 200, "a requirement has no value for this surface");
+        return;
+    }
     for (size_t i = 0; i < g->goal_count; i++) {
         double part = tn_fitness_part(fitness, &g->study.goal, g->goals[i], side);
         if (!isfinite(part)) {
@@ -141,7 +147,9 @@ static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score 
         if (g->separately)
             score->objectives[i] = part;
     }
-    if (!g->separately)
+    if (g->separately)
+        score->violation = lacking;
+    else
         score->objectives[0] = total;
 }
 
@@ -154,7 +162,9 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
     tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
     if (status == TN_OK) {
         tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
-        score_goals(g, &fitness, score, message);
+        status = tn_soundness_measure(g->growths[thread], g->study.goal.asked, &fitness, &own);
+        if (status == TN_OK)
+            score_goals(g, &fitness, score, message);
     }
     rules_clear(&compiled);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);

@@ -32,6 +32,7 @@ static tn_house_clause trays_clause(const tn_library_record *plans, size_t lengt
                              .kind = TN_CLAUSE_REQUIRE,
                              .of_plans = true,
                              .trays = true,
+                             .function = TN_NO_RECORD,
                              .holds = !drops,
                              .drops = drops,
                              .file = plans->file,
@@ -57,6 +58,7 @@ static tn_status ask_plans(tn_house_judge *judge, const tn_library_record *plans
                                     .doc = tn_text(judge->module, record->doc),
                                     .kind = record->kind,
                                     .of_plans = true,
+                                    .function = TN_NO_RECORD,
                                     .file = record->file,
                                     .begin = record->begin,
                                     .end = record->end};
@@ -75,6 +77,7 @@ static tn_status ask_houses(tn_house_judge *judge, const tn_house_library_record
         *clause = (tn_house_clause){.name = tn_text(judge->module, record->name),
                                     .doc = tn_text(judge->module, record->doc),
                                     .kind = record->kind,
+                                    .function = record->holds,
                                     .file = record->file,
                                     .begin = record->begin,
                                     .end = record->end};

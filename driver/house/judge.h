@@ -27,6 +27,7 @@ typedef struct tn_house_clause {
     bool of_plans; /* of the library of plans */
     bool trays;    /* the number of trays, which is no clause of its own */
     bool holds, drops;
+    uint32_t function; /* of kind HOLDS, of a clause about houses; else TN_NO_RECORD */
     uint32_t file, begin, end;
 } tn_house_clause;
 

@@ -23,6 +23,7 @@ typedef struct drawing {
     const tn_module *module;
     const tn_placed_model *model;
     double unit[3]; /* LDU */
+    size_t shown;   /* the first so many parts are drawn */
     tn_sight sight;
     uint32_t corner; /* next */
 } drawing;
@@ -152,7 +153,7 @@ static tn_status list_faces(drawing *d, const tn_placed_joints *joints, const ui
 {
     tn_cells *cells = tn_cells_new(NULL);
     tn_status status = cells ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; i < joints->count && status == TN_OK; i++) {
+    for (size_t i = 0; i < d->shown && status == TN_OK; i++) {
         const tn_kit_part_record *kind = joints->kinds[i];
         for (uint32_t b = 0; kind && b < kind->box_count && status == TN_OK; b++) {
             tn_cell_box box = box_of(d, joints, i, b);
@@ -160,7 +161,7 @@ static tn_status list_faces(drawing *d, const tn_placed_joints *joints, const ui
             status = tn_cells_fill(cells, &box, error);
         }
     }
-    for (size_t i = 0; i < joints->count && status == TN_OK; i++)
+    for (size_t i = 0; i < d->shown && status == TN_OK; i++)
         if (joints->kinds[i])
             add_studs(d, cells, joints->kinds[i], &d->model->parts[i].frame, groups[i]);
     tn_cells_free(cells);
@@ -178,7 +179,7 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
                            tn_error *error)
 {
     size_t boxes = 0, studs = 0;
-    for (size_t i = 0; i < joints->count; i++) {
+    for (size_t i = 0; i < d->shown; i++) {
         boxes += joints->kinds[i] ? joints->kinds[i]->box_count : 0;
         studs += count_studs(d, joints->kinds[i]);
     }
@@ -214,7 +215,7 @@ static tn_status make_palette(const colour_list *list, bool marks, double (**pal
 tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, const tn_placed_measures *measures,
                          const bool *marked, const char *title, tn_picture *to, tn_error *error)
 {
-    drawing d = {.module = module, .model = model};
+    drawing d = {.module = module, .model = model, .shown = model->count};
     colour_list list;
     uint32_t *groups;
     double(*palette)[3] = NULL;
@@ -232,6 +233,61 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
         status = tn_views_draw(&view, 1, &options, to, error);
     }
     tn_view_free(view);
+    tn_sight_clear(&d.sight);
+    free(palette);
+    free(groups);
+    free(list.items);
+    return status;
+}
+
+/* A view after each step. */
+static tn_status take_steps(drawing *d, const tn_placed_joints *joints, const tn_placed_steps *steps,
+                            const uint32_t *groups, tn_view **views, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < steps->count && status == TN_OK; i++) {
+        d->shown = steps->ends[i];
+        d->corner = 0;
+        status = take_view(d, joints, groups, &views[i], error);
+        tn_sight_clear(&d->sight);
+    }
+    return status;
+}
+
+tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *model,
+                               const tn_placed_measures *measures, const tn_placed_steps *steps, tn_picture *to,
+                               tn_error *error)
+{
+    enum { STEPS_MAX = 200, LABEL = 24 };
+    drawing d = {.module = module, .model = model};
+    colour_list list;
+    uint32_t *groups;
+    double(*palette)[3] = NULL;
+    tn_view *views[STEPS_MAX] = {NULL};
+    char texts[STEPS_MAX][LABEL];
+    const char *labels[STEPS_MAX];
+    if (steps->count > STEPS_MAX) {
+        tn_fail(error, TN_LIMIT, E_PLACE_SHEET, "a sheet would have %zu pictures, and %d are the most", steps->count,
+                STEPS_MAX);
+        tn_error_help(error, "make fewer steps: --steps layer, or --steps %zu", model->count / STEPS_MAX + 1);
+        return TN_LIMIT;
+    }
+    for (size_t i = 0; i < steps->count; i++) {
+        snprintf(texts[i], sizeof texts[i], "%zu", i + 1);
+        labels[i] = texts[i];
+    }
+    tn_place_unit(module, d.unit);
+    tn_status status = find_groups(model, &list, &groups, error);
+    if (status == TN_OK)
+        status = make_palette(&list, false, &palette, error);
+    if (status == TN_OK)
+        status = take_steps(&d, &measures->joints, steps, groups, views, error);
+    if (status == TN_OK) {
+        const tn_view_options options = {.palette = (const double(*)[3])palette, .labels = labels};
+        status = tn_views_draw(views, steps->count, &options, to, error);
+    }
+    for (size_t i = 0; i < steps->count; i++)
+        tn_view_free(views[i]);
     tn_sight_clear(&d.sight);
     free(palette);
     free(groups);

@@ -4,13 +4,19 @@
 #ifndef TARTAN_DRIVER_PLACE_SHAPE_H
 #define TARTAN_DRIVER_PLACE_SHAPE_H
 
-#include "runtime/place/measure.h"
+#include "runtime/place/steps.h"
 #include "runtime/scene/view.h"
 
 /* Draws a model in the colours of LDraw; connectors that point up and join nothing are studs. marked: [part] those to
  * be shown in red while all others are pale, or NULL. E1318 where the kit has none of its parts. */
 tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, const tn_placed_measures *measures,
                          const bool *marked, const char *title, tn_picture *to, tn_error *error);
+
+/* A sheet with a picture for each step, of all that stands then. The measures are those of the model as it was divided.
+ * TN_LIMIT (E1336) for more than 200 steps. */
+tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *model,
+                               const tn_placed_measures *measures, const tn_placed_steps *steps, tn_picture *to,
+                               tn_error *error);
 
 /* The closed surface of a model, a group for each colour; *palette: the groups' colours, which the caller frees. The
  * model's parts do not overlap. */

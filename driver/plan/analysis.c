@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "compiler/plan/syntax/program.h"
+#include "driver/house/survey.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/text.h"
@@ -447,6 +448,8 @@ tn_status tn_plan_analyse(tn_opened *opened, const tn_plan_analysis_options *opt
     for (uint32_t s = 0; status == TN_OK && s < module->SCHEMA_count; s++)
         if (is_concerned(module, s))
             status = analyse_schema(opened, s, options, analyses, &error);
+    if (status == TN_OK)
+        status = tn_house_survey(opened, &error);
     if (status != TN_OK)
         tn_finding_error(opened, &error);
     return status;

@@ -5,6 +5,8 @@
 #include "driver/solid/solid.h"
 #include "runtime/number/run.h"
 
+#define BARELY 1e-9 /* how far a strict comparison of equal values is from holding: no distance to tell anybody */
+
 typedef struct testing {
     tn_opened *opened;
     const tn_module *module;
@@ -24,9 +26,9 @@ static uint64_t asked_of(const tn_module *module, const tn_solid_record *record)
 {
     uint64_t asked = 0;
     for (uint32_t i = 0; i < record->asked_count; i++)
-        asked |= tn_solid_asked(module, module->SOLID_MEASURE_records[record->asked_first + i].function);
+        asked |= tn_number_asked(module, module->SOLID_MEASURE_records[record->asked_first + i].function);
     for (uint32_t i = 0; i < record->requirement_count; i++)
-        asked |= tn_solid_asked(module, module->REQUIREMENT_records[record->requirement_first + i].holds);
+        asked |= tn_number_asked(module, module->REQUIREMENT_records[record->requirement_first + i].holds);
     return asked;
 }
 
@@ -72,7 +74,7 @@ static void write_measures(const testing *t)
 /* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
 static void write_found(const testing *t, uint32_t function, char *text, size_t size)
 {
-    uint64_t asked = tn_solid_asked(t->module, function);
+    uint64_t asked = tn_number_asked(t->module, function);
     size_t used = 0;
     text[0] = '\0';
     for (int i = 0; i < TN_SOLID_MEASURED_COUNT && used < size; i++)
@@ -93,7 +95,7 @@ static bool holds(const testing *t, uint32_t index)
     tn_diagnostic *d =
         tn_report(list, E_REQUIREMENT_FAILED, (tn_span){r->file, r->begin, r->end}, "`%.100s` does not meet this: %s",
                   tn_text(t->module, t->module->SOLID_records[t->solid].name), found);
-    if (lacks - lacks == 0)
+    if (lacks - lacks == 0 && lacks > BARELY)
         tn_note(list, d, NULL, "it is %.10g away from holding", lacks);
     return false;
 }

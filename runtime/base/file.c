@@ -243,7 +243,7 @@ static int probe(int file)
     return write(file, "\n", 1) < 0 ? errno : EIO;
 }
 
-/* Flushes what is buffered, and sees to it that the file has a name to be renamed from; 0, or why that failed. */
+/* Flushes what is buffered to the disk; 0, or why that failed. */
 static int flush(tn_output *output)
 {
     if (ferror(output->stream))
@@ -253,19 +253,31 @@ static int flush(tn_output *output)
         return errno ? errno : EIO;
     if (output->replaces && fsync(fileno(output->stream)) != 0)
         return errno;
-    if (output->replaces && !output->temporary && take_name(output, fileno(output->stream)) < 0)
-        return errno;
     return 0;
+}
+
+/* Puts an open file that has no name in the target's place, where nothing is there: at no moment is it known by another
+ * name that a killed program would leave behind. Otherwise it gets one, to be renamed from. 0, or why that failed. */
+static int name_file(tn_output *output)
+{
+    file_link link;
+    if (!output->replaces || output->temporary)
+        return 0;
+    if (linkat(AT_FDCWD, link_of(fileno(output->stream), &link), AT_FDCWD, output->target, AT_SYMLINK_FOLLOW) == 0)
+        return 0;
+    return errno == EEXIST && take_name(output, fileno(output->stream)) >= 0 ? 0 : errno;
 }
 
 tn_status tn_output_commit(tn_output *output, tn_error *error)
 {
     int reason = flush(output);
+    if (reason == 0)
+        reason = name_file(output);
     if (output->stream != stdout) {
         if (fclose(output->stream) != 0 && reason == 0)
             reason = errno;
         output->stream = NULL;
-        if (reason == 0 && output->replaces && rename(output->temporary, output->target) != 0)
+        if (reason == 0 && output->temporary && rename(output->temporary, output->target) != 0)
             reason = errno;
     }
     if (reason != 0) {

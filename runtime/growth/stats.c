@@ -261,7 +261,16 @@ double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
     terms[TN_MEASURED_VERTICES] = fitness->vertices;
     terms[TN_MEASURED_EDGES] = fitness->edges;
     terms[TN_MEASURED_FACES] = fitness->faces;
+    memcpy(terms + TN_MEASURED_WIDTH, fitness->further, sizeof fitness->further);
     return tn_number_run(goal->code, goal->offset, terms);
+}
+
+double tn_fitness_lacking(const tn_fitness *fitness, const tn_fitness_goal *goals)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < goals->required_count; i++)
+        sum += tn_named_value(&goals->required[i], fitness);
+    return sum;
 }
 
 double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length)
@@ -279,7 +288,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length)
 {
-    double total = 0;
+    double total = tn_fitness_lacking(fitness, goals);
     for (uint32_t goal = 0; goal < TN_FITNESS_TERM_COUNT + goals->named_count; goal++)
         total += tn_fitness_part(fitness, goals, goal, start_length);
     return total;

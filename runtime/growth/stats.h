@@ -24,6 +24,7 @@ typedef struct tn_fitness {
     double symmetry;            /* mean over x and y of the ratio of vertices on either side of their mean */
     double undulation;          /* extent in z */
     double vertices, edges, faces;
+    double further[TN_MEASURED_COUNT - TN_MEASURED_WIDTH]; /* tn_soundness_measure fills in what is asked for; else 0 */
 } tn_fitness;
 
 typedef struct tn_stats {
@@ -53,6 +54,9 @@ typedef struct tn_fitness_goal {
     bool raw; /* the sum of weight times value, as the paper prints it, rather than of the distances to the targets */
     struct tn_named_goal *named; /* expressions; owned by the study */
     uint32_t named_count;
+    struct tn_named_goal *required; /* how far each requirement is from holding; owned by the study; no names */
+    uint32_t required_count;
+    uint64_t asked; /* a bit for each tn_measured that an expression or requirement needs */
 } tn_fitness_goal;
 
 typedef struct tn_named_goal {
@@ -68,11 +72,15 @@ const char *tn_fitness_term_name(tn_fitness_term term);
 /* The value of a named expression; not finite where it has none. */
 double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness);
 
+/* How far the requirements are from holding, together: 0 where all hold; not finite where one has no value. */
+double tn_fitness_lacking(const tn_fitness *fitness, const tn_fitness_goal *goals);
+
 /* What one goal adds to the sum: `goal` counts the terms, then the named ones. 0 where the term is not wanted. */
 double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length);
 
 /* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the
- * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. */
+ * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. What the requirements lack is
+ * added. */
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length);
 
 #endif

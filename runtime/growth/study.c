@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "runtime/number/run.h"
+
 void tn_study_clear(tn_study *study)
 {
     for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
@@ -11,6 +13,7 @@ void tn_study_clear(tn_study *study)
     free(study->forces);
     free(study->boundaries);
     free(study->goal.named);
+    free(study->goal.required);
     *study = (tn_study){0};
 }
 
@@ -72,12 +75,24 @@ static tn_status read_boundary(const tn_module *module, const tn_mesh_reader *re
     return status;
 }
 
+static void read_requirements(const tn_module *module, tn_fitness_goal *goal)
+{
+    for (size_t i = 0; i < module->GROWTH_REQUIREMENT_count; i++) {
+        uint32_t function = module->GROWTH_REQUIREMENT_records[i].violation;
+        goal->required[goal->required_count++] =
+            (tn_named_goal){"", module->code, module->FUNCTION_records[function].code_begin, 0, 1};
+        goal->asked |= tn_number_asked(module, function);
+    }
+}
+
 static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *error)
 {
     tn_fitness_goal *goal = &study->goal;
     goal->named = calloc(module->GOAL_count + 1, sizeof *goal->named);
-    if (!goal->named)
+    goal->required = calloc(module->GROWTH_REQUIREMENT_count + 1, sizeof *goal->required);
+    if (!goal->named || !goal->required)
         return tn_fail_memory(error);
+    read_requirements(module, goal);
     study->has_goal = module->GOAL_count > 0;
     for (size_t i = 0; i < module->GOAL_count; i++) {
         const tn_goal_record *record = &module->GOAL_records[i];
@@ -85,6 +100,7 @@ static tn_status read_goals(const tn_module *module, tn_study *study, tn_error *
             goal->named[goal->named_count++] =
                 (tn_named_goal){tn_text(module, record->name), module->code,
                                 module->FUNCTION_records[record->function].code_begin, record->target, record->weight};
+            goal->asked |= tn_number_asked(module, record->function);
             continue;
         }
         study->goal.wanted[record->term] = true;

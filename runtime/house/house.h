@@ -137,6 +137,35 @@ typedef struct tn_variants {
 tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error);
 void tn_variants_clear(tn_variants *variants);
 
+/* Why a tile does not stand: of its sides, turned and mirrored, the one where most of its boxes stand,
+ * then the one that is later in this order. */
+typedef enum tn_tile_obstacle {
+    TN_TILE_STANDS,
+    TN_TILE_NO_SIDE, /* no side that it may stand against */
+    TN_TILE_SIZE,    /* the clear room is not as wide or deep as it asks for */
+    TN_TILE_BEYOND,  /* a box is not inside the room */
+    TN_TILE_MEETS_BOX,
+    TN_TILE_MEETS_POST,
+    TN_TILE_MEETS_CLEAR /* what an opening needs clear */
+} tn_tile_obstacle;
+
+/* box, other: TILE_BOX records. wide, deep: of the clear room, as the tile is turned. */
+typedef struct tn_tile_failure {
+    tn_tile_obstacle obstacle;
+    uint32_t box, other;
+    int64_t wide, deep;
+    tn_house_side side;
+} tn_tile_failure;
+
+bool tn_tile_is_for(const tn_house *house, uint32_t cell, uint32_t tile);
+
+/* TN_TILE_STANDS where it does. TN_MEMORY. */
+tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_tile_failure *failure, tn_error *error);
+
+/* The same in an empty room of this clear size, whose sides are of any kind. */
+tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                           tn_tile_failure *failure, tn_error *error);
+
 /* A variant's name: `bed.left.m`. */
 #define TN_VARIANT_TEXT (TN_NAME_MAX + 16)
 void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, char text[TN_VARIANT_TEXT]);
@@ -181,5 +210,8 @@ static inline int64_t tn_opening_from(int64_t ends, int64_t wide)
 /* The room of each cell, as the lowest cell of it: cells of one function joined by open faces, and the voids above. The
  * caller frees *rooms. */
 tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
+
+/* The area of the glazed openings to the outside of a room (its lowest cell), in square nanometres. */
+tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room);
 
 #endif

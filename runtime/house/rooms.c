@@ -1,4 +1,5 @@
-/* Finds the rooms of a house: cells of one function that open faces join, with the voids above them. */
+/* Finds the rooms of a house: cells of one function that open faces join, with the voids above them; measures their
+ * windows. */
 #include <stdlib.h>
 
 #include "runtime/house/house.h"
@@ -41,4 +42,16 @@ tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *erro
         groups[i] = find(groups, i);
     *rooms = groups;
     return TN_OK;
+}
+
+tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room)
+{
+    tn_int128 glazed = 0;
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+        if (face->relation == TN_FACE_OUTSIDE && opening && opening->flags & TN_GLAZED && rooms[face->first] == room)
+            glazed += (tn_int128)opening->wide * opening->high;
+    }
+    return glazed;
 }

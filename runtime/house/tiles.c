@@ -13,7 +13,7 @@ typedef struct tn_room {
     tn_rectangle clear; /* its walls taken off */
     int64_t height;
     tn_box *taken;
-    size_t taken_count, taken_room;
+    size_t taken_count, taken_room, posts;                              /* the first of the taken are posts */
     uint64_t kinds[TN_HOUSE_SIDE_COUNT][(TN_FACE_KINDS_MAX + 63) / 64]; /* on each side */
 } tn_room;
 
@@ -99,6 +99,7 @@ static tn_status enter(tn_room *room, tn_error *error)
     room->clear = tn_cell_clear(house, room->cell);
     room->height = tn_form_clear(house->form, house->cells[room->cell].storey);
     tn_status status = take_posts(room, error);
+    room->posts = room->taken_count;
     for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         tn_house_side side = side_of(face, room->cell);
@@ -118,7 +119,14 @@ typedef struct tn_placing {
     tn_house_side side;
     bool mirrored;
     int64_t wide, deep; /* of the clear room, seen with the back behind */
+    tn_tile_failure failure;
 } tn_placing;
+
+static bool fail(tn_placing *p, tn_tile_obstacle obstacle, uint32_t box, uint32_t other)
+{
+    p->failure = (tn_tile_failure){obstacle, p->tile->box_first + box, other, p->wide, p->deep, p->side};
+    return false;
+}
 
 static bool stands_against(const tn_room *room, const tn_tile_record *tile, tn_house_side side)
 {
@@ -165,7 +173,7 @@ static bool make_room(tn_variants *v, size_t items)
 }
 
 /* Puts the tile's items behind those that are there. False where something does not fit. */
-static bool stands(const tn_placing *p, tn_variants *v, size_t *count)
+static bool stands(tn_placing *p, tn_variants *v, size_t *count)
 {
     const tn_tile_box_record *boxes = p->room->house->form->module->TILE_BOX_records + p->tile->box_first;
     tn_standing_item *items = v->items + v->item_count;
@@ -177,23 +185,23 @@ static bool stands(const tn_placing *p, tn_variants *v, size_t *count)
         tn_standing_item *item = &items[*count];
         item->box = p->tile->box_first + i;
         if (!place(p, &boxes[i], &item->at))
-            return false;
+            return fail(p, TN_TILE_BEYOND, i, 0);
         for (size_t k = 0; k < *count; k++)
             if (overlap(&items[k].at, &item->at))
-                return false;
+                return fail(p, TN_TILE_MEETS_BOX, i, items[k].box);
         for (size_t k = 0; k < p->room->taken_count; k++)
             if (overlap(&p->room->taken[k], &item->at))
-                return false;
+                return fail(p, k < p->room->posts ? TN_TILE_MEETS_POST : TN_TILE_MEETS_CLEAR, i, 0);
         ++*count;
     }
     for (uint32_t i = 0; i < p->tile->box_count; i++) {
         if (!(boxes[i].flags & TN_TILE_KEEP))
             continue;
         if (!place(p, &boxes[i], &keep))
-            return false;
+            return fail(p, TN_TILE_BEYOND, i, 0);
         for (size_t k = 0; k < *count; k++)
             if (overlap(&items[k].at, &keep))
-                return false;
+                return fail(p, TN_TILE_MEETS_BOX, i, items[k].box);
     }
     return true;
 }
@@ -224,15 +232,26 @@ static bool is_new(const tn_module *module, const tn_variants *v, const tn_stand
 
 /* ---- all of them */
 
+/* The tile with its back on a side. False where the side or the size of the room is not one of its. */
+static bool turn(const tn_room *room, uint32_t tile, tn_house_side side, tn_placing *p)
+{
+    const tn_tile_record *record = &room->house->form->module->TILE_records[tile];
+    bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
+    int64_t x = room->clear.x1 - room->clear.x0, y = room->clear.y1 - room->clear.y0;
+    *p = (tn_placing){.room = room, .tile = record, .side = side, .wide = across ? x : y, .deep = across ? y : x};
+    if (!stands_against(room, record, side))
+        return fail(p, TN_TILE_NO_SIDE, 0, 0);
+    return (p->wide >= record->wide_least && p->wide <= record->wide_most && p->deep >= record->deep_least &&
+            p->deep <= record->deep_most) ||
+           fail(p, TN_TILE_SIZE, 0, 0);
+}
+
 static tn_status try_side(const tn_room *room, uint32_t tile, tn_house_side side, tn_variants *v, tn_error *error)
 {
     const tn_module *module = room->house->form->module;
     const tn_tile_record *record = &module->TILE_records[tile];
-    bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
-    int64_t x = room->clear.x1 - room->clear.x0, y = room->clear.y1 - room->clear.y0;
-    tn_placing placing = {.room = room, .tile = record, .side = side, .wide = across ? x : y, .deep = across ? y : x};
-    if (!stands_against(room, record, side) || placing.wide < record->wide_least || placing.wide > record->wide_most ||
-        placing.deep < record->deep_least || placing.deep > record->deep_most)
+    tn_placing placing;
+    if (!turn(room, tile, side, &placing))
         return TN_OK;
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         size_t count;
@@ -256,9 +275,63 @@ static bool is_for(const tn_house_form *form, uint32_t tile, uint32_t function)
     return false;
 }
 
+static const tn_house_side all_sides[] = {TN_HOUSE_BACK, TN_HOUSE_FRONT, TN_HOUSE_LEFT, TN_HOUSE_RIGHT};
+
+bool tn_tile_is_for(const tn_house *house, uint32_t cell, uint32_t tile)
+{
+    return !house->cells[cell].open && is_for(house->form, tile, house->cells[cell].function);
+}
+
+/* The failure of the more boxes, or else the later one in tn_tile_obstacle, came further. */
+static bool is_further(const tn_tile_failure *a, const tn_tile_failure *b)
+{
+    bool boxes = a->obstacle >= TN_TILE_BEYOND && b->obstacle >= TN_TILE_BEYOND;
+    return boxes && a->box != b->box ? a->box > b->box : a->obstacle > b->obstacle;
+}
+
+/* Turned to each side, plain and mirrored: the failure that came furthest is kept. */
+static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failure *failure, tn_error *error)
+{
+    tn_variants v = {0};
+    size_t count;
+    *failure = (tn_tile_failure){.obstacle = TN_TILE_NO_SIDE};
+    if (!make_room(&v, room->house->form->module->TILE_records[tile].box_count))
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < 2 * (sizeof all_sides / sizeof *all_sides); i++) {
+        tn_placing p;
+        bool turned = turn(room, tile, all_sides[i / 2], &p);
+        p.mirrored = i % 2;
+        if (turned && stands(&p, &v, &count)) {
+            failure->obstacle = TN_TILE_STANDS;
+            break;
+        }
+        if (is_further(&p.failure, failure))
+            *failure = p.failure;
+    }
+    tn_variants_clear(&v);
+    return TN_OK;
+}
+
+tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_tile_failure *failure, tn_error *error)
+{
+    tn_room room = {.house = house, .cell = cell};
+    tn_status status = enter(&room, error);
+    if (status == TN_OK)
+        status = find_failure(&room, tile, failure, error);
+    free(room.taken);
+    return status;
+}
+
+tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                           tn_tile_failure *failure, tn_error *error)
+{
+    const tn_house house = {.form = form};
+    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    return find_failure(&room, tile, failure, error);
+}
+
 tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error)
 {
-    static const tn_house_side sides[] = {TN_HOUSE_BACK, TN_HOUSE_FRONT, TN_HOUSE_LEFT, TN_HOUSE_RIGHT};
     const tn_house_form *form = house->form;
     tn_room room = {.house = house, .cell = cell};
     tn_status status = TN_OK;
@@ -270,8 +343,8 @@ tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *va
         if (!variants->wanted)
             status = enter(&room, error);
         variants->wanted = true;
-        for (size_t i = 0; status == TN_OK && i < sizeof sides / sizeof *sides; i++)
-            status = try_side(&room, tile, sides[i], variants, error);
+        for (size_t i = 0; status == TN_OK && i < sizeof all_sides / sizeof *all_sides; i++)
+            status = try_side(&room, tile, all_sides[i], variants, error);
     }
     free(room.taken);
     return status;

@@ -129,8 +129,11 @@ typedef enum tn_fitness_term {
 #define TN_FACE_LINES_MAX 1000u
 #define TN_TILES_MAX 10000u
 #define TN_TILE_BOXES_MAX 1000u
-#define TN_SLOPE_MAX 1000u             /* either number of a slope */
-#define TN_AREA_MAX (INT64_C(1) << 62) /* square micrometres: about 4.6 square kilometres */
+#define TN_MATERIALS_MAX 1000u
+#define TN_PRICE_MAX INT64_C(1000000000000000) /* millionths: a thousand million */
+#define TN_RATIO_MAX 1000u                     /* either number of the glazing of a room to its floor */
+#define TN_SLOPE_MAX 1000u                     /* either number of a slope */
+#define TN_AREA_MAX (INT64_C(1) << 62)         /* square micrometres: about 4.6 square kilometres */
 
 typedef enum tn_choice_kind { TN_CHOICE_PLAIN, TN_CHOICE_STOREYS, TN_CHOICE_ROOF, TN_CHOICE_KIND_COUNT } tn_choice_kind;
 
@@ -193,8 +196,30 @@ typedef enum tn_area_test {
     TN_AREA_TEST_COUNT
 } tn_area_test;
 
+/* What a material may be for; the openings of the form follow, then what stands in rooms, by its first TILE_BOX. */
+typedef enum tn_material_part {
+    TN_OF_WALL,
+    TN_OF_PARTY,
+    TN_OF_PARTITION,
+    TN_OF_POST,
+    TN_OF_DECK,
+    TN_OF_ROOF,
+    TN_OF_COUNT
+} tn_material_part;
+
+/* What a price is for: each part, or so much of its face or of its volume. */
+typedef enum tn_price_unit {
+    TN_PER_EACH,
+    TN_PER_SQUARE_FOOT,
+    TN_PER_SQUARE_METRE,
+    TN_PER_CUBIC_FOOT,
+    TN_PER_CUBIC_METRE,
+    TN_PRICE_UNIT_COUNT
+} tn_price_unit;
+
 /* Flags of openings and of the boxes of tiles. */
 #define TN_PASSAGE 1u
+#define TN_GLAZED 2u
 #define TN_TILE_KEEP 1u
 #define TN_TILE_X_FROM_RIGHT 2u
 #define TN_TILE_X_TO_RIGHT 4u
@@ -224,6 +249,11 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 #define TN_KIT_COUNTED_MAX 32u
 #define TN_CONDITION_TEST 1u /* of a test, not a requirement */
 #define TN_KIT_MAXIMIZE 1u   /* the objective is to be large */
+#define TN_KIT_BREADTH 2u    /* what was opened first comes next */
+
+/* How a placed model is divided into the steps in which it is built. */
+typedef enum tn_kit_steps { TN_STEPS_PLACED, TN_STEPS_PARTS, TN_STEPS_LAYERS, TN_STEPS_COUNT } tn_kit_steps;
+#define TN_STEP_PARTS_MAX 1000000u
 
 /* How the model of a kit is searched for, and how it repeats itself about the origin. */
 #define TN_SEARCH_MAX 1000000000u /* plans of a beam, rounds of annealing */

@@ -151,3 +151,16 @@ tn_status tn_number_run_rows(tn_number_rows *rows, const uint8_t *code, uint32_t
     }
     return TN_OK;
 }
+
+uint64_t tn_number_asked(const tn_module *module, uint32_t function)
+{
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    uint64_t asked = 0;
+    for (uint32_t offset = record->code_begin; offset < record->code_end;) {
+        tn_instruction instruction = tn_code_read(module->code, offset);
+        if (instruction.opcode == TN_OP_TERM)
+            asked |= UINT64_C(1) << instruction.first;
+        offset += instruction.length;
+    }
+    return asked;
+}

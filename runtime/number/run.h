@@ -13,6 +13,9 @@
  * what stands under each number of TERM. */
 double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms);
 
+/* Which terms, below 64, the verified code of a function of the module takes: a bit for each. */
+uint64_t tn_number_asked(const tn_module *module, uint32_t function);
+
 /* The meshes that a field measures distances from: how far a place is from mesh number `mesh`, below 0 inside of a
  * closed one, and (where it is not NULL) the gradient of that. */
 typedef struct tn_distances {

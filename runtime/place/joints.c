@@ -9,7 +9,7 @@
 /* A connector of a placed part. */
 typedef struct socket {
     int32_t at[3];
-    uint32_t axis, type, part;
+    uint32_t axis, type, part, heading;
 } socket;
 
 /* ---- parts */
@@ -65,7 +65,8 @@ static void list_sockets(const tn_module *module, const tn_placed_model *model, 
             *to = (socket){{frame->at[0] + x, frame->at[1] + (int32_t)from->y, frame->at[2] + z},
                            tn_axis_turn((tn_axis)from->axis, frame->heading),
                            from->type,
-                           (uint32_t)i};
+                           (uint32_t)i,
+                           frame->heading};
         }
     }
 }
@@ -80,11 +81,29 @@ static int by_place(const void *a, const void *b)
                                     : (one->axis > other->axis) - (one->axis < other->axis);
 }
 
+bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis axis, uint32_t turns)
+{
+    const tn_connector_type_record *types = module->CONNECTOR_TYPE_records;
+    uint32_t alike = types[a].turns < types[b].turns ? types[a].turns : types[b].turns;
+    return axis > TN_AXIS_DOWN || turns % (4 / alike) == 0;
+}
+
+uint32_t tn_connector_turns(const tn_module *module, uint32_t type)
+{
+    const tn_connector_type_record *types = module->CONNECTOR_TYPE_records;
+    uint32_t turns = types[type].turns;
+    for (uint32_t i = 0; i < module->CONNECTOR_TYPE_count; i++)
+        if ((types[i].joins == type || types[type].joins == i) && types[i].turns < turns)
+            turns = types[i].turns;
+    return turns;
+}
+
 static bool joins(const tn_module *module, const socket *a, const socket *b)
 {
     const tn_connector_type_record *types = module->CONNECTOR_TYPE_records;
     return a->part != b->part && a->axis == opposite(b->axis) &&
-           (types[a->type].joins == b->type || types[b->type].joins == a->type);
+           (types[a->type].joins == b->type || types[b->type].joins == a->type) &&
+           tn_connectors_turn(module, a->type, b->type, (tn_axis)a->axis, a->heading + 4 - b->heading);
 }
 
 static tn_status add_link(tn_placed_joints *joints, size_t *capacity, const socket *a, const socket *b, tn_error *error)

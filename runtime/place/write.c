@@ -39,24 +39,50 @@ static void write_ldu(int64_t cells, int64_t unit, FILE *out)
     fprintf(out, ".%s", digits);
 }
 
-void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out)
+/* Every r is left out of the names of parts of connection grammars, as by the published program. */
+static void write_part(const tn_placed_part *part, const int64_t unit[3], bool kit, FILE *out)
+{
+    const tn_frame *f = &part->frame;
+    fprintf(out, "1 %d ", f->colour);
+    for (int k = 0; k < 3; k++) {
+        write_ldu(f->at[k], unit[k], out);
+        putc(' ', out);
+    }
+    fprintf(out, "%s ", rotations[f->heading]);
+    for (const char *c = part->name; *c; c++)
+        if (kit || *c != 'r')
+            putc(*c, out);
+    fputs(".dat\n", out);
+}
+
+void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, const tn_placed_steps *steps,
+                          FILE *out)
 {
     int64_t unit[3];
+    size_t step = 0;
     bool kit = module && module->KIT_count;
     unit_of(module, unit);
     for (size_t i = 0; i < model->count && !ferror(out); i++) {
-        const tn_placed_part *part = &model->parts[i];
-        const tn_frame *f = &part->frame;
-        fprintf(out, "1 %d ", f->colour);
-        for (int k = 0; k < 3; k++) {
-            write_ldu(f->at[k], unit[k], out);
-            putc(' ', out);
-        }
-        fprintf(out, "%s ", rotations[f->heading]);
-        for (const char *c = part->name; *c; c++)
-            if (kit || *c != 'r')
-                putc(*c, out);
-        fputs(".dat\n0 STEP\n", out);
+        write_part(&model->parts[i], unit, kit, out);
+        if (steps && steps->ends[step] != i + 1)
+            continue;
+        fputs("0 STEP\n", out);
+        step++;
+    }
+}
+
+void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, const tn_placed_steps *steps,
+                        const char *name, FILE *out)
+{
+    int64_t unit[3];
+    size_t part = 0;
+    unit_of(module, unit);
+    for (size_t i = 0; i < steps->count && !ferror(out); i++)
+        fprintf(out, "1 16 0 0 0 %s %s-%zu.ldr\n0 STEP\n", rotations[0], name, i + 1);
+    for (size_t i = 0; i < steps->count && !ferror(out); i++) {
+        fprintf(out, "0 FILE %s-%zu.ldr\n0 %s, step %zu of %zu\n", name, i + 1, name, i + 1, steps->count);
+        for (; part < steps->ends[i]; part++)
+            write_part(&model->parts[part], unit, true, out);
     }
 }
 

@@ -5,11 +5,17 @@
 
 #include <stdio.h>
 
-#include "runtime/place/grow.h"
+#include "runtime/place/steps.h"
 
-/* One line a part and a step behind it, without a header. For a connection grammar as the published program writes
- * them: every r is left out of parts' names. For a kit in its own cells. */
-void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out);
+/* One line a part, without a header; a step behind each part, or at the ends of `steps` where that is not NULL. For a
+ * connection grammar as the published program writes them: every r is left out of parts' names. For a kit in its own
+ * cells. */
+void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, const tn_placed_steps *steps,
+                          FILE *out);
+
+/* The same with a sub-file for each step, which the model refers to. name: of the model. */
+void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, const tn_placed_steps *steps,
+                        const char *name, FILE *out);
 
 /* Parts by name and colour, in the order of their first: part,colour,number; of a kit also title, mass and price. */
 tn_status tn_place_write_list(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error);

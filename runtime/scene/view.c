@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "runtime/base/crew.h"
-#include "runtime/geometry/hidden.h"
+#include "runtime/geometry/hidden/hidden.h"
 #include "runtime/geometry/vector.h"
 #include "runtime/numeric/numeric.h"
 #include "runtime/scene/view_parts.h"

@@ -78,19 +78,6 @@ tn_status tn_built_make_of(const tn_design *written, tn_built *built, tn_error *
     return status == TN_OK ? make_cells(built, error) : status;
 }
 
-uint64_t tn_solid_asked(const tn_module *module, uint32_t function)
-{
-    const tn_function_record *record = &module->FUNCTION_records[function];
-    uint64_t asked = 0;
-    for (uint32_t offset = record->code_begin; offset < record->code_end;) {
-        tn_instruction instruction = tn_code_read(module->code, offset);
-        if (instruction.opcode == TN_OP_TERM)
-            asked |= UINT64_C(1) << instruction.first;
-        offset += instruction.length;
-    }
-    return asked;
-}
-
 /* ---- of boxes */
 
 static double volume_of_boxes(const tn_design *design)

@@ -30,9 +30,6 @@ tn_status tn_built_make_of(const tn_design *written, tn_built *built, tn_error *
 tn_status tn_built_measure(const tn_built *built, uint64_t mask, double values[TN_SOLID_MEASURED_COUNT],
                            tn_error *error);
 
-/* The measures that a function of kind SOLID_MEASURE asks for, as such a mask. */
-uint64_t tn_solid_asked(const tn_module *module, uint32_t function);
-
 /* Which other cells' boxes the middle of each cell's clipped face lies against: the first of them, or UINT32_MAX. */
 tn_status tn_built_inward(const tn_built *built, uint32_t **others, tn_error *error);
 

@@ -22,6 +22,8 @@ bedrooms="14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom
 golden dropped "tartan explain cottage \"$bedrooms\""
 golden dropped_json "tartan explain cottage \"$bedrooms\" --json"
 golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rule dark-living"
+golden explained_tiles "tartan explain bare.plan \"8' open ; - ; hall\""
+golden explained_near "tartan explain lahave-complete \"12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3' ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entry hall void seat | bath stair stair | store passage passage | kitchen living bedroom seat ; glass glass\""
 golden explained_line "tartan explain cottage \"14' room:14' none ; 3\""
 golden explained_nothing "tartan explain sheds.plan ';'"
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
@@ -55,7 +57,7 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
         cmp "$scratch/one.svg" "$scratch/two.svg" || fail "two pictures of $view differ"
     done
     "$TARTAN" house cottage '#10:77' -o "$scratch/all/"
-    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.pdf house.ply house.png house.svg'
+    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.parts.csv house.pdf house.ply house.png house.svg'
 fi
 
 # Houses drawn at random, from all plans and from one; libraries of too many plans.

@@ -5,13 +5,13 @@ name=house_files
 
 walk="12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3'"
 walk="$walk ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entry hall void seat | bath stair stair | store passage passage"
-walk="$walk | kitchen dining bedroom seat ; glass open glass ; bath-room.back line-kitchen.back table.back bed.back"
+walk="$walk | kitchen dining bedroom seat ; glass open glass ; long-table.back window-seat.front bath-room.back shelves.back line-kitchen.back table.back bed.back window-seat.front"
 hut="14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back"
 
 # made FILE HOUSE: writes the files that are looked at.
 made() {
     mkdir -p "$scratch/$3"
-    "$TARTAN" house "$1" "$2" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf"
+    "$TARTAN" house "$1" "$2" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf" -o "$scratch/$3/house.parts.csv"
 }
 python=python3
 /usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3 # another Python may come first, without the package

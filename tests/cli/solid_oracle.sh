@@ -2,4 +2,4 @@
 # Random designs of boxes against the slow independent reference.
 set -euo pipefail
 [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/solid/ref.py" ] || exit 77
-python3 -B tests/solid_oracle.py "$TARTAN_ORACLES/solid" 150
+python3 -B tests/solid_oracle.py "$TARTAN_ORACLES/solid" 1000

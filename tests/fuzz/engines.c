@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/memory.h"
-#include "runtime/house/describe.h"
+#include "runtime/house/schedule/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/place/count/count.h"

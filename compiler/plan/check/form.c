@@ -181,15 +181,17 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
             tn_check_opening(check, form, clause);
         else if (part == TN_PART_FACE)
             tn_check_face(check, form, clause);
-        else
+        else if (part == TN_PART_TILE)
             tn_check_tile(check, form, clause);
+        else
+            tn_check_material(check, form, clause);
     }
 }
 
 /* Said at most once: the spine and the thicknesses; what a form cannot be without. */
 static void check_once(tn_check *check, tn_checked_form *form)
 {
-    const tn_ast_form_clause *first[TN_PART_TILE + 1] = {NULL};
+    const tn_ast_form_clause *first[TN_PART_MATERIAL + 1] = {NULL};
     for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
         if (first[clause->part] && clause->part >= TN_PART_SPINE && clause->part <= TN_PART_ROOF) {
             tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, clause->node.span, "`%s` is there twice",
@@ -278,6 +280,7 @@ static bool make_room(tn_check *check, tn_checked_form *form)
     form->openings = TN_NEW_ARRAY(check->arena, tn_checked_opening, count);
     form->faces = TN_NEW_ARRAY(check->arena, tn_checked_face, count);
     form->tiles = TN_NEW_ARRAY(check->arena, tn_checked_tile, count);
+    form->materials = TN_NEW_ARRAY(check->arena, tn_checked_material, count);
     return !tn_arena_failed(check->arena);
 }
 
@@ -301,6 +304,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     each(check, form, TN_PART_OPENING);
     each(check, form, TN_PART_FACE);
     each(check, form, TN_PART_TILE);
+    each(check, form, TN_PART_MATERIAL);
 }
 
 static void add_form(tn_check *check, const tn_ast_form *ast, size_t unit)

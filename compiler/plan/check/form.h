@@ -54,7 +54,7 @@ typedef struct tn_checked_cell_rule {
 typedef struct tn_checked_opening {
     const tn_ast_form_clause *ast;
     int64_t wide, high, sill, clear;
-    bool passage;
+    bool passage, glazed;
 } tn_checked_opening;
 
 typedef struct tn_checked_face {
@@ -74,6 +74,17 @@ typedef struct tn_checked_tile {
     uint32_t box_count;
 } tn_checked_tile;
 
+typedef struct tn_checked_material {
+    const tn_ast_form_clause *ast;
+    uint32_t colour;
+    int64_t price; /* millionths */
+    tn_price_unit unit;
+    bool has_where;
+    tn_decision where;
+    uint32_t *parts;
+    uint32_t part_count;
+} tn_checked_material;
+
 typedef struct tn_checked_form {
     const tn_ast_form *ast;
     const char *name;
@@ -87,8 +98,10 @@ typedef struct tn_checked_form {
     tn_checked_opening *openings;
     tn_checked_face *faces;
     tn_checked_tile *tiles;
+    tn_checked_material *materials;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
+    uint32_t material_count;
 } tn_checked_form;
 
 /* ---- form.c (tn_check_forms: check.h) */
@@ -120,6 +133,9 @@ const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *al
 /* `area < 90sf` (HAS_AREA, ROOM_AREA), `cells > 1` (ROOM_CELLS), from its first word on. False: reported. */
 bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode, tn_decision *decision);
 
+/* The test that a sign writes. */
+tn_area_test tn_form_test(tn_operator sign);
+
 /* ---- form_room.c */
 bool tn_form_room(tn_check *check, const tn_checked_form *form, const tn_ast_expr *expr, tn_decision *decision);
 
@@ -138,5 +154,8 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
 void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word); /* TN_NONE: reported */
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+
+/* ---- form_material.c */
+void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 #endif

@@ -57,6 +57,15 @@ const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *al
     return word;
 }
 
+tn_area_test tn_form_test(tn_operator sign)
+{
+    static const tn_area_test tests[] = {
+        [TN_LESS] = TN_AREA_LESS,       [TN_AT_MOST] = TN_AREA_AT_MOST,   [TN_EQUAL] = TN_AREA_EQUAL,
+        [TN_UNEQUAL] = TN_AREA_UNEQUAL, [TN_AT_LEAST] = TN_AREA_AT_LEAST, [TN_GREATER] = TN_AREA_GREATER,
+    };
+    return tests[sign];
+}
+
 /* area < 90sf, cells > 1 */
 bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode, tn_decision *decision)
 {
@@ -69,12 +78,8 @@ bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode
                                 "write `area < 90sf` or `area >= 8.5m2`")
                      : bad_cell(check, word->node.span, "the number of cells is compared with a whole number",
                                 "write `cells > 1`");
-    static const tn_area_test tests[] = {
-        [TN_LESS] = TN_AREA_LESS,       [TN_AT_MOST] = TN_AREA_AT_MOST,   [TN_EQUAL] = TN_AREA_EQUAL,
-        [TN_UNEQUAL] = TN_AREA_UNEQUAL, [TN_AT_LEAST] = TN_AREA_AT_LEAST, [TN_GREATER] = TN_AREA_GREATER,
-    };
     tn_decision_step step = {.opcode = opcode,
-                             .index = tests[sign->op],
+                             .index = tn_form_test(sign->op),
                              .area = other->value,
                              .span = tn_span_join(word->node.span, other->node.span)};
     if (areas && !tn_amount_read_cell(check, other, &step.area))

@@ -36,6 +36,7 @@ static bool read_opening(tn_check *check, tn_checked_opening *opening)
         else if (part->part == TN_OPENING_CLEAR)
             opening->clear = tn_form_length(check, part->length);
         opening->passage |= part->part == TN_OPENING_PASSAGE;
+        opening->glazed |= part->part == TN_OPENING_GLAZED;
     }
     if (opening->wide != 0 && opening->high != 0)
         return opening->wide > 0 && opening->high > 0 && opening->sill >= 0 && opening->clear >= 0;

@@ -1,6 +1,7 @@
 /* Reads what is asked of rooms: the items of `room(...)`, as code that decides on one room.
  *
- * An item is what each of its cells is, `by` and a kind of face that it has, its `area`, or the number of its `cells`.
+ * An item is what each of its cells is, `by` and a kind of face that it has, its `area`, the number of its `cells`, or
+ * its `glazing`.
  */
 #include <string.h>
 
@@ -35,6 +36,38 @@ static bool read_kind(tn_room_reader *reader, const tn_ast_word *word)
     return number != TN_NONE;
 }
 
+static bool is_ratio(const tn_ast_word *word)
+{
+    return word && word->kind == TN_WORD_RATIO && !word->broken && !word->node.next &&
+           word->low->value <= TN_RATIO_MAX && word->high->value >= 1 && word->high->value <= TN_RATIO_MAX;
+}
+
+/* glazing < 1:12 */
+static bool read_glazing(tn_room_reader *reader, const tn_ast_word *word)
+{
+    const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
+    const tn_ast_word *ratio = sign ? (const tn_ast_word *)sign->node.next : NULL;
+    if (!sign || sign->kind != TN_WORD_OPERATOR || !is_ratio(ratio)) {
+        tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span,
+                                     "the glazing of a room is compared with a part of its floor");
+        tn_help(reader->check->diagnostics, d,
+                "write `glazing < 1:12` for windows smaller than a twelfth of the floor; numbers up to %u",
+                TN_RATIO_MAX);
+        return false;
+    }
+    add(reader, (tn_decision_step){.opcode = TN_OP_ROOM_GLAZING,
+                                   .index = tn_form_test(sign->op),
+                                   .area = ratio->low->value << 32 | ratio->high->value,
+                                   .span = tn_span_join(word->node.span, ratio->node.span)});
+    for (uint32_t i = 0; i < reader->form->opening_count; i++)
+        if (reader->form->openings[i].glazed)
+            return true;
+    tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span,
+                                 "no opening of form `%s` is `glazed`", reader->form->name);
+    tn_help(reader->check->diagnostics, d, "write `glazed` after the sizes of each opening that lets daylight in");
+    return false;
+}
+
 static bool read_cells(tn_room_reader *reader, const tn_ast_word *word, tn_span span)
 {
     tn_decision *cells = TN_NEW(reader->check->arena, tn_decision);
@@ -57,6 +90,8 @@ static bool read_alternative(tn_room_reader *reader, const tn_ast_alternative *a
         good = tn_form_compared(reader->check, word, TN_OP_ROOM_AREA, reader->decision);
     else if (word->kind == TN_WORD_NAME && tn_word_is(word, "cells"))
         good = tn_form_compared(reader->check, word, TN_OP_ROOM_CELLS, reader->decision);
+    else if (word->kind == TN_WORD_NAME && tn_word_is(word, "glazing"))
+        good = read_glazing(reader, word);
     else
         good = read_cells(reader, word, alternative->node.span);
     if (negated)

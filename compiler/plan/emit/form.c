@@ -115,7 +115,8 @@ static void emit_openings(tn_emit *emit, const tn_checked_form *form)
                                                                    .high = opening->high,
                                                                    .sill = opening->sill,
                                                                    .clear = opening->clear,
-                                                                   .flags = opening->passage ? TN_PASSAGE : 0,
+                                                                   .flags = (opening->passage ? TN_PASSAGE : 0) |
+                                                                            (opening->glazed ? TN_GLAZED : 0),
                                                                    PLACE(opening->ast->node.span)});
     }
 }
@@ -180,6 +181,25 @@ static void emit_tiles(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
+static void emit_materials(tn_emit *emit, tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->material_count; i++) {
+        tn_checked_material *material = &form->materials[i];
+        uint32_t where = material->has_where
+                             ? tn_emit_decision(emit, form, &material->where, "material", TN_FUNCTION_SECTION)
+                             : TN_NO_RECORD;
+        tn_builder_add_MATERIAL(emit->builder, &(tn_material_record){.name = text(emit, material->ast->name),
+                                                                     .colour = material->colour,
+                                                                     .price = material->price,
+                                                                     .unit = material->unit,
+                                                                     .where = where,
+                                                                     .part_first = tn_emit_items(emit, material->parts,
+                                                                                                 material->part_count),
+                                                                     .part_count = material->part_count,
+                                                                     PLACE(material->ast->node.span)});
+    }
+}
+
 static void emit_form(tn_emit *emit, tn_checked_form *form)
 {
     uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
@@ -187,7 +207,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CELL_RULE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_OPENING),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FACE_LINE),
-                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE)};
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MATERIAL)};
     form->storey_first = counts[0];
     form->rule_first = counts[2];
     form->shape_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE);
@@ -199,6 +220,7 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
     emit_openings(emit, form);
     emit_faces(emit, form);
     emit_tiles(emit, form);
+    emit_materials(emit, form);
     tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
                                                          .doc = text(emit, form->ast->doc),
                                                          .schema = form->schema->index,
@@ -219,6 +241,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .face_count = form->face_count,
                                                          .tile_first = counts[5],
                                                          .tile_count = form->tile_count,
+                                                         .material_first = counts[6],
+                                                         .material_count = form->material_count,
                                                          .flags = imported ? TN_IMPORTED : 0,
                                                          PLACE(form->ast->top.node.span)});
 }

@@ -69,18 +69,29 @@ tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *n
     return word;
 }
 
-tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high)
+static tn_ast_word *word_of_two(tn_parse *parse, tn_word_kind kind, tn_span span, const tn_ast_word *low,
+                                const tn_ast_word *high)
 {
     if (!low || !high)
         return NULL;
     tn_ast_word *word = tn_ast_word_new(
-        parse, TN_WORD_RANGE, span, tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), 0);
+        parse, kind, span, tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), 0);
     if (word) {
         word->broken = low->broken || high->broken;
         word->low = low;
         word->high = high;
     }
     return word;
+}
+
+tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high)
+{
+    return word_of_two(parse, TN_WORD_RANGE, span, low, high);
+}
+
+tn_ast_word *tn_ast_word_ratio(tn_parse *parse, tn_span span, const tn_ast_word *of, const tn_ast_word *to)
+{
+    return word_of_two(parse, TN_WORD_RATIO, span, of, to);
 }
 
 tn_ast_word *tn_ast_group(tn_parse *parse, tn_span span, tn_ast_list alternatives)

@@ -35,6 +35,7 @@ typedef enum tn_word_kind {
     TN_WORD_GROUP,    /* in a specifier: `(4' or 8')` */
     TN_WORD_ABSENT,   /* in a plan that is written as plan lines are: `-` */
     TN_WORD_OF_DEPTH, /* there, too: the `:` between a fill and its depth */
+    TN_WORD_RATIO,    /* of what a room has: `1:12` */
 } tn_word_kind;
 
 /* A name, a number, a length, a string; in specifiers also `not`, comparison signs, ranges and groups. */
@@ -45,7 +46,7 @@ typedef struct tn_ast_word {
     bool broken;                          /* already reported as wrong: say nothing more about it */
     const char *text;                     /* a name, or what a string says; otherwise as written */
     int64_t value;                        /* of a number or (nanometres) length */
-    const struct tn_ast_word *low, *high; /* of a range */
+    const struct tn_ast_word *low, *high; /* of a range or a ratio */
     struct tn_ast_item *group;
     const char *exact; /* of a constant that was worked out: its value, of this power of a length; NULL: as written */
     int power;
@@ -357,6 +358,7 @@ tn_ast_word *tn_ast_operator(tn_parse *parse, tn_span span, tn_operator op);
 tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *number);
 
 tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high);
+tn_ast_word *tn_ast_word_ratio(tn_parse *parse, tn_span span, const tn_ast_word *of, const tn_ast_word *to);
 tn_ast_word *tn_ast_group(tn_parse *parse, tn_span span, tn_ast_list alternatives);
 
 tn_ast_range tn_ast_range_new(tn_span span, const tn_ast_word *low, const tn_ast_word *high);

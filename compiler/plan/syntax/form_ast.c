@@ -42,7 +42,7 @@ void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_opening_part par
 {
     MAKE(tn_ast_opening_part);
     *node = (tn_ast_opening_part){.node.span = span, .part = part, .length = length};
-    return length || part == TN_OPENING_PASSAGE ? node : NULL;
+    return length || part >= TN_OPENING_PASSAGE ? node : NULL;
 }
 
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach)

@@ -20,7 +20,8 @@ typedef enum tn_form_part {
     TN_PART_FUNCTION,
     TN_PART_OPENING,
     TN_PART_FACE,
-    TN_PART_TILE
+    TN_PART_TILE,
+    TN_PART_MATERIAL
 } tn_form_part;
 
 /* A value of a section: a number, or a name with what stands in parentheses. */
@@ -36,8 +37,13 @@ typedef struct tn_ast_argument {
     const tn_ast_word *word, *run; /* run: NULL unless a slope */
 } tn_ast_argument;
 
-/* `sill LENGTH`, `clear LENGTH` or `passage` of an opening. */
-typedef enum tn_opening_part { TN_OPENING_SILL, TN_OPENING_CLEAR, TN_OPENING_PASSAGE } tn_opening_part;
+/* `sill LENGTH`, `clear LENGTH`, `passage` or `glazed` of an opening. */
+typedef enum tn_opening_part {
+    TN_OPENING_SILL,
+    TN_OPENING_CLEAR,
+    TN_OPENING_PASSAGE,
+    TN_OPENING_GLAZED
+} tn_opening_part;
 typedef struct tn_ast_opening_part {
     tn_ast_node node;
     tn_opening_part part;
@@ -64,14 +70,14 @@ typedef struct tn_ast_tile_part {
 typedef struct tn_ast_form_clause {
     tn_ast_node node;
     tn_form_part part;
-    const tn_ast_word *name, *doc;
-    const tn_ast_word *detail; /* section: the word after the zone; outside: the side, or NULL */
-    const tn_ast_word *length; /* storey, thickness, an opening's width */
+    const tn_ast_word *name, *doc; /* of a material, the doc is its colour */
+    const tn_ast_word *detail; /* section: the word after the zone; outside: the side, or NULL; material: per what */
+    const tn_ast_word *length; /* storey, thickness, an opening's width; a material's price, or NULL */
     const tn_ast_word *high;   /* opening */
     tn_face_relation relation;
-    tn_ast_expr *first, *second;
-    tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile: functions */
-    tn_ast_list parts; /* opening: tn_ast_opening_part; tile: tn_ast_tile_part */
+    tn_ast_expr *first, *second; /* material: where it is used, or NULL */
+    tn_ast_list list;            /* section: tn_ast_shape; face: kinds; tile: functions; material: parts */
+    tn_ast_list parts;           /* opening: tn_ast_opening_part; tile: tn_ast_tile_part */
 } tn_ast_form_clause;
 
 typedef struct tn_ast_form {

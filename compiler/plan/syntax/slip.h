@@ -6,7 +6,14 @@
 #include <stddef.h>
 
 /* Where a word stands that the language does not have. */
-typedef enum tn_slip_place { TN_SLIP_RULE, TN_SLIP_TRAY, TN_SLIP_LIBRARY, TN_SLIP_TEST, TN_SLIP_ITEM, TN_SLIP_RANGE } tn_slip_place;
+typedef enum tn_slip_place {
+    TN_SLIP_RULE,
+    TN_SLIP_TRAY,
+    TN_SLIP_LIBRARY,
+    TN_SLIP_TEST,
+    TN_SLIP_ITEM,
+    TN_SLIP_RANGE
+} tn_slip_place;
 
 typedef struct tn_slip {
     tn_slip_place place;

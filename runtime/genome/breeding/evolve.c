@@ -120,7 +120,9 @@ void tn_evolution_recall(tn_evolution *e, tn_recall *recall, void *context)
 static void rank(tn_evolution *e, tn_individual **individuals, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        e->merits[i] = (tn_merit){.objectives = individuals[i]->score.objectives, .index = (uint32_t)i};
+        e->merits[i] = (tn_merit){.objectives = individuals[i]->score.objectives,
+                                  .violation = individuals[i]->score.violation,
+                                  .index = (uint32_t)i};
     if (e->evaluator.objectives > 1)
         tn_nsga2(e->merits, count, e->evaluator.objectives, e->scratch);
     tn_merit_sort(e->merits, count);

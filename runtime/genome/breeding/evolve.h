@@ -23,6 +23,7 @@ typedef enum tn_score_state {
 
 typedef struct tn_score {
     double objectives[TN_OBJECTIVES_MAX]; /* lower is better */
+    double violation; /* how far from meeting what is required, where that is weighed apart from several objectives */
     tn_score_state state;
 } tn_score;
 

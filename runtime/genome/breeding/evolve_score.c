@@ -20,13 +20,14 @@ static void worst_score(tn_score *score, tn_score_state state)
 {
     for (size_t i = 0; i < TN_OBJECTIVES_MAX; i++)
         score->objectives[i] = HUGE_VAL;
+    score->violation = HUGE_VAL;
     score->state = state;
 }
 
 /* Something that is not a number would compare with nothing. */
 static void tidy_score(const tn_evolution *e, tn_score *score)
 {
-    bool bad = false;
+    bool bad = isnan(score->violation);
     for (size_t i = 0; i < e->evaluator.objectives; i++)
         bad |= isnan(score->objectives[i]);
     if (score->state == TN_SCORED && bad)

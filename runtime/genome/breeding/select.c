@@ -21,14 +21,16 @@ void tn_merit_sort(tn_merit *merits, size_t count)
     qsort(merits, count, sizeof *merits, compare_merits);
 }
 
-/* Is a nowhere worse than b, and somewhere better? */
-static bool dominates(const double *a, const double *b, size_t objectives)
+/* Is a nearer to what is required than b; or as near, nowhere worse, and somewhere better? */
+static bool dominates(const tn_merit *a, const tn_merit *b, size_t objectives)
 {
     bool better = false;
+    if (a->violation != b->violation)
+        return a->violation < b->violation;
     for (size_t i = 0; i < objectives; i++) {
-        if (a[i] > b[i])
+        if (a->objectives[i] > b->objectives[i])
             return false;
-        better |= a[i] < b[i];
+        better |= a->objectives[i] < b->objectives[i];
     }
     return better;
 }
@@ -41,7 +43,7 @@ static void find_fronts(tn_merit *merits, size_t count, size_t objectives, uint3
     for (size_t i = 0; i < count; i++) {
         above[i] = 0;
         for (size_t k = 0; k < count; k++)
-            above[i] += dominates(merits[k].objectives, merits[i].objectives, objectives);
+            above[i] += dominates(&merits[k], &merits[i], objectives);
         if (above[i] == 0)
             front[size++] = (uint32_t)i;
     }
@@ -51,7 +53,7 @@ static void find_fronts(tn_merit *merits, size_t count, size_t objectives, uint3
             merits[front[i]].front = number;
         for (size_t i = 0; i < size; i++)
             for (size_t k = 0; k < count; k++)
-                if (dominates(merits[front[i]].objectives, merits[k].objectives, objectives) && --above[k] == 0)
+                if (dominates(&merits[front[i]], &merits[k], objectives) && --above[k] == 0)
                     next[following++] = (uint32_t)k;
         uint32_t *swap = front;
         front = next;

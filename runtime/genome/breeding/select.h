@@ -20,13 +20,15 @@ typedef enum tn_selection {
  * index. With one objective, front is 0 and room 0 for all. */
 typedef struct tn_merit {
     const double *objectives;
+    double violation; /* 0 where all that is required is met */
     uint32_t front;
     double room;
     uint32_t index;
 } tn_merit;
 
-/* Fills front and room of each: nondominated sorting and crowding distance (Deb et al., 2002). Quadratic in count.
- * `scratch` has room for 3 * count numbers. */
+/* Fills front and room of each: nondominated sorting and crowding distance (Deb et al., 2002), with constrained
+ * domination (the same, section VI): of two with unlike violations the one with the smaller dominates. Quadratic in
+ * count. `scratch` has room for 3 * count numbers. */
 void tn_nsga2(tn_merit *merits, size_t count, size_t objectives, uint32_t *scratch);
 
 /* Sorts the best to the front. */

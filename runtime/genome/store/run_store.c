@@ -195,19 +195,23 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-/* State, the first objective and the further ones, from column `first` on. */
+/* State, the first objective and the further ones, from column `first` on. What is lacking of the requirements comes
+ * after the last one, where it is not 0. */
 static void bind_score(sqlite3_stmt *s, int first, const tn_score *score, size_t objectives)
 {
     uint8_t more[8 * TN_OBJECTIVES_MAX];
+    bool lacks = objectives > 1 && score->state == TN_SCORED && score->violation != 0;
     for (size_t i = 1; i < objectives; i++)
         tn_put_u64(more + 8 * (i - 1), bits_of(score->objectives[i]));
+    if (lacks)
+        tn_put_u64(more + 8 * (objectives - 1), bits_of(score->violation));
     sqlite3_bind_int(s, first, (int)score->state);
     if (score->state == TN_SCORED)
         sqlite3_bind_double(s, first + 1, score->objectives[0]);
     else
         sqlite3_bind_null(s, first + 1);
     if (objectives > 1)
-        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (objectives - 1)), SQLITE_TRANSIENT);
+        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (objectives - 1 + lacks)), SQLITE_TRANSIENT);
     else
         sqlite3_bind_null(s, first + 2);
 }

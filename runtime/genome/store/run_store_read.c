@@ -61,9 +61,9 @@ static void read_score(sqlite3_stmt *statement, size_t objectives, tn_score *sco
     score->objectives[0] = sqlite3_column_double(statement, 2);
     const uint8_t *more = sqlite3_column_blob(statement, 3);
     size_t size = (size_t)sqlite3_column_bytes(statement, 3);
-    for (size_t i = 1; i < objectives; i++) {
+    for (size_t i = 1; i <= objectives; i++) {
         uint64_t bits = more && size >= 8 * i ? tn_get_u64(more + 8 * (i - 1)) : 0;
-        memcpy(&score->objectives[i], &bits, sizeof bits);
+        memcpy(i < objectives ? &score->objectives[i] : &score->violation, &bits, sizeof bits);
     }
 }
 

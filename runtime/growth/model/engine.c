@@ -41,8 +41,10 @@ static void list_stroke(tn_lister *lister, const tn_instruction *instruction)
 }
 
 static const tn_section sections[] = {
-    TN_SECTION_GROWTH, TN_SECTION_EDGE_LABEL, TN_SECTION_REWRITE_GROUP, TN_SECTION_REWRITE_RULE, TN_SECTION_STUDY,
-    TN_SECTION_FORCE,  TN_SECTION_BOUNDARY,   TN_SECTION_GOAL,          TN_SECTION_STRINGS,
+    TN_SECTION_GROWTH,       TN_SECTION_EDGE_LABEL, TN_SECTION_REWRITE_GROUP,
+    TN_SECTION_REWRITE_RULE, TN_SECTION_STUDY,      TN_SECTION_FORCE,
+    TN_SECTION_BOUNDARY,     TN_SECTION_GOAL,       TN_SECTION_GROWTH_REQUIREMENT,
+    TN_SECTION_STRINGS,
 };
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_LABEL, NULL, list_label},

@@ -13,11 +13,24 @@
 /* What becomes of an age, as a file writes it behind an edge's name. */
 extern const char *const tn_age_suffixes[TN_AGE_CHANGE_COUNT];
 
-/* What fitness expressions can ask for: the terms, and counts. */
+/* What goals and requirements can ask for: the terms, counts, and whether the surface can be built. */
 typedef enum tn_measured {
     TN_MEASURED_VERTICES = TN_FITNESS_TERM_COUNT,
     TN_MEASURED_EDGES,
     TN_MEASURED_FACES,
+    TN_MEASURED_WIDTH, /* from here on: what is measured where it is asked for (soundness.h) */
+    TN_MEASURED_DEPTH,
+    TN_MEASURED_HEIGHT,
+    TN_MEASURED_AREA,
+    TN_MEASURED_VOLUME,
+    TN_MEASURED_PLANARITY,
+    TN_MEASURED_WORST_PLANARITY,
+    TN_MEASURED_EDGE_SPREAD,
+    TN_MEASURED_SMALLEST_ANGLE,
+    TN_MEASURED_SPAN,
+    TN_MEASURED_CROSSED_FACES,
+    TN_MEASURED_TURNED_FACES,
+    TN_MEASURED_CROSSINGS,
     TN_MEASURED_COUNT
 } tn_measured;
 

@@ -73,13 +73,25 @@ static tn_status check_goals(const tn_checker *checker)
     return TN_OK;
 }
 
+static tn_status check_requirements(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    if (module->GROWTH_REQUIREMENT_count > TN_EXPRESSIONS_MAX)
+        return tn_refuse(checker, "it has more requirements than %u", TN_EXPRESSIONS_MAX);
+    for (size_t i = 0; i < module->GROWTH_REQUIREMENT_count; i++)
+        if (module->FUNCTION_records[module->GROWTH_REQUIREMENT_records[i].violation].kind != TN_FUNCTION_MEASURE)
+            return tn_refuse(checker, "requirement %zu is not an expression", i);
+    return TN_OK;
+}
+
 /* ---- all of them */
 
 tn_status tn_growth_verify(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
     size_t parts = module->EDGE_LABEL_count + module->REWRITE_GROUP_count + module->REWRITE_RULE_count +
-                   module->STUDY_count + module->FORCE_count + module->BOUNDARY_count + module->GOAL_count;
+                   module->STUDY_count + module->FORCE_count + module->BOUNDARY_count + module->GOAL_count +
+                   module->GROWTH_REQUIREMENT_count;
     if (module->GROWTH_count > 1 || module->STUDY_count > 1)
         return tn_refuse(checker, "it has more than one rewrite system or study");
     if (module->GROWTH_count == 0)
@@ -87,5 +99,7 @@ tn_status tn_growth_verify(const tn_checker *checker)
     tn_status status = check_system(checker);
     if (status == TN_OK)
         status = check_surroundings(checker);
-    return status == TN_OK ? check_goals(checker) : status;
+    if (status == TN_OK)
+        status = check_goals(checker);
+    return status == TN_OK ? check_requirements(checker) : status;
 }

@@ -88,6 +88,19 @@ static tn_status check_tile(const tn_checker *checker, const tn_form_record *for
                            : status;
 }
 
+/* The boxes of a form's tiles follow one another; an item is named by the first of its name among them. */
+static tn_status check_material(const tn_checker *checker, const tn_form_record *form, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    const tn_material_record *material = &module->MATERIAL_records[index];
+    uint32_t boxes = 0;
+    for (uint32_t i = 0; i < form->tile_count; i++)
+        boxes += module->TILE_records[form->tile_first + i].box_count;
+    if (material->where != TN_NO_RECORD && !decides(checker, material->where, TN_FUNCTION_SECTION, form->schema))
+        return tn_refuse(checker, "material %u names a function of another kind or schema", index);
+    return check_items(checker, material->part_first, material->part_count, TN_OF_COUNT + form->opening_count + boxes);
+}
+
 /* ---- rules and libraries of houses */
 
 static tn_status check_rules_of_houses(const tn_checker *checker)
@@ -151,6 +164,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         status = check_face(checker, form, form->face_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->tile_count; i++)
         status = check_tile(checker, form, form->tile_first + i);
+    for (uint32_t i = 0; status == TN_OK && i < form->material_count; i++)
+        status = check_material(checker, form, form->material_first + i);
     return status;
 }
 
@@ -183,6 +198,15 @@ static tn_status check_area(const tn_checker *checker, const tn_instruction *ins
 {
     if (instruction->first < 0 || instruction->first >= TN_AREA_TEST_COUNT || instruction->second < 0)
         return tn_refuse(checker, "an area is compared in no known way");
+    return TN_OK;
+}
+
+static tn_status check_ratio(const tn_checker *checker, const tn_instruction *instruction)
+{
+    int64_t of = instruction->second >> 32, to = instruction->second & UINT32_MAX;
+    if (instruction->first < 0 || instruction->first >= TN_AREA_TEST_COUNT || of < 0 || of > TN_RATIO_MAX || to < 1 ||
+        to > TN_RATIO_MAX)
+        return tn_refuse(checker, "a glazing is compared in no known way");
     return TN_OK;
 }
 
@@ -223,6 +247,13 @@ static void list_area(tn_lister *lister, const tn_instruction *instruction)
 {
     static const char *const signs[] = {"<", "<=", "=", "!=", ">=", ">"};
     fprintf(lister->out, "area %s %lld", signs[instruction->first], (long long)instruction->second);
+}
+
+static void list_ratio(tn_lister *lister, const tn_instruction *instruction)
+{
+    static const char *const signs[] = {"<", "<=", "=", "!=", ">=", ">"};
+    fprintf(lister->out, "glazing %s %lld:%lld", signs[instruction->first], (long long)(instruction->second >> 32),
+            (long long)(instruction->second & UINT32_MAX));
 }
 
 /* ---- rules and libraries of plans do not ask for houses */
@@ -270,13 +301,14 @@ static tn_status verify_after(const tn_checker *checker)
     return status;
 }
 
-static const tn_section sections[] = {TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,
-                                      TN_SECTION_SHAPE,        TN_SECTION_CELL_RULE,  TN_SECTION_OPENING,
-                                      TN_SECTION_FACE_LINE,    TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
-                                      TN_SECTION_HOUSE_ITEM,   TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-                                      TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_STRINGS};
+static const tn_section sections[] = {
+    TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
+    TN_SECTION_CELL_RULE,    TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
+    TN_SECTION_TILE_BOX,     TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
+                                            {TN_OPERANDS_RATIO, check_ratio, list_ratio},
                                             {TN_OPERANDS_DECISION, check_decision, NULL},
                                             {TN_OPERANDS_DECISION_COND, check_counted, NULL},
                                             {TN_OPERANDS_MEETING, check_meeting, NULL}};

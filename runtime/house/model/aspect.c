@@ -229,8 +229,11 @@ tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const
         status = cut(house, aspect, &blocks, error);
     if (status == TN_OK && misses(house, aspect, &blocks))
         status = missed(aspect, prospect, error);
-    if (status == TN_OK)
-        status = tn_blocks_mesh(&blocks, tn_solid_groups, &prospect->mesh, error);
+    if (status == TN_OK) {
+        for (size_t i = 0; i < blocks.count; i++)
+            blocks.items[i].group = tn_solid_groups[blocks.items[i].kind];
+        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT, &prospect->mesh, error);
+    }
     drop_item_cuts(&blocks);
     if (status == TN_OK) {
         prospect->cuts = blocks.cuts;

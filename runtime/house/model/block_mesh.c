@@ -1,7 +1,5 @@
 /* Makes one mesh of the blocks of a house: the boundary of their union, worked out plane by plane. */
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "runtime/geometry/union/union.h"
 #include "runtime/house/model/model.h"
@@ -49,49 +47,31 @@ static bool is_solid(const tn_house_block *b)
     return b->low[0] < b->high[0] && b->low[1] < b->high[1] && b->low[2] < b->high[2];
 }
 
-/* Turns the groups of cells into those of kinds of parts. */
-static tn_status name_groups(const uint32_t *kinds, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh,
-                             tn_error *error)
-{
-    for (size_t f = 0; f < mesh->face_count; f++) {
-        uint32_t kind = kinds[mesh->face_group[f]];
-        mesh->face_group[f] = groups ? groups[kind] : kind;
-    }
-    mesh->group_count = TN_SOLID_COUNT;
-    if (groups)
-        return TN_OK;
-    mesh->group_names = calloc(TN_SOLID_COUNT, sizeof *mesh->group_names);
-    if (!mesh->group_names)
-        return tn_fail_memory(error);
-    for (int i = 0; i < TN_SOLID_COUNT; i++)
-        snprintf(mesh->group_names[i], sizeof mesh->group_names[i], "%s", tn_solid_kind_text((tn_solid_kind)i));
-    return TN_OK;
-}
-
-tn_status tn_blocks_mesh(const tn_blocks *blocks, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh, tn_error *error)
+tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh, tn_error *error)
 {
     tn_cut_box *cells = malloc((blocks->count + 1) * sizeof *cells);
-    uint32_t *kinds = malloc((blocks->count + 1) * sizeof *kinds);
+    uint32_t *group_of = malloc((blocks->count + 1) * sizeof *group_of);
     tn_union united = {0};
     size_t count = 0;
-    tn_status status = cells && kinds ? TN_OK : tn_fail_memory(error);
+    tn_status status = cells && group_of ? TN_OK : tn_fail_memory(error);
     *mesh = (tn_mesh){0};
     for (size_t i = 0; status == TN_OK && i < blocks->count; i++) {
         if (!is_solid(&blocks->items[i]))
             continue;
-        kinds[count] = blocks->items[i].kind;
+        group_of[count] = blocks->items[i].group;
         make_cell(&blocks->items[i], &cells[count++]);
     }
     if (status == TN_OK)
         status = tn_union_make(cells, count, &united, error);
-    if (status == TN_OK)
-        status = name_groups(kinds, groups, &united.mesh, error);
     if (status == TN_OK) {
+        for (size_t f = 0; f < united.mesh.face_count; f++)
+            united.mesh.face_group[f] = group_of[united.mesh.face_group[f]];
+        united.mesh.group_count = groups;
         *mesh = united.mesh;
         united.mesh = (tn_mesh){0};
     }
     tn_union_clear(&united);
     free(cells);
-    free(kinds);
+    free(group_of);
     return status;
 }

@@ -34,6 +34,7 @@ static tn_status add_box(tn_blocks *blocks, const tn_solid *solid, tn_error *err
 {
     const tn_box *b = &solid->at;
     tn_house_block block = {.kind = solid->kind,
+                            .group = solid->kind,
                             .of = solid->of,
                             .item = solid->item,
                             .low = {(double)b->x0, (double)b->y0, (double)b->z0},
@@ -48,6 +49,7 @@ static tn_status add_prism(tn_blocks *blocks, const tn_prism *prism, const tn_ro
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i + 1 < prism->point_count; i++) {
         tn_house_block block = {.kind = TN_SOLID_ROOF,
+                                .group = TN_SOLID_ROOF,
                                 .of = prism->of,
                                 .low = {(double)prism->x0, tn_fraction_value(points[i].y), (double)prism->base},
                                 .high = {(double)prism->x1, tn_fraction_value(points[i + 1].y), 0},

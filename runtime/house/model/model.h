@@ -10,10 +10,10 @@
 #include "runtime/geometry/mesh.h"
 #include "runtime/house/solids.h"
 
-/* of, item: as in tn_solid; of a roof, the cell. */
+/* of, item: as in tn_solid; of a roof, the cell. group: of its faces in a mesh; at first its kind. */
 typedef struct tn_house_block {
     tn_solid_kind kind;
-    uint32_t of, item;
+    uint32_t of, item, group;
     double low[3], high[3]; /* high[2] is the higher of the two tops */
     double top[2];          /* at low[1] and at high[1] */
 } tn_house_block;
@@ -41,10 +41,9 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
  * the plane of what was cut through. */
 tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error);
 
-/* The boundary of the union, closed and two-manifold, in triangles; nanometres, z up. A group for each kind of part:
- * groups[kind] says which; names are those of kinds where `groups` is NULL. */
-tn_status tn_blocks_mesh(const tn_blocks *blocks, const uint32_t groups[TN_SOLID_COUNT], tn_mesh *mesh,
-                         tn_error *error);
+/* The boundary of the union, closed and two-manifold, in triangles; nanometres, z up, with the groups of the blocks, of
+ * which there are `groups`. It has no names for them. */
+tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh, tn_error *error);
 
 /* ---- leaves.c */
 

@@ -39,7 +39,7 @@ static bool has_kind(const tn_module *module, const tn_meeting_record *meeting, 
     return meeting->kind_count == 0;
 }
 
-bool tn_house_meets_at(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face)
+bool tn_face_meets(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face)
 {
     if (face->second == TN_NO_CELL || !has_kind(house->form->module, meeting, face->kind))
         return false;
@@ -51,10 +51,9 @@ bool tn_house_meets_at(const tn_house *house, const tn_meeting_record *meeting, 
 static void meets(const tn_house *house, const tn_meeting_record *meeting, uint64_t *relation, size_t words)
 {
     for (size_t i = 0; i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        if (!tn_house_meets_at(house, meeting, face))
+        if (!tn_face_meets(house, meeting, &house->faces[i]))
             continue;
-        uint32_t a = house->cells[face->first].tray, b = house->cells[face->second].tray;
+        uint32_t a = house->cells[house->faces[i].first].tray, b = house->cells[house->faces[i].second].tray;
         add(relation, words, a < b ? a : b, (a > b ? a : b) + 1u);
     }
 }
@@ -72,8 +71,7 @@ bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, cons
     return face->kind == TN_FACE_OPEN || (opening && opening->flags & TN_PASSAGE);
 }
 
-/* Is there no walk from the cell to one of the second kind? Cells between are of the third. */
-static bool is_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from)
+bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from)
 {
     const tn_house *house = rules->house;
     size_t count = 0;
@@ -104,7 +102,7 @@ static void apart(tn_house_rules *rules, const tn_meeting_record *walk, uint64_t
     const tn_house *house = rules->house;
     for (uint32_t i = 0; i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
-        if (!cell->open && tn_house_decide(house, walk->first, cell) && is_apart(rules, walk, i))
+        if (!cell->open && tn_house_decide(house, walk->first, cell) && tn_cell_apart(rules, walk, i))
             add(relation, words, cell->tray, cell->tray + 1u);
     }
 }

@@ -28,7 +28,12 @@ struct tn_house_rules {
 /* ---- asked_rooms.c */
 tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
 
-/* What a function of kind ROOM decides on a room. */
+/* ---- asked.c */
+/* Is there no walk from the cell to one of the second kind? Cells between are of the third. Then rules->seen are the
+ * cells that walks come to. */
+bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from);
+
+/* ---- asked_rooms.c, again: what a function of kind ROOM decides on a room. */
 bool tn_room_decide(const tn_house_rules *rules, uint32_t function, const tn_room_span *room);
 
 #endif

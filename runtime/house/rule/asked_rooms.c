@@ -55,6 +55,14 @@ static bool has_face(const tn_asked_room *asked, int64_t kind)
     return false;
 }
 
+/* Does what is glazed to the outside compare so with a part of the floor? Square nanometres, times at most 1000: they
+ * stay within 128 bits, because a house is at most 2^43 long and deep. */
+static bool glazing_compares(const tn_asked_room *asked, int64_t test, int64_t ratio)
+{
+    tn_int128 glazed = tn_room_glazing(asked->rules->house, asked->rules->room_of, asked->room->room);
+    return tn_area_compares(glazed * (ratio & UINT32_MAX) - asked->room->area * (ratio >> 32), test, 0);
+}
+
 static bool ask_room(const void *context, const tn_instruction *instruction)
 {
     const tn_asked_room *asked = context;
@@ -66,6 +74,8 @@ static bool ask_room(const void *context, const tn_instruction *instruction)
         return all_cells(asked, (uint32_t)instruction->first);
     case TN_OP_HAS_FACE:
         return has_face(asked, instruction->first);
+    case TN_OP_ROOM_GLAZING:
+        return glazing_compares(asked, instruction->first, instruction->second);
     case TN_OP_ROOM_AREA:
         return tn_area_compares(asked->room->area, instruction->first, instruction->second);
     case TN_OP_ROOM_CELLS: /* a number is compared as an area of so many square micrometres */

@@ -21,7 +21,7 @@ bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face 
 
 bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting)
 {
-    return tn_house_meets_at(house, &strip->form->module->MEETING_records[strip->questions.meetings[meeting]], face);
+    return tn_face_meets(house, &strip->form->module->MEETING_records[strip->questions.meetings[meeting]], face);
 }
 
 bool tn_strip_joins(const tn_house *house, const tn_face *face)

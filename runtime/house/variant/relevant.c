@@ -16,7 +16,7 @@ static bool asks_for_faces(const tn_module *module, uint32_t function)
     const tn_function_record *f = &module->FUNCTION_records[function];
     for (uint32_t at = f->code_begin; at < f->code_end;) {
         tn_instruction op = tn_code_read(module->code, at);
-        if (op.opcode == TN_OP_HAS_FACE)
+        if (op.opcode == TN_OP_HAS_FACE || op.opcode == TN_OP_ROOM_GLAZING)
             return true;
         at += op.length;
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/place/joints.h"
 #include "runtime/place/search/kinds.h"
 
 enum { PAIRS_MAX = 1 << 21 };
@@ -46,21 +47,6 @@ static bool overlap(const tn_lattice *l, const tn_look *a, const tn_look *b, con
                 return true;
         }
     }
-    return false;
-}
-
-/* Do connectors join, where turns are told apart: in some headings of the two looks? */
-static bool turns_fit(const tn_lattice *l, const tn_look *a, const socket *p, const tn_look *b, const socket *q)
-{
-    const tn_connector_type_record *types = l->kinds.rules->module->CONNECTOR_TYPE_records;
-    uint32_t alike = types[p->type].turns < types[q->type].turns ? types[p->type].turns : types[q->type].turns;
-    if (p->axis > TN_AXIS_DOWN)
-        return true; /* a turn about an axis aside would not stay upright */
-    for (uint32_t h = 0; h < 4; h++)
-        for (uint32_t g = 0; g < 4; g++)
-            if (l->kinds.kinds[a->kind].shape[h] == a->heading && l->kinds.kinds[b->kind].shape[g] == b->heading &&
-                (h + 4 - g) % (4 / (alike ? alike : 1)) == 0)
-                return true;
     return false;
 }
 
@@ -116,9 +102,11 @@ static tn_status join(tn_lattice *l, const tn_look *a, uint32_t other, tn_error 
         for (uint32_t j = 0; j < theirs && status == TN_OK; j++) {
             socket q = socket_of(l, b, j);
             int32_t by[3] = {p.at[0] - q.at[0], p.at[1] - q.at[1], p.at[2] - q.at[2]};
-            bool joined = ((uint32_t)p.axis ^ 1u) == (uint32_t)q.axis &&
-                          (types[p.type].joins == q.type || types[q.type].joins == p.type) &&
-                          turns_fit(l, a, &p, b, &q) && !overlap(l, a, b, by);
+            bool joined =
+                ((uint32_t)p.axis ^ 1u) == (uint32_t)q.axis &&
+                (types[p.type].joins == q.type || types[q.type].joins == p.type) &&
+                tn_connectors_turn(l->kinds.rules->module, p.type, q.type, p.axis, a->heading + 4 - b->heading) &&
+                !overlap(l, a, b, by);
             if (joined)
                 status = add_pair(l, other, by, error);
         }

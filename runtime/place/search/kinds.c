@@ -6,9 +6,10 @@
 
 #include "runtime/place/joints.h"
 
-/* A box, or a connector with its type and axis, from the lowest cell of the part. */
+/* A box, or a connector with its type, its axis and how far it is turned about that, from the lowest cell of the part.
+ */
 typedef struct feature {
-    int32_t what, type, axis, low[3], high[3];
+    int32_t what, type, axis, turn, low[3], high[3];
 } feature;
 
 static int compare(const void *a, const void *b)
@@ -56,6 +57,8 @@ static size_t list_features(const tn_module *module, const tn_kind_of_part *kind
         tn_axis axis = mirror >= 0 ? mirror_axis((tn_axis)c->axis, mirror) : (tn_axis)c->axis;
         feature *f = &to[count++];
         *f = (feature){.what = 1, .type = (int32_t)c->type, .axis = (int32_t)tn_axis_turn(axis, heading)};
+        if (axis <= TN_AXIS_DOWN) /* at x = 0 what points along x is turned by half a turn */
+            f->turn = (int32_t)((heading + (mirror == 0 ? 2 : 0)) % (4 / tn_connector_turns(module, c->type)));
         tn_heading_turn(heading, x, z, &f->low[0], &f->low[2]);
         f->low[1] = (int32_t)c->y;
         memcpy(f->high, f->low, sizeof f->low);

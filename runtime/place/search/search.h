@@ -9,12 +9,12 @@
 
 #include "runtime/place/search/score.h"
 
-/* Does the model need a search to be placed, as it says how, has images, or a stock? */
+/* Does the model need a search to be placed, as it says how, has images, a stock, or an order of its own? */
 static inline bool tn_place_needs_search(const tn_place_rules *rules)
 {
     const tn_kit_model_record *model = rules->space;
-    return model &&
-           (model->search != TN_SEARCH_GREEDY || model->symmetry != TN_SYMMETRY_NONE || model->stock_count > 0);
+    return model && (model->search != TN_SEARCH_GREEDY || model->symmetry != TN_SYMMETRY_NONE ||
+                     model->stock_count > 0 || model->flags & TN_KIT_BREADTH);
 }
 
 /* Searches as the model says, and gives the best model found, the first of equals. Of the options: seed, part_limit,

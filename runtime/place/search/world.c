@@ -215,10 +215,14 @@ static tn_status open_sites(tn_world *world, const tn_open_site *sites, size_t c
     tn_standing *plan = &world->plan;
     if (!tn_array_reserve(&plan->open, &plan->open_capacity, plan->open_count, count, sizeof *plan->open))
         return tn_fail_memory(error);
-    for (size_t i = count; i-- > 0;) {
-        const tn_open_site *site = &sites[i];
-        plan->open[plan->open_count++] = (tn_open_site){site->symbol, tn_frame_from(base, &site->frame)};
+    tn_open_site *to = &plan->open[plan->open_count];
+    if (world->choices->rules->space->flags & TN_KIT_BREADTH && plan->open_count > 0) { /* behind all that are open */
+        memmove(plan->open + count, plan->open, plan->open_count * sizeof *plan->open);
+        to = plan->open;
     }
+    for (size_t i = count; i-- > 0; to++)
+        *to = (tn_open_site){sites[i].symbol, tn_frame_from(base, &sites[i].frame)};
+    plan->open_count += count;
     return TN_OK;
 }
 

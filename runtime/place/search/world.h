@@ -39,7 +39,8 @@ tn_status tn_world_make(const tn_site_choices *choices, const tn_place_options *
                         tn_error *error);
 void tn_world_clear(tn_world *world);
 
-/* Opens the connectors at which the model starts, the first of them last. */
+/* Opens the connectors at which the model starts, the first of them last. (In breadth, what is opened comes after all
+ * that is open: it lies before them in the list.) */
 tn_status tn_world_start(tn_world *world, tn_error *error);
 
 /* Has the choice room at a frame, with its images, and has the stock its parts? */

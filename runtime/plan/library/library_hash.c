@@ -9,8 +9,7 @@
 #include <string.h>
 
 #define XXH_INLINE_ALL
-#include <xxhash.h>
-
+#include "runtime/base/hash_text.h"
 #include "runtime/base/random.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -117,11 +116,5 @@ void tn_library_hash(const tn_library *library, char hex[33])
     for (unsigned point = 0; point < POINTS; point++)
         add_plans(&hash, library, point);
     pthread_mutex_unlock(&library->late->lock);
-    XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(&hash));
-    for (int i = 0; i < 16; i++) {
-        hex[2 * i] = "0123456789abcdef"[canonical.digest[i] >> 4];
-        hex[2 * i + 1] = "0123456789abcdef"[canonical.digest[i] & 15];
-    }
-    hex[32] = 0;
+    tn_hash_text(XXH3_128bits_digest(&hash), hex);
 }

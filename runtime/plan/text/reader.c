@@ -36,6 +36,21 @@ tn_status tn_plan_reader_unchanged(const tn_plan_reader *reader, tn_error *error
     return tn_file_state_same(&reader->opened, reader->file, reader->path, error);
 }
 
+/* Reads some bytes behind those that are there; *count is 0 at the end. */
+static tn_status read_some(tn_plan_reader *reader, size_t *count, tn_error *error)
+{
+    char *end = reader->data + reader->end;
+    size_t room = reader->capacity - reader->end;
+    if (reader->decompressing)
+        return reader->compression->read(reader->decompressing, reader->file, reader->path, end, room, count, error);
+    ssize_t got;
+    do
+        got = read(reader->file, end, room);
+    while (got < 0 && errno == EINTR);
+    *count = got > 0 ? (size_t)got : 0;
+    return got < 0 ? tn_cannot_read(reader->path, errno, error) : TN_OK;
+}
+
 tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
 {
     if (reader->end - reader->begin >= wanted || reader->input_ended)
@@ -43,13 +58,12 @@ tn_status tn_reader_fill(tn_plan_reader *reader, size_t wanted, tn_error *error)
     if (!make_room(reader, wanted))
         return tn_fail_memory(error);
     while (reader->end < wanted && !reader->input_ended) {
-        ssize_t count = read(reader->file, reader->data + reader->end, reader->capacity - reader->end);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return tn_cannot_read(reader->path, errno, error);
+        size_t count = 0;
+        tn_status status = read_some(reader, &count, error);
+        if (status != TN_OK)
+            return status;
         reader->input_ended = count == 0;
-        reader->end += (size_t)count;
+        reader->end += count;
     }
     return reader->input_ended ? tn_plan_reader_unchanged(reader, error) : TN_OK;
 }
@@ -204,10 +218,22 @@ static tn_status open_sqlite(tn_plan_reader *reader, tn_error *error)
                           : tn_part_absent(TN_WITH_STORE, "reading a SQLite library", error);
 }
 
+/* Reads the first bytes; of a compressed file, those of what was compressed. */
+static tn_status begin_input(tn_plan_reader *reader, tn_error *error)
+{
+    tn_status status = tn_reader_fill(reader, TN_PACK_HEADER, error);
+    if (status != TN_OK || !reader->compression || !reader->compression->knows(reader->data, reader->end))
+        return status;
+    status = reader->compression->begin_reading(reader->data, reader->end, &reader->decompressing, error);
+    reader->end = 0;
+    reader->input_ended = false;
+    return status == TN_OK ? tn_reader_fill(reader, TN_PACK_HEADER, error) : status;
+}
+
 /* Finds the format from the first bytes, where it is not given. */
 static tn_status open_format(tn_plan_reader *reader, tn_error *error)
 {
-    tn_status status = tn_reader_fill(reader, TN_PACK_HEADER, error);
+    tn_status status = begin_input(reader, error);
     if (status != TN_OK)
         return status;
     size_t size = reader->end - reader->begin;
@@ -251,6 +277,7 @@ tn_status tn_plan_reader_open(const tn_schema *schema, const char *path, const t
     reader->file = -1;
     reader->format = given.format;
     reader->sqlite = given.sqlite;
+    reader->compression = given.compression;
     reader->max_length = given.max_length > 0 ? given.max_length : LENGTH_DEFAULT;
     reader->max_line = given.max_line > 0 ? given.max_line : LINE_DEFAULT;
     tn_status status = open_reader(reader, path, error);
@@ -268,6 +295,8 @@ void tn_plan_reader_free(tn_plan_reader *reader)
         return;
     if (reader->sqlite)
         reader->sqlite->close_reader(reader);
+    if (reader->decompressing)
+        reader->compression->end_reading(reader->decompressing);
     if (reader->file > STDIN_FILENO)
         close(reader->file);
     tn_plan_scanner_free(reader->scanner);

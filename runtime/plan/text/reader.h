@@ -3,6 +3,7 @@
 #define TARTAN_PLAN_TEXT_READER_H
 
 #include "runtime/base/file.h"
+#include "runtime/plan/text/compression.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/scanner.h"
 #include "runtime/plan/text/stream.h"
@@ -22,7 +23,9 @@ struct tn_plan_reader {
     int file; /* descriptor, or -1 */
     tn_file_state opened;
     bool input_ended;
-    uint64_t shared, shared_end; /* bytes of the file that were given up to tn_plan_lines_read */
+    const tn_plan_compression *compression; /* NULL: none is known */
+    void *decompressing;                    /* its state, where the input is compressed */
+    uint64_t shared, shared_end;            /* bytes of the file that were given up to tn_plan_lines_read */
     char *data;
     size_t begin, end, capacity;
     const char *text; /* the line of the plan read last */

@@ -102,7 +102,7 @@ tn_status tn_plan_lines_take(tn_plan_lines *lines, tn_plan_reader *reader, size_
 {
     *taken = false;
     lines->chunk.size = lines->at = 0;
-    if (!is_text(reader) || reader->at_end || bytes > reader->max_line)
+    if (!is_text(reader) || reader->decompressing || reader->at_end || bytes > reader->max_line)
         return TN_OK;
     tn_status status = tn_reader_fill(reader, bytes, error);
     if (status != TN_OK) {

@@ -28,11 +28,15 @@ typedef struct tn_plan_reader tn_plan_reader;
  * E0907. */
 typedef struct tn_plan_database tn_plan_database;
 
+/* What compresses files of plans and reads them again: tn_plan_zstd of driver/zstd/zstd.h. NULL: nothing does. */
+typedef struct tn_plan_compression tn_plan_compression;
+
 typedef struct tn_reader_options {
     tn_plan_format format;
     size_t max_length; /* trays of a plan; 0: 4,096. E0805 past it */
     size_t max_line;   /* bytes of a line; 0: 1 MiB. E0605 past it */
     const tn_plan_database *sqlite;
+    const tn_plan_compression *compression; /* of files that begin as it makes them */
 } tn_reader_options;
 
 /* Opens a file ("-": standard input, not for SQLite). `options` may be NULL. E0901 where it cannot be read, E0604 where
@@ -106,6 +110,7 @@ typedef struct tn_writer_options {
     bool resume;    /* go on with the SQLite library at the path, if there is one */
     uint32_t batch; /* plans a transaction; 0: 100,000 */
     const tn_plan_database *sqlite;
+    const tn_plan_compression *compression; /* of what is written; not for SQLite. NULL: none */
 } tn_writer_options;
 
 /* Has the file stayed as it was since it was opened? Otherwise TN_IO (E0901): what was read may be a mix. Readers ask
@@ -127,6 +132,11 @@ bool tn_plan_writer_resumes(const tn_plan_writer *writer);
 /* Appends a plan. Ranks must ascend. */
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error);
+
+/* Appends the plans of another file that was written in the same format, with the same schema and options, byte by
+ * byte; what such a file begins with is left out. Not for SQLite, nor from or to compressed files. TN_INVALID (E0604)
+ * where it does not begin so. */
+tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_error *error);
 
 /* Finishes the file, which is then in place and whole. The writer may only be freed after, whatever the result. A
  * closed pipe is TN_IO with E0903. */

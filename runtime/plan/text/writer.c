@@ -11,6 +11,7 @@
 #include "runtime/plan/text/pack.h"
 
 #define BATCH_DEFAULT 100000u
+#define COPIED ((size_t)1 << 18) /* bytes at a time */
 
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS])
@@ -161,8 +162,11 @@ static bool bin_header(tn_plan_writer *writer, const tn_plan_metadata *metadata)
 static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
 {
     size_t size = writer->text.size;
+    FILE *out = writer->output.stream;
     writer->text.size = 0;
-    if (size == 0 || fwrite(writer->text.data, 1, size, writer->output.stream) == size)
+    if (size == 0 ||
+        (writer->compressing ? writer->compression->write(writer->compressing, writer->text.data, size, false, out)
+                             : fwrite(writer->text.data, 1, size, out) == size))
         return TN_OK;
     const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
     return tn_cannot_write(shown, errno, error);
@@ -176,6 +180,8 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         return TN_INVALID;
     }
     tn_status status = tn_output_open(writer->path, &writer->output, error);
+    if (status == TN_OK && options->compression)
+        status = options->compression->begin_writing(&writer->compressing, error);
     if (status != TN_OK)
         return status;
     bool done = true;
@@ -224,6 +230,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->compression = options->compression;
     writer->columns = options->columns;
     writer->csv_safe = options->csv_safe;
     writer->sqlite = options->sqlite;
@@ -331,13 +338,52 @@ uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank)
     return writer->resumed;
 }
 
+/* ---- the plans of another file */
+
+/* Reads past what a file of the format begins with; false where it does not begin so. */
+static bool skip_beginning(const tn_plan_writer *writer, FILE *file)
+{
+    uint8_t header[TN_PACK_HEADER];
+    int byte = 0;
+    if (writer->format == TN_FORMAT_BIN)
+        return fread(header, 1, sizeof header, file) == sizeof header && memcmp(header, TN_PACK_MAGIC, 8) == 0 &&
+               tn_get_u64(header + 24) <= INT64_MAX && fseeko(file, (off_t)tn_get_u64(header + 24), SEEK_CUR) == 0;
+    while (writer->format == TN_FORMAT_CSV && byte != '\n' && byte != EOF)
+        byte = getc(file);
+    return byte != EOF;
+}
+
+static tn_status copy_file(tn_plan_writer *writer, FILE *file, const char *path, tn_error *error)
+{
+    if (!skip_beginning(writer, file))
+        return tn_fail(error, TN_INVALID, E_PLAN_FILE, "%.300s does not begin as such a file does", path);
+    tn_buffer *text = &writer->text;
+    if (!tn_buffer_reserve(text, COPIED))
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    while (status == TN_OK && (text->size = fread(text->data, 1, COPIED, file)) > 0)
+        status = flush_text(writer, error);
+    return status == TN_OK && ferror(file) ? tn_cannot_read(path, errno, error) : status;
+}
+
+tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_error *error)
+{
+    FILE *file = tn_file_stream(path);
+    if (!file)
+        return tn_cannot_read(path, errno, error);
+    tn_status status = copy_file(writer, file, path, error);
+    fclose(file);
+    return status;
+}
+
 /* ---- the end */
 
 tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
 {
-    writer->closed = true;
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->close_writer(writer, error);
+    if (writer->compressing && !writer->compression->write(writer->compressing, NULL, 0, true, writer->output.stream))
+        return tn_cannot_write(writer->path, errno, error);
     return tn_output_commit(&writer->output, error);
 }
 
@@ -345,7 +391,9 @@ void tn_plan_writer_free(tn_plan_writer *writer)
 {
     if (!writer)
         return;
-    if (!writer->closed && writer->output.stream)
+    if (writer->compressing)
+        writer->compression->end_writing(writer->compressing);
+    if (writer->output.stream)
         tn_output_discard(&writer->output);
     if (writer->sqlite)
         writer->sqlite->free_writer(writer);

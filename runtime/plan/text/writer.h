@@ -4,6 +4,7 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/length_style.h"
+#include "runtime/plan/text/compression.h"
 #include "runtime/plan/text/database.h"
 
 /* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
@@ -34,7 +35,8 @@ struct tn_plan_writer {
     tn_plan_format format;
     char *path;
     tn_output output; /* of every format but SQLite */
-    bool closed;
+    const tn_plan_compression *compression;
+    void *compressing;     /* its state; NULL: what is written is not compressed */
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
     bool columns, csv_safe;

@@ -1,7 +1,7 @@
 /* The table of cells: each mask by itself, all pairs of neighbours, and cells with vertices anywhere on their edges, of
  * which no triangles cross. */
 #include "runtime/field/contour_table.h"
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 #include "tests/unit/field/support.h"
 
 static unsigned mask_of_edges(unsigned mask)

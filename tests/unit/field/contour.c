@@ -2,8 +2,9 @@
  * bits; and the mesh of any field is closed and manifold, and no triangles cross. */
 #include <math.h>
 
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 #include "runtime/geometry/measure.h"
+#include "tests/support/openmesh_takes.h"
 #include "tests/unit/field/support.h"
 
 /* ---- random fields */
@@ -204,6 +205,7 @@ static void check_mesh(const char *text, uint32_t grid_size, bool closed)
         assert_int_equal(tn_mesh_measure(&one.mesh, 0, &m, &error), TN_OK);
         assert_true(one.mesh.face_count == 0 || m.volume > 0);
     }
+    assert_true(openmesh_takes(&one.mesh));
     assert_int_equal(tn_mesh_crossings(&one.mesh, &crossings, &error), TN_OK);
     assert_int_equal(crossings, 0);
     qsort(one.mesh.positions, one.mesh.vertex_count, 3 * sizeof(double), by_place);

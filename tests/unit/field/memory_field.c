@@ -1,5 +1,5 @@
 /* Meshes of fields where memory runs out at each allocation in turn: an error, and nothing is lost. */
-#include "runtime/field/crossing.h"
+#include "runtime/geometry/crossing.h"
 #include "tests/support/failing_memory.h"
 #include "tests/unit/field/support.h"
 

@@ -212,6 +212,22 @@ static void test_nsga2(void **state)
     assert_int_equal(merits[6].index, 5);
 }
 
+/* Whoever is nearer to what is required dominates, whatever the objectives. */
+static void test_constrained_domination(void **state)
+{
+    (void)state;
+    const double values[][2] = {{1, 1}, {2, 2}, {9, 9}, {0, 0}, {8, 9}};
+    static const double violations[] = {0.5, 0.25, 0, 0.25, 0};
+    static const uint32_t fronts[] = {4, 3, 1, 2, 0};
+    tn_merit merits[5];
+    uint32_t scratch[15];
+    for (uint32_t i = 0; i < 5; i++)
+        merits[i] = (tn_merit){.objectives = values[i], .violation = violations[i], .index = i};
+    tn_nsga2(merits, 5, 2, scratch);
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(merits[i].front, fronts[i]);
+}
+
 static void test_csv(void **state)
 {
     (void)state;
@@ -246,7 +262,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_threads), cmocka_unit_test(test_replay), cmocka_unit_test(test_better),
-        cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),  cmocka_unit_test(test_csv),
+        cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),  cmocka_unit_test(test_constrained_domination),
+        cmocka_unit_test(test_csv),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

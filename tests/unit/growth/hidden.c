@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/geometry/hidden.h"
+#include "runtime/geometry/hidden/hidden.h"
 
 enum { FACES = 60, CORNERS = 4 * FACES };
 

@@ -83,7 +83,7 @@ static tn_status mesh(tn_error *error)
     tn_mesh of = {0};
     tn_status status = tn_blocks_of(&house, &solids, &blocks, error);
     if (status == TN_OK)
-        status = tn_blocks_mesh(&blocks, NULL, &of, error);
+        status = tn_blocks_mesh(&blocks, TN_SOLID_COUNT, &of, error);
     tn_mesh_clear(&of);
     tn_blocks_clear(&blocks);
     return status;

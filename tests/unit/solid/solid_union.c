@@ -15,6 +15,7 @@
 #include "runtime/geometry/union/union.h"
 #include "runtime/numeric/numeric.h"
 #include "runtime/solid/measure.h"
+#include "tests/support/openmesh_takes.h"
 
 enum { BOXES = 12 };
 
@@ -320,6 +321,7 @@ static void check_design(uint64_t seed)
         check_points(&design, cells, count, moments.volume, seed);
     check_edges(&u.mesh);
     check_umbrellas(&u.mesh);
+    assert_true(openmesh_takes(&u.mesh));
     if (u.doubled == 0)
         check_parts(&u.mesh, cells, count, seed);
     double volume = volume_of(&u.mesh);

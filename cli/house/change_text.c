@@ -1,0 +1,75 @@
+/* Names cells, faces and changes of houses. */
+#include "cli/house/change_text.h"
+
+#include <stdio.h>
+
+static const char *text_of(const tn_house *house, uint32_t string)
+{
+    return tn_text(house->form->module, string);
+}
+
+void tn_cell_text(const tn_house *house, uint32_t index, char *text, size_t size)
+{
+    const tn_cell *cell = &house->cells[index];
+    const tn_house_form *form = house->form;
+    snprintf(text, size, "%u.%s.%s", cell->tray + 1, text_of(house, form->schema->fields[cell->zone].name),
+             text_of(house, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
+}
+
+void tn_face_text(const tn_house *house, uint32_t index, char *text, size_t size)
+{
+    static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "above",
+                                        [TN_HOUSE_BACK] = "back",
+                                        [TN_HOUSE_FRONT] = "front",
+                                        [TN_HOUSE_LEFT] = "left",
+                                        [TN_HOUSE_RIGHT] = "right"};
+    const tn_face *face = &house->faces[index];
+    char cell[96], other[96];
+    tn_cell_text(house, face->first, cell, sizeof cell);
+    if (face->second == TN_NO_CELL) {
+        snprintf(text, size, "%s, %s", cell, sides[face->side]);
+        return;
+    }
+    tn_cell_text(house, face->second, other, sizeof other);
+    snprintf(text, size, "%s to %s", cell, other);
+}
+
+static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char text[TN_VARIANT_TEXT])
+{
+    tn_variants tiles;
+    tn_error error;
+    text[0] = '\0';
+    if (tn_tile_variants(house, cell, &tiles, &error) == TN_OK && variant < tiles.count)
+        tn_variant_text(house->form, &tiles.variants[variant], text);
+    tn_variants_clear(&tiles);
+}
+
+void tn_change_text(const tn_house *house, const tn_house_change *c, tn_change_words *w)
+{
+    const tn_house_form *form = house->form;
+    const tn_choice_record *choice;
+    switch (c->kind) {
+    case TN_CHANGE_SECTION:
+        choice = tn_form_choice(form, c->of);
+        snprintf(w->where, sizeof w->where, "section %s", text_of(house, choice->name));
+        snprintf(w->from, sizeof w->from, "%s",
+                 text_of(house, form->module->SHAPE_records[choice->shape_first + c->from].spelling));
+        snprintf(w->to, sizeof w->to, "%s",
+                 text_of(house, form->module->SHAPE_records[choice->shape_first + c->to].spelling));
+        return;
+    case TN_CHANGE_FUNCTION:
+        tn_cell_text(house, c->of, w->where, sizeof w->where);
+        snprintf(w->from, sizeof w->from, "%s", text_of(house, tn_form_rule(form, (uint32_t)c->from)->name));
+        snprintf(w->to, sizeof w->to, "%s", text_of(house, tn_form_rule(form, (uint32_t)c->to)->name));
+        return;
+    case TN_CHANGE_FACE:
+        tn_face_text(house, c->of, w->where, sizeof w->where);
+        snprintf(w->from, sizeof w->from, "%s", tn_form_kind_text(form, (uint32_t)c->from));
+        snprintf(w->to, sizeof w->to, "%s", tn_form_kind_text(form, (uint32_t)c->to));
+        return;
+    default:
+        tn_cell_text(house, c->of, w->where, sizeof w->where);
+        name_tile(house, c->of, c->from, w->from);
+        name_tile(house, c->of, c->to, w->to);
+    }
+}

@@ -1,0 +1,286 @@
+/* Says on what of a house an answer rests: cells, rooms, faces and walks, tiles that do not stand, the nearest houses.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/change_text.h"
+#include "cli/house/explained_parts.h"
+#include "runtime/base/length.h"
+#include "runtime/house/rule/witness.h"
+
+enum { TEXT_MAX = 4096, NEAREST_MAX = 5 };
+
+/* ---- what questions find */
+
+typedef struct answering {
+    tn_house_explaining *e;
+    size_t found;
+    bool begun;
+} answering;
+
+/* The question as its author wrote it, on one line; the word of its kind where there is no source. */
+static void question_text(const tn_house_explaining *e, uint32_t offset, char *text, size_t size)
+{
+    tn_span span;
+    size_t used = 0;
+    if (!e->job->opened.compiled || !tn_code_span(&e->job->opened, offset, &span)) {
+        snprintf(text, size, "a question of the file");
+        return;
+    }
+    const char *source = e->job->opened.compilation.sources.files[span.file].text;
+    for (uint32_t i = span.begin; i < span.end && used + 1 < size; i++) {
+        bool blank = strchr(" \t\r\n", source[i]) != NULL;
+        if (!blank || (used > 0 && text[used - 1] != ' '))
+            text[used++] = blank ? ' ' : source[i];
+    }
+    text[used] = '\0';
+}
+
+static void room_text(const tn_house *house, uint32_t room, char *text, size_t size)
+{
+    uint32_t *rooms = NULL;
+    tn_error error;
+    size_t used = 0;
+    char cell[96];
+    if (tn_house_rooms(house, &rooms, &error) != TN_OK)
+        return;
+    for (uint32_t i = room; i < house->cell_count && used + sizeof cell < size; i++) {
+        if (rooms[i] != room)
+            continue;
+        tn_cell_text(house, i, cell, sizeof cell);
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i == room ? "" : " with ", cell);
+    }
+    free(rooms);
+}
+
+/* "2.body.upper, from where one comes to 2.body.ground" */
+static void walk_text(const tn_house *house, const tn_witness *found, char *text, size_t size)
+{
+    char cell[96];
+    size_t used, others = 0;
+    tn_cell_text(house, found->first, cell, sizeof cell);
+    used = (size_t)snprintf(text, size, "%s, from where the walk ", cell);
+    for (uint32_t i = 0; i < house->cell_count && used + sizeof cell < size; i++) {
+        if (!found->reached[i] || i == found->first)
+            continue;
+        tn_cell_text(house, i, cell, sizeof cell);
+        used += (size_t)snprintf(text + used, size - used, "%s%s", others++ ? ", " : "comes only to ", cell);
+    }
+    if (others == 0 && used < size)
+        snprintf(text + used, size - used, "leads nowhere");
+}
+
+static void found_text(const tn_house *house, const tn_witness *found, char *text, size_t size)
+{
+    switch (found->opcode) {
+    case TN_OP_SOME_ROOM:
+    case TN_OP_ROOMS:
+        room_text(house, found->first, text, size);
+        return;
+    case TN_OP_MEETS:
+        tn_face_text(house, found->face, text, size);
+        snprintf(text + strlen(text), size - strlen(text), ": %s",
+                 tn_form_kind_text(house->form, house->faces[found->face].kind));
+        return;
+    case TN_OP_APART:
+        walk_text(house, found, text, size);
+        return;
+    default:
+        tn_cell_text(house, found->first, text, size);
+    }
+}
+
+static void end_question(answering *a)
+{
+    if (a->begun)
+        tn_buffer_printf(&a->e->text, "%s", a->e->json ? "]}" : a->found == 0 ? " nothing\n" : "\n");
+}
+
+static tn_status write_found(void *context, const tn_witness *found, tn_error *error)
+{
+    answering *a = context;
+    tn_buffer *out = &a->e->text;
+    char text[TEXT_MAX] = "";
+    (void)error;
+    if (found->first != TN_NO_CELL) {
+        found_text(&a->e->house, found, text, sizeof text);
+        if (a->e->json) {
+            tn_buffer_printf(out, "%s", a->found ? "," : "");
+            tn_buffer_append_json(out, text);
+        } else {
+            tn_buffer_printf(out, "%s %s", a->found ? ";" : "", text);
+        }
+        a->found++;
+        return TN_OK;
+    }
+    end_question(a);
+    question_text(a->e, found->offset, text, sizeof text);
+    if (a->e->json) {
+        tn_buffer_printf(out, "%s{\"question\":", a->begun ? "," : "");
+        tn_buffer_append_json(out, text);
+        tn_buffer_printf(out, ",\"found\":[");
+    } else {
+        tn_buffer_printf(out, "    %s:", text);
+    }
+    a->begun = true;
+    a->found = 0;
+    return TN_OK;
+}
+
+tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *error)
+{
+    answering a = {.e = e};
+    tn_status status = tn_house_rules_witness(e->judge.rules, function, write_found, &a, error);
+    end_question(&a);
+    return status;
+}
+
+/* ---- tiles */
+
+static void obstacle_text(const tn_house_form *form, const tn_tile_record *tile, const tn_tile_failure *f, char *text,
+                          size_t size)
+{
+    const tn_module *module = form->module;
+    const char *box = tile->box_count ? tn_text(module, module->TILE_BOX_records[f->box].name) : "";
+    char wide[64], deep[64];
+    tn_length_write(f->wide, wide, sizeof wide);
+    tn_length_write(f->deep, deep, sizeof deep);
+    switch (f->obstacle) {
+    case TN_TILE_NO_SIDE:
+        snprintf(text, size, "no side of the room is one that it stands against");
+        return;
+    case TN_TILE_SIZE:
+        snprintf(text, size, "the room is %s wide and %s deep, and it asks for another size", wide, deep);
+        return;
+    case TN_TILE_BEYOND:
+        snprintf(text, size, "`%s` is not inside the room, which is %s wide and %s deep", box, wide, deep);
+        return;
+    case TN_TILE_MEETS_BOX:
+        snprintf(text, size, "`%s` and `%s` are in each other's way", box,
+                 tn_text(module, module->TILE_BOX_records[f->other].name));
+        return;
+    case TN_TILE_MEETS_POST:
+        snprintf(text, size, "`%s` meets a corner of thicker walls", box);
+        return;
+    default:
+        snprintf(text, size, "`%s` stands where an opening is kept clear", box);
+    }
+}
+
+static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, bool first, tn_error *error)
+{
+    const tn_tile_record *record = &e->judge.module->TILE_records[tile];
+    tn_tile_failure failure;
+    char text[TEXT_MAX];
+    tn_status status = tn_tile_fails(&e->house, cell, tile, &failure, error);
+    if (status != TN_OK)
+        return status;
+    obstacle_text(&e->judge.form, record, &failure, text, sizeof text);
+    const char *name = tn_text(e->judge.module, record->name);
+    if (!e->json) {
+        tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
+        return TN_OK;
+    }
+    tn_buffer_printf(&e->text, "%s{\"tile\":\"%s\",\"why\":", first ? "" : ",", name);
+    tn_buffer_append_json(&e->text, text);
+    tn_buffer_append(&e->text, "}", 1);
+    return TN_OK;
+}
+
+static tn_status write_bare(tn_house_explaining *e, uint32_t cell, bool first, tn_error *error)
+{
+    const tn_form_record *form = e->judge.form.record;
+    char text[96];
+    bool any = false;
+    tn_status status = TN_OK;
+    tn_cell_text(&e->house, cell, text, sizeof text);
+    if (e->json)
+        tn_buffer_printf(&e->text, "%s{\"cell\":\"%s\",\"tiles\":[", first ? "" : ",", text);
+    else
+        tn_buffer_printf(&e->text, "- no tile stands in %s, so this is no house of any library\n", text);
+    for (uint32_t t = form->tile_first; status == TN_OK && t < form->tile_first + form->tile_count; t++)
+        if (tn_tile_is_for(&e->house, cell, t)) {
+            status = write_tile(e, cell, t, !any, error);
+            any = true;
+        }
+    if (e->json)
+        tn_buffer_printf(&e->text, "]}");
+    return status;
+}
+
+tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (; *cell < e->house.cell_count; ++*cell) {
+        tn_variants tiles;
+        status = tn_tile_variants(&e->house, *cell, &tiles, error);
+        bool bare = status == TN_OK && tiles.wanted && tiles.count == 0;
+        tn_variants_clear(&tiles);
+        if (bare || status != TN_OK)
+            return status;
+    }
+    return status;
+}
+
+tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error)
+{
+    bool any = false;
+    uint32_t cell = 0;
+    if (e->json)
+        tn_buffer_printf(&e->text, ",\"bare\":[");
+    tn_status status = tn_explain_next_bare(e, &cell, error);
+    while (status == TN_OK && cell < e->house.cell_count) {
+        status = write_bare(e, cell++, !any, error);
+        any = true;
+        if (status == TN_OK)
+            status = tn_explain_next_bare(e, &cell, error);
+    }
+    if (e->json)
+        tn_buffer_printf(&e->text, "]");
+    return status;
+}
+
+/* ---- the nearest kept houses */
+
+typedef struct nearing {
+    tn_house_explaining *e;
+    size_t count;
+} nearing;
+
+static tn_status write_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+{
+    nearing *n = context;
+    tn_change_words w;
+    tn_buffer line = {0};
+    tn_buffer *out = &n->e->text;
+    if (n->count++ >= NEAREST_MAX)
+        return TN_OK;
+    tn_change_text(&n->e->house, change, &w);
+    tn_status status = tn_house_write(changed, &line, error);
+    if (n->e->json) {
+        tn_buffer_printf(out, "%s{\"where\":\"%s\",\"from\":\"%s\",\"to\":\"%s\",\"house\":", n->count > 1 ? "," : "",
+                         w.where, w.from, w.to);
+        tn_buffer_append_json(out, line.data ? line.data : "");
+        tn_buffer_append(out, "}", 1);
+    } else {
+        tn_buffer_printf(out, "%s    %s: %s for %s\n", n->count == 1 ? "kept with one change:\n" : "", w.where, w.to,
+                         w.from);
+    }
+    free(line.data);
+    return status;
+}
+
+tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error)
+{
+    nearing n = {.e = e};
+    if (e->json)
+        tn_buffer_printf(&e->text, ",\"nearest\":[");
+    tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, write_near, &n, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "]");
+    else if (status == TN_OK && n.count > NEAREST_MAX)
+        tn_buffer_printf(&e->text, "    and %zu more\n", n.count - NEAREST_MAX);
+    else if (status == TN_OK && n.count == 0)
+        tn_buffer_printf(&e->text, "no house that differs by one choice is kept\n");
+    return status;
+}

@@ -1,0 +1,37 @@
+/* tartan shards cat, merge: all shards as one file. */
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
+#include "cli/shards/shards.h"
+#include "driver/shards/gather.h"
+
+static void gather(tn_job *job, tn_shards_open *open, const char *output, tn_plan_format format)
+{
+    const tn_gathering gathering = {&open->set, &job->opened,          &open->ready, output ? output : "-",
+                                    format,     tn_interrupt_waiting()};
+    tn_progress progress;
+    tn_error error;
+    if (!tn_job_takes_text(job, output))
+        return;
+    tn_progress_watch(&progress, "shards read", gathering.watch);
+    tn_status status = tn_shards_gather(&gathering, &error);
+    tn_progress_unwatch(&progress, gathering.watch);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+}
+
+void tn_shards_cat(tn_job *job, tn_shards_open *open)
+{
+    gather(job, open, tn_shards_settings_of(job)->written.output, open->set.format);
+}
+
+void tn_shards_merge(tn_job *job, tn_shards_open *open)
+{
+    const char *output = tn_shards_settings_of(job)->written.output;
+    if (output && strcmp(output, "-") != 0)
+        gather(job, open, output, TN_FORMAT_SQLITE);
+    else
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a database is a file, and none is named"),
+                "name it: -o FILE.sqlite; `tartan shards cat` writes to standard output");
+}

@@ -1,0 +1,194 @@
+/* tartan shards status, check: what is there of a set, and whether it is what it should be. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
+#include "cli/shards/shards.h"
+#include "driver/open/digits.h"
+#include "driver/shards/check.h"
+#include "driver/shards/claim.h"
+#include "driver/shards/record.h"
+#include "runtime/base/crew.h"
+#include "runtime/base/file_error.h"
+#include "runtime/base/utf8.h"
+
+#define SHOWN_MOST 10u /* claims, and wrong shards */
+
+/* ---- status */
+
+typedef struct counted {
+    uint32_t there, claimed, stale;
+    mpz_t plans;
+    uint64_t bytes;
+    double stale_after;
+} counted;
+
+static void show_claim(const tn_shard_set *set, uint32_t shard, const tn_claimant *by, bool stale, FILE *out)
+{
+    fprintf(out, "  %s: ", tn_shard_name_of(set, shard).text);
+    tn_write_clean(out, by->host, strlen(by->host));
+    fprintf(out, " (process %lld) since ", (long long)by->process);
+    tn_write_clean(out, by->since, strlen(by->since));
+    fprintf(out, ", touched %.0f s ago%s\n", fmax(by->age, 0), stale ? ": stale" : "");
+}
+
+static void count_shard(const tn_shard_set *set, uint32_t shard, counted *c, tn_buffer *claims)
+{
+    struct stat known;
+    tn_claimant by;
+    char *path = tn_shard_path(set, shard, ""), *claim = tn_shard_path(set, shard, TN_SHARD_CLAIM);
+    mpz_t plans;
+    mpz_init(plans);
+    if (path && tn_shard_done(set, shard) && stat(path, &known) == 0) {
+        c->there++;
+        c->bytes += (uint64_t)known.st_size;
+        tn_shard_plans(set, shard, plans);
+        mpz_add(c->plans, c->plans, plans);
+    } else if (claim && tn_claim_read(claim, &by)) {
+        bool stale = fabs(by.age) > c->stale_after;
+        c->claimed++;
+        c->stale += stale;
+        if (c->claimed <= SHOWN_MOST)
+            tn_buffer_append(claims, (const char *)&(uint32_t){shard}, sizeof shard);
+    }
+    mpz_clear(plans);
+    free(path);
+    free(claim);
+}
+
+static void show_claims(const tn_shard_set *set, const counted *c, const tn_buffer *claims, FILE *out)
+{
+    for (size_t at = 0; at < claims->size; at += sizeof(uint32_t)) {
+        uint32_t shard;
+        tn_claimant by;
+        memcpy(&shard, claims->data + at, sizeof shard);
+        char *path = tn_shard_path(set, shard, TN_SHARD_CLAIM);
+        if (path && tn_claim_read(path, &by))
+            show_claim(set, shard, &by, fabs(by.age) > c->stale_after, out);
+        free(path);
+    }
+    if (c->claimed > SHOWN_MOST)
+        fprintf(out, "  and %u more\n", c->claimed - SHOWN_MOST);
+}
+
+static void show_status(const tn_shard_set *set, const counted *c, const tn_buffer *claims, FILE *out)
+{
+    mpz_t all;
+    mpz_init(all);
+    mpz_sub(all, set->bounds[set->count], set->bounds[0]);
+    char *there = tn_digits(c->plans, true), *plans = tn_digits(all, true);
+    mpz_set_ui(all, c->bytes);
+    char *bytes = tn_digits(all, true);
+    fprintf(out, "shards  %u of %u\n", c->there, set->count);
+    fprintf(out, "plans   %s of %s\n", there ? there : "?", plans ? plans : "?");
+    fprintf(out, "bytes   %s\n", bytes ? bytes : "?");
+    fprintf(out, "claimed %u%s\n", c->claimed, c->stale ? ", some by workers that are gone" : "");
+    show_claims(set, c, claims, out);
+    free(there);
+    free(plans);
+    free(bytes);
+    mpz_clear(all);
+}
+
+void tn_shards_status(tn_job *job, tn_shards_open *open)
+{
+    counted c = {0};
+    tn_buffer claims = {0};
+    tn_output output;
+    if (!tn_shards_stale(job, &c.stale_after) ||
+        !tn_job_output(job, tn_shards_settings_of(job)->written.output, &output))
+        return;
+    mpz_init(c.plans);
+    for (uint32_t i = 0; i < open->set.count; i++)
+        count_shard(&open->set, i, &c, &claims);
+    show_status(&open->set, &c, &claims, output.stream);
+    tn_job_commit(job, &output);
+    mpz_clear(c.plans);
+    free(claims.data);
+}
+
+/* ---- check */
+
+typedef struct checking {
+    const tn_shards_open *open;
+    tn_watch *watch;
+    bool *wrong; /* [shards] */
+} checking;
+
+static tn_status check_one(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    (void)thread;
+    checking *c = context;
+    uint32_t shard = (uint32_t)item;
+    if (!tn_shard_exists(&c->open->set, shard))
+        return TN_OK; /* said for all together */
+    tn_status status = tn_shard_check(&c->open->set, &c->open->ready, shard, c->watch, error);
+    c->wrong[item] = status != TN_OK;
+    return status == TN_STOPPED ? status : TN_OK;
+}
+
+/* Says what is wrong with the shards that were found to be: each is looked at once more, in their order. */
+static void report_wrong(tn_job *job, const checking *c)
+{
+    uint32_t said = 0;
+    for (uint32_t i = 0; i < c->open->set.count; i++) {
+        tn_error error;
+        if (!c->wrong[i] || said++ >= SHOWN_MOST)
+            continue;
+        if (tn_shard_check(&c->open->set, &c->open->ready, i, c->watch, &error) != TN_OK)
+            tn_job_fail(job, &error);
+    }
+    if (said > SHOWN_MOST)
+        tn_job_note(job, "%u more shards are wrong", said - SHOWN_MOST);
+}
+
+static tn_status check_all(tn_job *job, checking *c, tn_error *error)
+{
+    tn_progress progress;
+    tn_crew *crew = tn_crew_new(tn_job_threads(&tn_shards_settings_of(job)->plans), c->watch);
+    c->wrong = calloc(c->open->set.count, sizeof *c->wrong);
+    tn_progress_watch(&progress, "shards checked", c->watch);
+    tn_status status =
+        crew && c->wrong ? tn_crew_run(crew, c->open->set.count, 1, check_one, c, error) : tn_fail_memory(error);
+    tn_progress_unwatch(&progress, c->watch);
+    tn_crew_free(crew);
+    return status;
+}
+
+static void tell(tn_job *job, const tn_shard_set *set)
+{
+    mpz_t plans;
+    tn_output output;
+    if (!tn_job_output(job, tn_shards_settings_of(job)->written.output, &output))
+        return;
+    mpz_init(plans);
+    mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
+    char *digits = tn_digits(plans, true);
+    fprintf(output.stream, "all %u shards are there and whole: %s plans\n", set->count, digits ? digits : "?");
+    free(digits);
+    mpz_clear(plans);
+    tn_job_commit(job, &output);
+}
+
+void tn_shards_check_set(tn_job *job, tn_shards_open *open)
+{
+    checking c = {.open = open, .watch = tn_interrupt_waiting()};
+    tn_error error;
+    tn_status status = check_all(job, &c, &error);
+    if (status == TN_OK) {
+        report_wrong(job, &c);
+        if (tn_shards_complete(&open->set, &error) != TN_OK)
+            tn_job_fail(job, &error);
+        if (tn_shards_no_strangers(&open->set, &error) != TN_OK)
+            tn_job_fail(job, &error);
+    } else {
+        tn_job_fail(job, &error);
+    }
+    if (job->exit_code == TN_EXIT_DONE)
+        tell(job, &open->set);
+    free(c.wrong);
+}

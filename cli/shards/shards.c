@@ -1,0 +1,137 @@
+/* tartan shards: a library written by any number of workers, on any machines, with the bytes of one. */
+#include "cli/shards/shards.h"
+
+#include <string.h>
+
+#include "cli/common/option_rows.h"
+#include "runtime/base/nearest.h"
+
+/* What the command does, by its first word. */
+typedef struct shards_part {
+    const char *name;
+    const char *options; /* those that it takes, with blanks around each */
+    bool opens;          /* the module and the library of the set */
+    void (*run)(tn_job *job, tn_shards_open *open);
+} shards_part;
+
+static void run_new(tn_job *job, tn_shards_open *open)
+{
+    (void)open;
+    tn_shards_new(job);
+}
+
+static const shards_part parts[] = {
+    {"new", " library where trays max-length max-states threads shards plans from to format compress output ", false,
+     run_new},
+    {"run", " shard part threads for stale ", true, tn_shards_run_set},
+    {"status", " stale output ", false, tn_shards_status},
+    {"check", " threads output ", true, tn_shards_check_set},
+    {"cat", " threads output ", true, tn_shards_cat},
+    {"merge", " threads output ", true, tn_shards_merge},
+};
+#define PARTS (sizeof parts / sizeof *parts)
+
+static const shards_part *find_part(tn_job *job)
+{
+    const char *word = job->settings->operands.items[0], *names[PARTS];
+    for (size_t i = 0; i < PARTS; i++) {
+        names[i] = parts[i].name;
+        if (strcmp(parts[i].name, word) == 0)
+            return &parts[i];
+    }
+    const char *near = tn_nearest(word, names, PARTS);
+    tn_diagnostic *d = tn_job_usage(job, "`tartan shards` does not know `%.60s`", word);
+    if (near)
+        tn_help(tn_job_diagnostics(job), d, "did you mean `tartan shards %s`?", near);
+    else
+        tn_help(tn_job_diagnostics(job), d, "it knows new, run, status, check, cat and merge");
+    return NULL;
+}
+
+/* Is every option that was given one that the part takes? */
+static bool takes_options(tn_job *job, const shards_part *part)
+{
+    const tn_command *command = job->settings->command;
+    for (size_t i = 0; i < command->option_count; i++) {
+        char wanted[40];
+        snprintf(wanted, sizeof wanted, " %s ", command->options[i].name);
+        if (strstr(part->options, wanted) || !tn_option_given(&command->options[i], job->settings))
+            continue;
+        tn_job_usage(job, "`tartan shards %s` takes no --%s", part->name, command->options[i].name);
+        return false;
+    }
+    return true;
+}
+
+static bool takes_operands(tn_job *job, const shards_part *part)
+{
+    if (job->settings->operands.count == 2)
+        return true;
+    tn_job_usage(job, "`tartan shards %s` takes one %s", part->name,
+                 strcmp(part->name, "new") == 0 ? "rule file" : "set");
+    return false;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_shards_open open = {0};
+    tn_job_begin(&job, settings);
+    const shards_part *part = find_part(&job);
+    if (part && takes_operands(&job, part) && takes_options(&job, part)) {
+        bool reads = strcmp(part->name, "new") != 0;
+        if (!reads || (part->opens ? tn_shards_open_set(&job, &open) : tn_shards_read(&job, &open)))
+            part->run(&job, &open);
+    }
+    tn_shards_close_library(&open);
+    int code = tn_job_end(&job);
+    tn_shards_clear(&open);
+    return code;
+}
+
+#define SETTINGS tn_shards_settings
+static const tn_option options[] = {
+    OPTIONS_LIBRARY,
+    NUMBER("shards", 0, "N", shards, 1, 0, "new: divide the plans among N shards"),
+    NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans each"),
+    RANK("from", 0, "RANK", from, "new: the first rank (default 0)"),
+    RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",
+           "new: what the shards are: lines (the default), json, csv or bin"),
+    MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
+    TEXT("output", 'o', "FILE", written.output,
+         "new: the folder of the set; merge: the database to make; otherwise the file to write"),
+    NUMBER("shard", 0, "I", shard, 0, 0, "run: write only shard I; the first is 0"),
+    TEXT("part", 0, "I/N", part, "run: write only the I-th of N equal parts of the shards"),
+    TEXT("for", 0, "TIME", time, "run: begin no shard that would end after TIME: 90s, 55m, 2h"),
+    TEXT("stale", 0, "TIME", stale, "take a shard over from a worker that was silent for TIME (default 10m)"),
+    OPTIONS_LIBRARY_LIMITS,
+};
+
+const tn_command tn_command_shards = {
+    .name = "shards",
+    .summary = "write a library by many workers, on many machines",
+    .usage =
+        "new FILE -o SET (--shards N | --plans N) [--from RANK] [--to RANK] [--format FORMAT]\nrun SET [--shard I | "
+        "--part I/N] [--threads N] [--for TIME]\nstatus SET\ncheck SET\ncat SET [-o FILE]\nmerge SET -o FILE.sqlite",
+    .description =
+        "A shard set is a folder. new makes it: manifest.json says which ranks of the library are in which shard, and "
+        "rules.tnb is the compiled rule file. run writes the shards that are not there yet, until none is left. Start "
+        "it as often as you like, at the same time, on any machines that share the folder. Each shard appears whole or "
+        "not at all, so a worker may be killed at any moment, and run again.\n\n"
+        "status says how many shards are there, and who writes which. check reads all of them, and compares them with "
+        "the manifest. cat writes the bytes that one `tartan enumerate` would write. merge makes one database of all "
+        "shards.",
+    .example =
+        "$ tartan shards new terrace -o terrace.set --plans 1000000 --to 8000000\n$ tartan shards run terrace.set\n$ "
+        "tartan shards cat terrace.set -o terrace.plans",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .settings_size = sizeof(SETTINGS),
+    .ask_less = "give fewer trays with --trays",
+    .operands = "new, run, status, check, cat or merge, and a rule file or a set",
+    .operands_min = 2,
+    .operands_max = SIZE_MAX,
+    .run = run,
+};

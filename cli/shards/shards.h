@@ -1,0 +1,53 @@
+/* What the parts of `tartan shards` have in common: the options, and opening a set. */
+#ifndef TARTAN_CLI_SHARDS_SHARDS_H
+#define TARTAN_CLI_SHARDS_SHARDS_H
+
+#include "cli/plan/plan_output.h"
+#include "driver/shards/set.h"
+
+typedef struct tn_shards_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_written_settings written;
+    tn_option_number shards, each; /* --shards, --plans */
+    const char *from, *to;
+    int compress; /* 1: zstd */
+    tn_option_number shard;
+    const char *part, *time, *stale;
+} tn_shards_settings;
+
+static inline const tn_shards_settings *tn_shards_settings_of(const tn_job *job)
+{
+    return (const tn_shards_settings *)job->settings;
+}
+
+/* A set that a command works on. Zero it to begin with; clear it after the job's end. */
+typedef struct tn_shards_open {
+    tn_shard_set set;
+    tn_ready_library ready;
+    char *module; /* its path, which the job borrows */
+} tn_shards_open;
+
+/* Reads the manifest of the set that the second operand names. False where that failed (then end the job). */
+bool tn_shards_read(tn_job *job, tn_shards_open *open);
+
+/* The same, and opens its module and library, which must agree with the manifest. */
+bool tn_shards_open_set(tn_job *job, tn_shards_open *open);
+void tn_shards_close_library(tn_shards_open *open); /* before the job's end */
+void tn_shards_clear(tn_shards_open *open);         /* after it */
+
+/* Reads a time: 90, 90s, 55m, 2h or 1d, in seconds. False where the text is none. */
+bool tn_time_read(const char *text, double *seconds);
+
+/* The seconds after which a claim is stale; false where the option is no time, which is recorded. */
+bool tn_shards_stale(tn_job *job, double *seconds);
+
+/* Each does one thing that `tartan shards` does, and records what went wrong. */
+void tn_shards_new(tn_job *job);
+void tn_shards_run_set(tn_job *job, tn_shards_open *open);
+void tn_shards_status(tn_job *job, tn_shards_open *open);
+void tn_shards_check_set(tn_job *job, tn_shards_open *open);
+void tn_shards_cat(tn_job *job, tn_shards_open *open);
+void tn_shards_merge(tn_job *job, tn_shards_open *open);
+
+#endif

@@ -1,0 +1,320 @@
+/* Goes through all trays of a form's schema, and warns about what of the form comes to nothing. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/house/survey_parts.h"
+#include "runtime/base/array.h"
+#include "runtime/base/length.h"
+
+#define DECISIONS_MAX 100000000u /* a second or two */
+#define SECTIONS_MAX 100000u
+
+static tn_diagnostics *list_of(const tn_survey *s)
+{
+    return &s->opened->compilation.diagnostics;
+}
+
+static bool decides(const tn_survey *s, uint32_t function, const tn_cell *cell)
+{
+    return tn_house_decide(&s->house, function, cell);
+}
+
+/* ---- classes of cells */
+
+static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
+{
+    if (!tn_array_reserve_from(&s->classes, &s->class_room, 64, s->class_count, 1, sizeof *s->classes))
+        return tn_fail_memory(error);
+    tn_cell_class *class = &s->classes[s->class_count];
+    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, calloc(s->words, sizeof *class->met)};
+    if (!class->met)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < s->form.record->face_count; i++) {
+        const tn_face_line_record *line = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
+        uint64_t first = decides(s, line->first, cell);
+        uint64_t second = line->second != TN_NO_RECORD && decides(s, line->second, cell);
+        class->met[i / 32] |= (first | second << 1) << 2 * (i % 32);
+    }
+    for (size_t i = 0; i < s->class_count; i++) {
+        const tn_cell_class *other = &s->classes[i];
+        if (other->zone == class->zone && other->storey == class->storey && other->open == class->open &&
+            memcmp(other->met, class->met, s->words * sizeof *class->met) == 0) {
+            free(class->met);
+            return TN_OK;
+        }
+    }
+    s->class_count++;
+    return TN_OK;
+}
+
+/* ---- tiles */
+
+/* A side of the room has no wall, a partition or an outside wall: half of it is taken off. */
+static tn_status try_sizes(tn_survey *s, uint32_t tile, const tn_cell *cell, tn_error *error)
+{
+    const int64_t off[] = {0, s->form.record->partition / 2, s->form.record->wall / 2};
+    int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
+    tn_tile_failure failure = {.obstacle = TN_TILE_NO_SIDE};
+    tn_status status = TN_OK;
+    for (int i = 0; status == TN_OK && i < 81 && failure.obstacle != TN_TILE_STANDS; i++)
+        status =
+            tn_tile_fails_in(&s->form, wide - off[i % 3] - off[i / 3 % 3], deep - off[i / 9 % 3] - off[i / 27],
+                             tn_form_clear(&s->form, cell->storey), s->form.record->tile_first + tile, &failure, error);
+    s->tiles[tile] |= failure.obstacle == TN_TILE_STANDS;
+    return status;
+}
+
+static tn_status try_tiles(tn_survey *s, tn_cell *cell, tn_error *error)
+{
+    tn_status status = TN_OK;
+    s->house.cells = cell;
+    for (uint32_t i = 0; status == TN_OK && i < s->form.record->tile_count; i++)
+        if (!s->tiles[i] && tn_tile_is_for(&s->house, 0, s->form.record->tile_first + i))
+            status = try_sizes(s, i, cell, error);
+    return status;
+}
+
+/* ---- cells */
+
+/* How many storeys a zone has in some section, or in every one. */
+static uint32_t storeys_of(const tn_survey *s, uint32_t zone, bool most)
+{
+    const tn_form_record *record = s->form.record;
+    for (uint32_t i = 0; i < record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&s->form, i);
+        if (choice->kind != TN_CHOICE_STOREYS || choice->zone != s->schema->record->field_first + zone)
+            continue;
+        uint32_t found = s->form.module->SHAPE_records[choice->shape_first].storeys;
+        for (uint32_t k = 1; k < choice->shape_count; k++) {
+            uint32_t other = s->form.module->SHAPE_records[choice->shape_first + k].storeys;
+            found = (other > found) == most ? other : found;
+        }
+        return found;
+    }
+    return record->storey_count;
+}
+
+static bool meets(const tn_survey *s, const tn_cell *cell, tn_cell_rule_kind kind)
+{
+    for (uint32_t i = s->form.kinds_end[kind - 1]; i < s->form.kinds_end[kind]; i++)
+        if (decides(s, tn_form_rule(&s->form, i)->decides, cell))
+            return true;
+    return false;
+}
+
+/* A cell with each function that it may have. `surely`: is it there in every section? */
+static tn_status see_cell(tn_survey *s, tn_cell *cell, bool surely, tn_error *error)
+{
+    bool any = false;
+    tn_status status = TN_OK;
+    if (cell->open)
+        return add_class(s, cell, error);
+    for (uint32_t f = 0; status == TN_OK && f < tn_form_functions(&s->form); f++) {
+        if (!tn_cell_may(&s->house, cell, f))
+            continue;
+        any = s->functions[f] = true;
+        cell->function = f;
+        status = add_class(s, cell, error);
+        if (status == TN_OK)
+            status = try_tiles(s, cell, error);
+    }
+    cell->function = TN_NO_FUNCTION;
+    if (!any && surely && !s->bare) {
+        s->bare = true;
+        s->bare_cell = *cell;
+        s->bare_tray = s->tray;
+    }
+    return status;
+}
+
+static tn_status see_tray(tn_survey *s, tn_error *error)
+{
+    int64_t width = tn_tray_value_record(s->schema, s->tray, s->form.width)->length;
+    tn_status status = TN_OK;
+    for (uint32_t z = 0; z < s->form.zone_count; z++) {
+        uint32_t zone = s->form.zones[z], most = storeys_of(s, zone, true), least = storeys_of(s, zone, false);
+        int64_t depth = tn_tray_value_record(s->schema, s->tray, zone)->length;
+        tn_cell cell = {.zone = zone, .at = {0, width, 0, depth}, .function = TN_NO_FUNCTION};
+        s->widest = depth > s->widest ? depth : s->widest;
+        for (; status == TN_OK && depth > 0 && cell.storey < most && !meets(s, &cell, TN_CELL_NO); cell.storey++) {
+            cell.open = cell.storey > 0 && meets(s, &cell, TN_CELL_VOID);
+            status = see_cell(s, &cell, cell.storey < least, error);
+        }
+    }
+    s->widest = width > s->widest ? width : s->widest;
+    return status;
+}
+
+/* ---- what is said */
+
+#define SPAN(RECORD) ((tn_span){(RECORD)->file, (RECORD)->begin, (RECORD)->end})
+
+static void warn_functions(const tn_survey *s)
+{
+    for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
+        const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
+        if (s->functions[f])
+            continue;
+        tn_diagnostic *d = tn_report(list_of(s), W_FUNCTION_NEVER, SPAN(rule), "no cell may have the function `%s`",
+                                     tn_text(s->form.module, rule->name));
+        tn_help(list_of(s), d, "all items of its `at` have to hold for one cell, and no `void` or `no` takes it");
+    }
+}
+
+static tn_status warn_bare(const tn_survey *s, tn_error *error)
+{
+    const tn_form_record *form = s->form.record;
+    tn_buffer line = {0};
+    if (!s->bare || tn_form_functions(&s->form) == 0)
+        return TN_OK;
+    bool ok = tn_plan_write_line(s->schema, &s->bare_tray, 1, &line);
+    tn_diagnostic *d = tn_report(
+        list_of(s), W_NO_FUNCTION, SPAN(form), "form `%s`: no function may take the %s in storey `%s` of some trays",
+        tn_text(s->form.module, form->name), tn_text(s->form.module, s->schema->fields[s->bare_cell.zone].name),
+        tn_text(s->form.module, s->form.module->STOREY_records[form->storey_first + s->bare_cell.storey].name));
+    tn_note(list_of(s), d, NULL, "this plan has no house: %s", ok ? line.data : "");
+    tn_help(list_of(s), d, "add a function for such cells; or say that they are not there: `no cell(...)`");
+    free(line.data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static void warn_tiles(const tn_survey *s)
+{
+    for (uint32_t i = 0; i < s->form.record->tile_count; i++) {
+        const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + i];
+        if (s->tiles[i])
+            continue;
+        tn_diagnostic *d = tn_report(list_of(s), W_TILE_NEVER, SPAN(tile), "tile `%s` fits into no cell",
+                                     tn_text(s->form.module, tile->name));
+        tn_help(
+            list_of(s), d,
+            "its boxes, or its `wide` and `deep`, are too large for every room between walls, or in each other's way");
+    }
+}
+
+static bool is_named(const tn_survey *s, uint32_t kind)
+{
+    const tn_module *module = s->form.module;
+    for (uint32_t i = 0; i < s->form.record->face_count; i++) {
+        const tn_face_line_record *line = &module->FACE_LINE_records[s->form.record->face_first + i];
+        for (uint32_t k = 0; k < line->kind_count; k++)
+            if (module->HOUSE_ITEM_records[line->kind_first + k].number == kind)
+                return true;
+    }
+    return false;
+}
+
+static void warn_openings(const tn_survey *s)
+{
+    for (uint32_t i = 0; i < s->form.record->opening_count; i++) {
+        const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + i];
+        const char *name = tn_text(s->form.module, opening->name);
+        bool named = is_named(s, TN_FACE_KIND_COUNT + i);
+        if (named && opening->wide + s->form.record->wall <= s->widest)
+            continue;
+        tn_diagnostic *d =
+            tn_report(list_of(s), W_OPENING_NEVER, SPAN(opening),
+                      named ? "opening `%s` is wider than every face" : "no face has the opening `%s`", name);
+        if (named)
+            tn_help(list_of(s), d, "an opening and a `wall` together fit into a face");
+        else
+            tn_help(list_of(s), d, "name it in a line such as `face cell(any) outside = %s`", name);
+    }
+}
+
+/* ---- sections */
+
+/* The next combination of values; false after the last. */
+static bool next_section(tn_survey *s)
+{
+    for (uint32_t i = s->form.record->choice_count; i-- > 0;) {
+        if (++s->house.shapes[i] < tn_form_choice(&s->form, i)->shape_count)
+            return true;
+        s->house.shapes[i] = 0;
+    }
+    return false;
+}
+
+static tn_status warn_sections(tn_survey *s, tn_error *error)
+{
+    const tn_module *module = s->form.module;
+    uint64_t sections = 1;
+    for (uint32_t i = 0; i < s->form.record->choice_count && sections <= SECTIONS_MAX; i++)
+        sections *= tn_form_choice(&s->form, i)->shape_count;
+    bool *stands = calloc((size_t)module->SHAPE_count + 1, sizeof *stands), any = false;
+    if (!stands)
+        return tn_fail_memory(error);
+    do {
+        bool good = sections <= SECTIONS_MAX && tn_house_section_stands(&s->house);
+        any |= good;
+        for (uint32_t i = 0; good && i < s->form.record->choice_count; i++)
+            stands[tn_form_choice(&s->form, i)->shape_first + s->house.shapes[i]] = true;
+    } while (sections <= SECTIONS_MAX && next_section(s));
+    for (uint32_t i = 0; any && i < s->form.record->choice_count; i++)
+        for (uint32_t k = 0; k < tn_form_choice(&s->form, i)->shape_count; k++) {
+            const tn_choice_record *choice = tn_form_choice(&s->form, i);
+            const tn_shape_record *shape = &module->SHAPE_records[choice->shape_first + k];
+            if (stands[choice->shape_first + k])
+                continue;
+            tn_diagnostic *d = tn_report(list_of(s), W_SHAPE_NEVER, SPAN(shape), "no section has this value of `%s`",
+                                         tn_text(module, choice->name));
+            tn_help(list_of(s), d, "the form's `forbid` lines leave no combination with it");
+        }
+    free(stands);
+    return TN_OK;
+}
+
+/* ---- forms */
+
+static tn_status see_all(tn_survey *s, tn_error *error)
+{
+    const tn_form_record *form = s->form.record;
+    uint64_t lines = 2 * (uint64_t)form->face_count + form->rule_count + 1;
+    tn_status status = TN_OK;
+    if ((uint64_t)s->schema->tray_count * s->form.zone_count * form->storey_count * lines > DECISIONS_MAX)
+        return TN_OK;
+    for (s->tray = 0; status == TN_OK && s->tray < s->schema->tray_count; s->tray++)
+        status = see_tray(s, error);
+    if (status != TN_OK)
+        return status;
+    warn_functions(s);
+    warn_tiles(s);
+    warn_openings(s);
+    status = warn_bare(s, error);
+    return status == TN_OK ? tn_survey_faces(s, error) : status;
+}
+
+static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
+{
+    const tn_module *module = opened->module;
+    const tn_form_record *form = &module->FORM_records[index];
+    tn_survey s = {.opened = opened, .words = form->face_count / 32 + 1};
+    tn_status status = tn_schema_new(module, form->schema, 0, &s.schema, error);
+    if (status == TN_LIMIT)
+        return TN_OK; /* said of the schema */
+    if (status != TN_OK)
+        return status;
+    tn_form_ready(module, index, s.schema, &s.form);
+    s.house = (tn_house){.form = &s.form, .trays = &s.tray, .length = 1};
+    s.functions = calloc((size_t)form->rule_count + 1, sizeof *s.functions);
+    s.tiles = calloc((size_t)form->tile_count + 1, sizeof *s.tiles);
+    status = s.functions && s.tiles ? warn_sections(&s, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = see_all(&s, error);
+    for (size_t i = 0; i < s.class_count; i++)
+        free(s.classes[i].met);
+    free(s.classes);
+    free(s.functions);
+    free(s.tiles);
+    tn_schema_free(s.schema);
+    return status;
+}
+
+tn_status tn_house_survey(tn_opened *opened, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->FORM_count; i++)
+        if (!(opened->module->FORM_records[i].flags & TN_IMPORTED))
+            status = survey(opened, i, error);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* Says how a file of plans was made. */
+#include "driver/plan/made.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
+                      const char *command, tn_made *made)
+{
+    const tn_module *module = opened->module;
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    *made = (tn_made){0};
+    tn_library_hash(ready->library, made->library_hash);
+    if (producer)
+        snprintf(made->rules_hash, sizeof made->rules_hash, "%016" PRIx64, (uint64_t)producer->sources_hash);
+    made->metadata = (tn_plan_metadata){.library = tn_text(module, ready->record->name),
+                                        .library_hash = made->library_hash,
+                                        .rules_hash = made->rules_hash,
+                                        .rules_path = rules_path,
+                                        .version = producer ? tn_text(module, producer->version) : NULL,
+                                        .command = command};
+}
+
+char *tn_enumerated_words(const tn_enumerated *asked)
+{
+    tn_buffer words = {0};
+    bool done = tn_buffer_printf(&words, "enumerate --from %s", asked->from ? asked->from : "0");
+    if (done && asked->to && *asked->to)
+        done = tn_buffer_printf(&words, " --to %s", asked->to);
+    if (done && asked->mirror)
+        done = tn_buffer_printf(&words, " --mirror");
+    if (done && asked->trays_given)
+        done = tn_buffer_printf(&words, " --trays %" PRIu64 "..%" PRIu64, asked->trays_min, asked->trays_max);
+    if (done)
+        return words.data;
+    free(words.data);
+    return NULL;
+}

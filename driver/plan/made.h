@@ -1,0 +1,31 @@
+/* How a file of plans says that it was made: by which rules, from which library, by which command.
+ *
+ * A tn_made borrows the opened file, the library and the two texts.
+ */
+#ifndef TARTAN_DRIVER_PLAN_MADE_H
+#define TARTAN_DRIVER_PLAN_MADE_H
+
+#include "driver/plan/library.h"
+#include "runtime/plan/text/stream.h"
+
+typedef struct tn_made {
+    char library_hash[33], rules_hash[20];
+    tn_plan_metadata metadata; /* points into this: never copy it */
+} tn_made;
+
+/* `rules_path`: as the command line named it. `command`: what was asked for, in words that decide the result. */
+void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
+                      const char *command, tn_made *made);
+
+/* What decides the result of `tartan enumerate`. */
+typedef struct tn_enumerated {
+    const char *from, *to; /* ranks; NULL where they were not given */
+    bool mirror;
+    bool trays_given;
+    uint64_t trays_min, trays_max;
+} tn_enumerated;
+
+/* The command in words: "enumerate --from 0 --to 10". The caller frees it; NULL where out of memory. */
+char *tn_enumerated_words(const tn_enumerated *asked);
+
+#endif

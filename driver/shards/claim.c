@@ -1,0 +1,177 @@
+/* Claims shards for this process. */
+#include "driver/shards/claim.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "runtime/base/file_error.h"
+
+#define TOUCHES 8 /* times that a claim is touched before it would be stale */
+
+double tn_seconds(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+/* ---- this process */
+
+static void read_boot(char *boot, size_t size)
+{
+    int file = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+    ssize_t got = file < 0 ? 0 : read(file, boot, size - 1);
+    boot[got > 0 ? got : 0] = '\0';
+    boot[strcspn(boot, "\n")] = '\0';
+    if (file >= 0)
+        close(file);
+}
+
+static tn_claimant myself(void)
+{
+    tn_claimant me = {.process = getpid()};
+    time_t now = time(NULL);
+    struct tm parts;
+    if (gethostname(me.host, sizeof me.host - 1) != 0)
+        me.host[0] = '\0';
+    read_boot(me.boot, sizeof me.boot);
+    ssize_t got = readlink("/proc/self/ns/pid", me.space, sizeof me.space - 1);
+    me.space[got > 0 ? got : 0] = '\0';
+    if (gmtime_r(&now, &parts))
+        strftime(me.since, sizeof me.since, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return me;
+}
+
+static bool write_claimant(int file)
+{
+    const tn_claimant me = myself();
+    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:s}", "host", me.host, "boot", me.boot, "space", me.space,
+                             "process", (json_int_t)me.process, "since", me.since);
+    char *text = json ? json_dumps(json, 0) : NULL;
+    size_t size = text ? strlen(text) : 0;
+    bool done = text && write(file, text, size) == (ssize_t)size;
+    free(text);
+    json_decref(json);
+    return done;
+}
+
+/* ---- whose claim is it? */
+
+static void copy_text(const json_t *json, const char *key, char *text, size_t size)
+{
+    const char *value = json_string_value(json_object_get(json, key));
+    snprintf(text, size, "%s", value ? value : "");
+}
+
+/* What the file system would call now: the time that it gives to a file which is made now. */
+static bool file_system_time(const char *beside, struct timespec *now)
+{
+    char path[4096];
+    struct stat known;
+    int length = snprintf(path, sizeof path, "%s.%ld-time", beside, (long)getpid());
+    int file = length < (int)sizeof path ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    if (file < 0)
+        return clock_gettime(CLOCK_REALTIME, now) == 0;
+    bool done = fstat(file, &known) == 0;
+    close(file);
+    unlink(path);
+    *now = known.st_mtim;
+    return done;
+}
+
+static double seconds_of(struct timespec time)
+{
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+bool tn_claim_read(const char *path, tn_claimant *claimant)
+{
+    struct stat known;
+    struct timespec now;
+    *claimant = (tn_claimant){0};
+    if (stat(path, &known) != 0)
+        return false;
+    json_t *json = json_load_file(path, 0, NULL); /* NULL where it is being written */
+    copy_text(json, "host", claimant->host, sizeof claimant->host);
+    copy_text(json, "boot", claimant->boot, sizeof claimant->boot);
+    copy_text(json, "space", claimant->space, sizeof claimant->space);
+    copy_text(json, "since", claimant->since, sizeof claimant->since);
+    claimant->process = json_integer_value(json_object_get(json, "process"));
+    json_decref(json);
+    if (file_system_time(path, &now))
+        claimant->age = seconds_of(now) - seconds_of(known.st_mtim);
+    return true;
+}
+
+/* Has its process ended? Only known of processes that this one can see. A claim of this very process is left from an
+ * earlier one with its number: it does each shard once at a time. */
+static bool is_gone(const tn_claimant *claimant)
+{
+    const tn_claimant me = myself();
+    bool visible = claimant->process > 0 && claimant->boot[0] && strcmp(claimant->boot, me.boot) == 0 &&
+                   strcmp(claimant->space, me.space) == 0;
+    if (!visible)
+        return false;
+    return claimant->process == me.process || (kill((pid_t)claimant->process, 0) != 0 && errno == ESRCH);
+}
+
+/* ---- taking and giving up */
+
+/* Makes the claim's file. False where that cannot be; errno says why. */
+static bool make(const char *path, tn_claim *claim)
+{
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0)
+        return false;
+    bool written = write_claimant(file);
+    int reason = errno;
+    close(file);
+    claim->path = written ? strdup(path) : NULL;
+    claim->touched = tn_seconds();
+    if (claim->path)
+        return true;
+    unlink(path);
+    errno = written ? ENOMEM : reason;
+    return false;
+}
+
+tn_status tn_claim_take(const char *path, double stale, tn_claim *claim, bool *taken, tn_error *error)
+{
+    tn_claimant other;
+    *claim = (tn_claim){0};
+    *taken = make(path, claim);
+    if (*taken)
+        return TN_OK;
+    if (errno != EEXIST)
+        return tn_cannot_write(path, errno, error);
+    if (!tn_claim_read(path, &other) || !(is_gone(&other) || fabs(other.age) > stale))
+        return TN_OK; /* given up just now, or held */
+    unlink(path);
+    *taken = make(path, claim);
+    return *taken || errno == EEXIST ? TN_OK : tn_cannot_write(path, errno, error);
+}
+
+void tn_claim_touch(tn_claim *claim, double stale)
+{
+    double now = tn_seconds();
+    if (!claim->path || now - claim->touched < stale / TOUCHES)
+        return;
+    utimensat(AT_FDCWD, claim->path, NULL, 0); /* where it was taken over, that does no harm */
+    claim->touched = now;
+}
+
+void tn_claim_release(tn_claim *claim)
+{
+    if (claim->path)
+        unlink(claim->path);
+    free(claim->path);
+    *claim = (tn_claim){0};
+}

@@ -1,0 +1,285 @@
+/* Writes and reads the manifest of a shard set. */
+#include "driver/shards/manifest.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/shards/hash.h"
+
+/* How formats are called, as by --format. */
+static const char *const formats[TN_FORMAT_COUNT] = {
+    [TN_FORMAT_LINES] = "lines", [TN_FORMAT_JSON] = "json", [TN_FORMAT_CSV] = "csv", [TN_FORMAT_BIN] = "bin"};
+
+#define HASH_BEGIN "  \"hash\": \""
+#define HASH_END "\"\n}\n"
+
+/* ---- writing */
+
+static bool write_member(tn_buffer *text, const char *key, const char *value)
+{
+    return tn_buffer_printf(text, "  \"%s\": ", key) && tn_buffer_append_json(text, value) &&
+           tn_buffer_append(text, ",\n", 2);
+}
+
+/* Left out where it is 0. */
+static bool write_number(tn_buffer *text, const char *key, uint64_t value)
+{
+    return value == 0 || tn_buffer_printf(text, "  \"%s\": %" PRIu64 ",\n", key, value);
+}
+
+static bool write_rank(tn_buffer *text, const char *key, const mpz_t rank)
+{
+    char *digits = mpz_get_str(NULL, 10, rank);
+    bool done = digits && tn_buffer_printf(text, ", \"%s\": \"%s\"", key, digits);
+    free(digits);
+    return done;
+}
+
+static bool write_shard(const tn_shard_set *set, uint32_t i, tn_buffer *text)
+{
+    return tn_buffer_printf(text, "    {\"name\": \"%s\"", tn_shard_name_of(set, i).text) &&
+           write_rank(text, "from", set->bounds[i]) && write_rank(text, "to", set->bounds[i + 1]) &&
+           tn_buffer_printf(text, "}%s\n", i + 1 < set->count ? "," : "");
+}
+
+bool tn_manifest_seal(tn_buffer *text)
+{
+    char hash[33];
+    tn_hash_bytes(text->data, text->size, hash);
+    return tn_buffer_printf(text, HASH_BEGIN "%s" HASH_END, hash);
+}
+
+bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
+{
+    bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
+                write_member(text, "version", set->version) && write_member(text, "module", TN_MODULE_NAME) &&
+                write_member(text, "module_hash", set->module_hash) && write_member(text, "library", set->library) &&
+                write_member(text, "library_hash", set->library_hash) &&
+                write_member(text, "schema_hash", set->schema_hash) &&
+                write_member(text, "rules_path", set->rules_path) && write_member(text, "command", set->command) &&
+                write_member(text, "format", formats[set->format]);
+    if (done && set->compressed)
+        done = write_member(text, "compress", "zstd");
+    if (done && set->options.override_trays)
+        done = tn_buffer_printf(text, "  \"trays\": [%u, %u],\n", set->options.trays_min, set->options.trays_max);
+    done = done && write_number(text, "max_states", set->options.max_states) &&
+           write_number(text, "max_length", set->options.max_length) && tn_buffer_printf(text, "  \"shards\": [\n");
+    for (uint32_t i = 0; done && i < set->count; i++)
+        done = write_shard(set, i, text);
+    return done && tn_buffer_printf(text, "  ],\n") && tn_manifest_seal(text);
+}
+
+/* ---- reading */
+
+typedef struct reading {
+    tn_shard_set *set;
+    json_t *manifest;
+    tn_error *error;
+} reading;
+
+static tn_status refuse(const reading *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static tn_status refuse(const reading *r, const char *format, ...)
+{
+    char text[300];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_fail(r->error, TN_INVALID, E_SHARD_MANIFEST, "%.140s/" TN_MANIFEST_NAME ": %s", r->set->folder, text);
+    tn_error_help(r->error, "get another copy of it, or make a new set by `tartan shards new`");
+    return TN_INVALID;
+}
+
+static tn_status read_text(const reading *r, const char *key, char **text)
+{
+    const char *value = json_string_value(json_object_get(r->manifest, key));
+    if (!value)
+        return refuse(r, "it has no text `%s`", key);
+    *text = strdup(value);
+    return *text ? TN_OK : tn_fail_memory(r->error);
+}
+
+static tn_status read_hash(const reading *r, const char *key, char *hash, size_t digits)
+{
+    const char *value = json_string_value(json_object_get(r->manifest, key));
+    if (!value || strlen(value) != digits || strspn(value, "0123456789abcdef") != digits)
+        return refuse(r, "`%s` is no hash of %zu digits", key, digits);
+    memcpy(hash, value, digits + 1);
+    return TN_OK;
+}
+
+static tn_status read_version(const reading *r)
+{
+    const json_t *version = json_object_get(r->manifest, "tartan_shards");
+    if (!json_is_integer(version))
+        return refuse(r, "it is not the manifest of a shard set");
+    if (json_integer_value(version) == TN_MANIFEST_VERSION)
+        return TN_OK;
+    tn_fail(r->error, TN_INVALID, E_SHARD_VERSION,
+            "%.200s/" TN_MANIFEST_NAME " is of version %" JSON_INTEGER_FORMAT ", and only version %d is known",
+            r->set->folder, json_integer_value(version), TN_MANIFEST_VERSION);
+    tn_error_help(r->error, "use the Tartan that made the set");
+    return TN_INVALID;
+}
+
+/* The last `needle` of the text; NULL where there is none. */
+static const char *find_last(const char *text, size_t size, const char *needle)
+{
+    size_t length = strlen(needle);
+    for (size_t at = size >= length ? size - length + 1 : 0; at-- > 0;)
+        if (memcmp(text + at, needle, length) == 0)
+            return text + at;
+    return NULL;
+}
+
+static tn_status check_seal(const reading *r, const char *text, size_t size)
+{
+    char hash[33], wanted[80];
+    const char *seal = find_last(text, size, HASH_BEGIN);
+    if (seal) {
+        tn_hash_bytes(text, (size_t)(seal - text), hash);
+        int length = snprintf(wanted, sizeof wanted, HASH_BEGIN "%s" HASH_END, hash);
+        if ((size_t)length == size - (size_t)(seal - text) && memcmp(seal, wanted, (size_t)length) == 0)
+            return TN_OK;
+    }
+    return refuse(r, "it was changed after it was made: its hash does not fit what it holds");
+}
+
+static tn_status read_format(const reading *r)
+{
+    const char *name = json_string_value(json_object_get(r->manifest, "format"));
+    for (int f = 0; name && f < TN_FORMAT_COUNT; f++) {
+        if (formats[f] && strcmp(formats[f], name) == 0) {
+            r->set->format = (tn_plan_format)f;
+            return TN_OK;
+        }
+    }
+    return refuse(r, "`format` is none of lines, json, csv and bin");
+}
+
+static tn_status read_compression(const reading *r)
+{
+    const json_t *how = json_object_get(r->manifest, "compress");
+    r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
+    return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
+}
+
+/* A whole number of 32 bits; absent: `otherwise`. */
+static tn_status read_number(const reading *r, const json_t *value, const char *key, uint32_t *number)
+{
+    json_int_t read = json_integer_value(value);
+    if (value && (!json_is_integer(value) || read < 0 || read > UINT32_MAX - 1))
+        return refuse(r, "`%s` is not a number that it can be", key);
+    *number = (uint32_t)read;
+    return TN_OK;
+}
+
+static tn_status read_options(const reading *r)
+{
+    tn_library_options *options = &r->set->options;
+    const json_t *trays = json_object_get(r->manifest, "trays");
+    tn_status status = read_number(r, json_object_get(r->manifest, "max_states"), "max_states", &options->max_states);
+    if (status == TN_OK)
+        status = read_number(r, json_object_get(r->manifest, "max_length"), "max_length", &options->max_length);
+    if (status != TN_OK || !trays)
+        return status;
+    if (json_array_size(trays) != 2)
+        return refuse(r, "`trays` is not two numbers");
+    options->override_trays = true;
+    status = read_number(r, json_array_get(trays, 0), "trays", &options->trays_min);
+    return status == TN_OK ? read_number(r, json_array_get(trays, 1), "trays", &options->trays_max) : status;
+}
+
+static bool read_rank(const json_t *shard, const char *key, mpz_t rank)
+{
+    const char *digits = json_string_value(json_object_get(shard, key));
+    return digits && *digits && strspn(digits, "0123456789") == strlen(digits) && mpz_set_str(rank, digits, 10) == 0;
+}
+
+static tn_status read_shard(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
+{
+    tn_shard_set *set = r->set;
+    const char *name = json_string_value(json_object_get(shard, "name"));
+    tn_shard_name wanted = tn_shard_name_of(set, i);
+    if (!name || strcmp(name, wanted.text) != 0)
+        return refuse(r, "shard %u is not called `%s`", i, wanted.text);
+    if (!read_rank(shard, "from", from) || !read_rank(shard, "to", set->bounds[i + 1]))
+        return refuse(r, "shard %u has no ranks `from` and `to`", i);
+    if (i == 0)
+        mpz_set(set->bounds[0], from);
+    int order = mpz_cmp(from, set->bounds[i]);
+    if (order != 0)
+        return refuse(r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u", i - 1, i);
+    return mpz_cmp(set->bounds[i + 1], from) >= 0 ? TN_OK : refuse(r, "shard %u ends before it begins", i);
+}
+
+static tn_status read_shards(const reading *r)
+{
+    tn_shard_set *set = r->set;
+    const json_t *shards = json_object_get(r->manifest, "shards");
+    size_t count = json_array_size(shards);
+    if (count == 0)
+        return refuse(r, "it has no list `shards`");
+    if (count > TN_SHARDS_MAX)
+        return tn_fail(r->error, TN_LIMIT, E_SHARD_TOO_MANY, "%.200s has %zu shards, and %u is the most", set->folder,
+                       count, TN_SHARDS_MAX);
+    set->bounds = calloc(count + 1, sizeof *set->bounds);
+    if (!set->bounds)
+        return tn_fail_memory(r->error);
+    set->count = (uint32_t)count;
+    for (size_t i = 0; i <= count; i++)
+        mpz_init(set->bounds[i]);
+    mpz_t from;
+    mpz_init(from);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < set->count; i++)
+        status = read_shard(r, i, json_array_get(shards, i), from);
+    mpz_clear(from);
+    return status;
+}
+
+static tn_status read_members(const reading *r)
+{
+    tn_shard_set *set = r->set;
+    const struct {
+        const char *key;
+        char **text;
+    } texts[] = {{"version", &set->version},
+                 {"library", &set->library},
+                 {"rules_path", &set->rules_path},
+                 {"command", &set->command}};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < sizeof texts / sizeof *texts; i++)
+        status = read_text(r, texts[i].key, texts[i].text);
+    if (status == TN_OK)
+        status = read_hash(r, "module_hash", set->module_hash, 32);
+    if (status == TN_OK)
+        status = read_hash(r, "library_hash", set->library_hash, 32);
+    if (status == TN_OK)
+        status = read_hash(r, "schema_hash", set->schema_hash, 16);
+    if (status == TN_OK)
+        status = read_format(r);
+    if (status == TN_OK)
+        status = read_compression(r);
+    if (status == TN_OK)
+        status = read_options(r);
+    return status == TN_OK ? read_shards(r) : status;
+}
+
+tn_status tn_manifest_read(const char *text, size_t size, tn_shard_set *set, tn_error *error)
+{
+    json_error_t wrong;
+    reading r = {set, json_loadb(text, size, JSON_REJECT_DUPLICATES, &wrong), error};
+    if (!r.manifest)
+        return refuse(&r, "line %d: %s", wrong.line, wrong.text);
+    tn_status status = read_version(&r);
+    if (status == TN_OK)
+        status = check_seal(&r, text, size);
+    if (status == TN_OK)
+        status = read_members(&r);
+    json_decref(r.manifest);
+    return status;
+}

@@ -1,0 +1,205 @@
+/* Writes and reads the records of shards, and reads shards through. */
+#include "driver/shards/record.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "driver/open/missing.h"
+#include "driver/shards/hash.h"
+#include "runtime/base/file.h"
+#include "runtime/plan/text/pack.h"
+
+#define RECORD_BYTES 4096u
+
+static bool is_there(const tn_shard_set *set, uint32_t shard, const char *ending)
+{
+    char *path = tn_shard_path(set, shard, ending);
+    bool there = path && tn_path_exists(path);
+    free(path);
+    return there;
+}
+
+bool tn_shard_exists(const tn_shard_set *set, uint32_t shard)
+{
+    return is_there(set, shard, "");
+}
+
+bool tn_shard_done(const tn_shard_set *set, uint32_t shard)
+{
+    return is_there(set, shard, TN_SHARD_RECORD) && tn_shard_exists(set, shard);
+}
+
+tn_status tn_shard_wrong(const tn_shard_set *set, uint32_t shard, tn_error *error, const char *format, ...)
+{
+    char text[240];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    const tn_shard_name name = tn_shard_name_of(set, shard);
+    tn_fail(error, TN_INVALID, E_SHARD_WRONG, "%.150s/%s %s", set->folder, name.text, text);
+    tn_error_help(error, "delete it and its " TN_SHARD_RECORD ", and write it again: tartan shards run %.120s",
+                  set->folder);
+    return TN_INVALID;
+}
+
+/* ---- records */
+
+tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    tn_shard_record record;
+    tn_output output;
+    char *path = tn_shard_path(set, shard, ""), *beside = tn_shard_path(set, shard, TN_SHARD_RECORD);
+    tn_status status = path && beside ? tn_hash_file(path, record.hash, &record.bytes, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_output_open(beside, &output, error);
+    if (status == TN_OK) {
+        fprintf(output.stream, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"}\n", record.bytes, record.hash);
+        status = tn_output_commit(&output, error);
+    }
+    free(path);
+    free(beside);
+    return status;
+}
+
+static bool parse_record(const char *text, size_t size, tn_shard_record *record)
+{
+    json_t *json = json_loadb(text, size, 0, NULL);
+    const json_t *bytes = json_object_get(json, "bytes");
+    const char *hash = json_string_value(json_object_get(json, "hash"));
+    bool whole = json_is_integer(bytes) && json_integer_value(bytes) >= 0 && hash && strlen(hash) == 32;
+    if (whole) {
+        record->bytes = (uint64_t)json_integer_value(bytes);
+        memcpy(record->hash, hash, 33);
+    }
+    json_decref(json);
+    return whole;
+}
+
+tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    char *path = tn_shard_path(set, shard, TN_SHARD_RECORD);
+    tn_status status = path ? tn_file_read(path, RECORD_BYTES, &bytes, &size, error) : tn_fail_memory(error);
+    if (status == TN_OK && !parse_record((const char *)bytes, size, record))
+        status = tn_shard_wrong(set, shard, error, "has a damaged " TN_SHARD_RECORD);
+    free(bytes);
+    free(path);
+    return status;
+}
+
+tn_status tn_shard_same_as_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    tn_shard_record record, found;
+    char *path = tn_shard_path(set, shard, "");
+    tn_status status = path ? tn_shard_record_read(set, shard, &record, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_hash_file(path, found.hash, &found.bytes, error);
+    if (status == TN_OK && found.bytes != record.bytes)
+        status = tn_shard_wrong(set, shard, error, "has %" PRIu64 " bytes, and had %" PRIu64 " when it was written",
+                                found.bytes, record.bytes);
+    else if (status == TN_OK && strcmp(found.hash, record.hash) != 0)
+        status = tn_shard_wrong(set, shard, error, "was changed after it was written: its hash is another");
+    free(path);
+    return status;
+}
+
+/* ---- reading a shard through */
+
+typedef struct through {
+    const tn_shard_set *set;
+    const tn_library *library;
+    uint32_t shard;
+    tn_watch *watch;
+    uint64_t count;
+    tn_plan last;
+} through;
+
+static tn_status compare_rank(const through *t, const tn_plan *plan, const mpz_t wanted, const char *which,
+                              tn_error *error)
+{
+    mpz_t rank;
+    mpz_init(rank);
+    bool found = tn_library_rank(t->library, plan->trays, plan->length, rank) && mpz_cmp(rank, wanted) == 0;
+    mpz_clear(rank);
+    return found ? TN_OK
+                 : tn_shard_wrong(t->set, t->shard, error,
+                                  "does not hold the plans of its ranks: its %s plan is another", which);
+}
+
+static bool keep_plan(const tn_plan *plan, tn_plan *kept)
+{
+    if (!tn_plan_reserve(kept, plan->length))
+        return false;
+    if (plan->length)
+        memcpy(kept->trays, plan->trays, plan->length * sizeof *plan->trays);
+    kept->length = plan->length;
+    return true;
+}
+
+static tn_status read_plans(through *t, tn_plan_reader *reader, tn_error *error)
+{
+    for (;;) {
+        const tn_plan *plan;
+        tn_status status = tn_plan_reader_next(reader, &plan, error);
+        if (status == TN_INVALID || status == TN_LIMIT)
+            return tn_shard_wrong(t->set, t->shard, error, "has a plan that cannot be read, number %" PRIu64,
+                                  t->count + 1);
+        if (status != TN_OK || !plan)
+            return status;
+        if (t->count == 0)
+            status = compare_rank(t, plan, t->set->bounds[t->shard], "first", error);
+        if (status == TN_OK && !keep_plan(plan, &t->last))
+            status = tn_fail_memory(error);
+        if (status == TN_OK && tn_watch_stopped_at(t->watch, (size_t)t->count))
+            status = tn_fail_stopped(t->watch, error);
+        if (status != TN_OK)
+            return status;
+        t->count++;
+    }
+}
+
+/* The number of plans, and the last of them. */
+static tn_status compare_end(const through *t, tn_error *error)
+{
+    mpz_t wanted;
+    mpz_init(wanted);
+    tn_shard_plans(t->set, t->shard, wanted);
+    tn_status status = TN_OK;
+    if (mpz_cmp_ui(wanted, t->count) != 0) {
+        char *digits = mpz_get_str(NULL, 10, wanted);
+        status = tn_shard_wrong(t->set, t->shard, error, "has %" PRIu64 " plans instead of %.60s", t->count,
+                                digits ? digits : "?");
+        free(digits);
+    } else if (t->count > 0) {
+        mpz_sub_ui(wanted, t->set->bounds[t->shard + 1], 1);
+        status = compare_rank(t, &t->last, wanted, "last", error);
+    }
+    mpz_clear(wanted);
+    return status;
+}
+
+tn_status tn_shard_read_through(const tn_shard_set *set, const tn_ready_library *ready, uint32_t shard, tn_watch *watch,
+                                tn_error *error)
+{
+    through t = {.set = set, .library = ready->library, .shard = shard, .watch = watch};
+    const tn_reader_options options = tn_shard_reading(set, ready->library);
+    tn_plan_reader *reader = NULL;
+    char *path = tn_shard_path(set, shard, "");
+    tn_status status =
+        path ? tn_plan_reader_open(ready->schema, path, &options, &reader, error) : tn_fail_memory(error);
+    if (status == TN_INVALID)
+        status = tn_shard_wrong(set, shard, error, "does not begin as such a file does");
+    if (status == TN_OK)
+        status = read_plans(&t, reader, error);
+    if (status == TN_OK)
+        status = compare_end(&t, error);
+    tn_plan_reader_free(reader);
+    free(t.last.trays);
+    free(path);
+    return status;
+}

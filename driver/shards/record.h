@@ -1,0 +1,40 @@
+/* What a shard holds, and whether it is what it should be.
+ *
+ * A record is a small file beside a shard, with its size and hash. It is derived: where it is missing, it is made again
+ * from the shard, after that was read through. A shard with a record is done.
+ */
+#ifndef TARTAN_DRIVER_SHARDS_RECORD_H
+#define TARTAN_DRIVER_SHARDS_RECORD_H
+
+#include "driver/shards/set.h"
+
+typedef struct tn_shard_record {
+    uint64_t bytes;
+    char hash[33];
+} tn_shard_record;
+
+/* Is the shard there, with its record? */
+bool tn_shard_done(const tn_shard_set *set, uint32_t shard);
+
+/* Is the shard's own file there? */
+bool tn_shard_exists(const tn_shard_set *set, uint32_t shard);
+
+/* Hashes the shard and writes its record. */
+tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error);
+
+/* Reads the record: TN_INVALID (E1706) where it is none. */
+tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error);
+
+/* Is the shard's file that of its record? TN_INVALID (E1706). */
+tn_status tn_shard_same_as_record(const tn_shard_set *set, uint32_t shard, tn_error *error);
+
+/* Reads the shard through: as many plans as it should have, the first and the last those of its ranks? TN_INVALID
+ * (E1706), TN_STOPPED by the watch. */
+tn_status tn_shard_read_through(const tn_shard_set *set, const tn_ready_library *ready, uint32_t shard, tn_watch *watch,
+                                tn_error *error);
+
+/* E1706 with what is wrong with a shard, and what to do about it. Returns TN_INVALID. */
+tn_status tn_shard_wrong(const tn_shard_set *set, uint32_t shard, tn_error *error, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+#endif

@@ -1,0 +1,213 @@
+/* Claims shards, writes them, and waits for those that others write. */
+#include "driver/shards/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "driver/plan/made.h"
+#include "driver/shards/claim.h"
+#include "driver/shards/record.h"
+#include "driver/zstd/zstd.h"
+#include "runtime/base/crew.h"
+
+#define LOOK_EVERY 4096u /* plans between looks at the clock and for interruptions */
+#define WAIT_FIRST 0.05  /* seconds until it is looked again whether others are done */
+#define WAIT_MOST 2.0    /* and at most */
+
+typedef struct running {
+    const tn_shards_job *job;
+    const tn_made *made;
+    double start;
+    bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
+    atomic_uint next; /* the first shard that no thread has looked at in this pass */
+    atomic_uint written;
+    atomic_uint held;   /* by others, in this pass */
+    atomic_bool failed; /* no further shard is begun */
+    atomic_bool out_of_time;
+    _Atomic double longest; /* seconds that a shard took */
+} running;
+
+/* ---- one shard */
+
+static char *words_of(const tn_shard_set *set, uint32_t shard)
+{
+    char *from = mpz_get_str(NULL, 10, set->bounds[shard]), *to = mpz_get_str(NULL, 10, set->bounds[shard + 1]);
+    const tn_enumerated asked = {.from = from,
+                                 .to = to,
+                                 .trays_given = set->options.override_trays,
+                                 .trays_min = set->options.trays_min,
+                                 .trays_max = set->options.trays_max};
+    char *words = from && to ? tn_enumerated_words(&asked) : NULL;
+    free(from);
+    free(to);
+    return words;
+}
+
+static tn_status write_plans(const running *run, uint32_t shard, tn_claim *claim, tn_plan_writer *writer,
+                             tn_error *error)
+{
+    const tn_shard_set *set = run->job->set;
+    tn_cursor *cursor;
+    const tn_tray *trays;
+    uint32_t length;
+    size_t seen = 0;
+    tn_status status =
+        tn_cursor_new(run->job->ready->library, set->bounds[shard], set->bounds[shard + 1], &cursor, error);
+    if (status != TN_OK)
+        return status;
+    mpz_t rank;
+    mpz_init_set(rank, set->bounds[shard]);
+    while (status == TN_OK && tn_cursor_next(cursor, &trays, &length)) {
+        status = tn_plan_writer_write(writer, rank, trays, length, error);
+        mpz_add_ui(rank, rank, 1);
+        if (status == TN_OK && ++seen % LOOK_EVERY == 0) {
+            tn_claim_touch(claim, run->job->stale);
+            status = tn_watch_check(run->job->watch, error);
+        }
+    }
+    mpz_clear(rank);
+    tn_cursor_free(cursor);
+    return status;
+}
+
+static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+{
+    const tn_shard_set *set = run->job->set;
+    char *path = tn_shard_path(set, shard, ""), *words = words_of(set, shard);
+    tn_plan_writer *writer = NULL;
+    tn_writer_options options = {
+        .format = set->format, .metadata = run->made->metadata, .compression = set->compressed ? tn_plan_zstd() : NULL};
+    options.metadata.command = words;
+    tn_status status = path && words ? tn_plan_writer_open(run->job->ready->schema, path, &options, &writer, error)
+                                     : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = write_plans(run, shard, claim, writer, error);
+    if (status == TN_OK)
+        status = tn_plan_writer_close(writer, error);
+    tn_plan_writer_free(writer);
+    free(path);
+    free(words);
+    return status;
+}
+
+/* What lacks of a claimed shard: the shard, or only its record. */
+static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+{
+    const tn_shards_job *job = run->job;
+    double begun = tn_seconds();
+    if (tn_shard_done(job->set, shard)) /* by another, while it was being claimed */
+        return TN_OK;
+    bool exists = tn_shard_exists(job->set, shard);
+    tn_status status = exists ? tn_shard_read_through(job->set, job->ready, shard, job->watch, error)
+                              : write_shard(run, shard, claim, error);
+    if (status == TN_OK)
+        status = tn_shard_record_make(job->set, shard, error);
+    if (status == TN_OK && !exists) {
+        run->written++;
+        run->longest = fmax(run->longest, tn_seconds() - begun);
+    }
+    return status;
+}
+
+static tn_status do_shard(running *run, uint32_t shard, tn_error *error)
+{
+    const tn_shards_job *job = run->job;
+    if (run->done[shard - job->begin])
+        return TN_OK;
+    char *path = tn_shard_path(job->set, shard, TN_SHARD_CLAIM);
+    tn_claim claim = {0};
+    bool done = tn_shard_done(job->set, shard), taken = done;
+    tn_status status = path ? TN_OK : tn_fail_memory(error);
+    if (path && done)
+        unlink(path); /* left by a worker that was killed behind its last step */
+    else if (path)
+        status = tn_claim_take(path, job->stale, &claim, &taken, error);
+    if (status == TN_OK && taken && !done)
+        status = finish_shard(run, shard, &claim, error);
+    run->done[shard - job->begin] = status == TN_OK && taken;
+    run->held += !taken;
+    tn_claim_release(&claim);
+    free(path);
+    return status;
+}
+
+/* ---- all of them */
+
+/* May another shard be begun? It is not where it would likely end too late. */
+static bool has_time(running *run)
+{
+    double used = tn_seconds() - run->start, allowed = run->job->seconds;
+    if (allowed > 0 && used + run->longest > allowed)
+        run->out_of_time = true;
+    return !run->out_of_time;
+}
+
+/* One thread's part of a pass over the shards. */
+static tn_status work(void *context, unsigned thread, size_t item, tn_error *error)
+{
+    (void)thread, (void)item;
+    running *run = context;
+    tn_status status = TN_OK;
+    while (status == TN_OK && !run->failed && has_time(run)) {
+        uint32_t shard = run->next++;
+        if (shard >= run->job->end)
+            break;
+        status = tn_watch_check(run->job->watch, error);
+        if (status == TN_OK)
+            status = do_shard(run, shard, error);
+        tn_watch_tell(run->job->watch, shard - run->job->begin + 1, run->job->end - run->job->begin);
+    }
+    if (status != TN_OK)
+        run->failed = true;
+    return status;
+}
+
+static tn_status wait_a_little(const running *run, double *seconds, tn_error *error)
+{
+    double until = tn_seconds() + *seconds;
+    tn_status status = TN_OK;
+    while (status == TN_OK && tn_seconds() < until) {
+        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+        status = tn_watch_check(run->job->watch, error);
+    }
+    *seconds = fmin(2 * *seconds, WAIT_MOST);
+    return status;
+}
+
+static tn_status pass(running *run, tn_crew *crew, tn_error *error)
+{
+    run->next = run->job->begin;
+    run->held = 0;
+    return tn_crew_run(crew, tn_crew_threads(crew), 1, work, run, error);
+}
+
+static tn_status run_all(running *run, tn_crew *crew, tn_error *error)
+{
+    double seconds = WAIT_FIRST;
+    tn_status status = pass(run, crew, error);
+    while (status == TN_OK && run->held > 0 && has_time(run)) {
+        status = wait_a_little(run, &seconds, error);
+        if (status == TN_OK)
+            status = pass(run, crew, error);
+    }
+    return status;
+}
+
+tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error *error)
+{
+    uint32_t count = job->end - job->begin;
+    tn_made made;
+    tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
+    running run = {.job = job, .made = &made, .start = tn_seconds(), .done = calloc(count + 1, sizeof *run.done)};
+    tn_crew *crew = tn_crew_new(job->threads, NULL);
+    tn_status status = run.done && crew ? run_all(&run, crew, error) : tn_fail_memory(error);
+    *done = (tn_shards_done){.written = run.written, .out_of_time = run.out_of_time};
+    for (uint32_t i = 0; i < count; i++)
+        done->left += !(run.done && run.done[i]) && !tn_shard_done(job->set, job->begin + i);
+    tn_crew_free(crew);
+    free(run.done);
+    return status;
+}

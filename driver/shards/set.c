@@ -1,0 +1,271 @@
+/* Makes shard sets, and names what is in them. */
+#include "driver/shards/set.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "driver/open/missing.h"
+#include "driver/shards/hash.h"
+#include "driver/shards/manifest.h"
+#include "driver/zstd/zstd.h"
+#include "runtime/base/file.h"
+#include "runtime/plan/text/pack.h"
+
+#define MANIFEST_BYTES ((size_t)256 << 20) /* the most: 100,000 shards with ranks of a thousand digits */
+
+void tn_shard_set_clear(tn_shard_set *set)
+{
+    for (size_t i = 0; set->bounds && i <= set->count; i++)
+        mpz_clear(set->bounds[i]);
+    free(set->bounds);
+    free(set->folder);
+    free(set->version);
+    free(set->library);
+    free(set->rules_path);
+    free(set->command);
+    *set = (tn_shard_set){0};
+}
+
+/* ---- names */
+
+static const char *ending_of(tn_plan_format format)
+{
+    static const char *const endings[TN_FORMAT_COUNT] = {
+        [TN_FORMAT_LINES] = ".plans", [TN_FORMAT_JSON] = ".jsonl", [TN_FORMAT_CSV] = ".csv", [TN_FORMAT_BIN] = ".bin"};
+    return endings[format];
+}
+
+tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard)
+{
+    tn_shard_name name;
+    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s", shard / TN_SHARDS_A_FOLDER, shard,
+             ending_of(set->format), set->compressed ? ".zst" : "");
+    return name;
+}
+
+char *tn_shard_set_path(const tn_shard_set *set, const char *name)
+{
+    return tn_path_join(set->folder, name, "");
+}
+
+char *tn_shard_path(const tn_shard_set *set, uint32_t shard, const char *ending)
+{
+    return tn_path_join(set->folder, tn_shard_name_of(set, shard).text, ending);
+}
+
+tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library)
+{
+    return (tn_reader_options){.format = set->format,
+                               .max_length = tn_library_max(library),
+                               .compression = set->compressed ? tn_plan_zstd() : NULL};
+}
+
+void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans)
+{
+    mpz_sub(plans, set->bounds[shard + 1], set->bounds[shard]);
+}
+
+/* ---- dividing */
+
+static tn_status too_many(const mpz_t plans, tn_error *error)
+{
+    mpz_t least;
+    mpz_init(least);
+    mpz_cdiv_q_ui(least, plans, TN_SHARDS_MAX);
+    char *digits = mpz_get_str(NULL, 10, least);
+    tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "more shards than a set may have, which is %u", TN_SHARDS_MAX);
+    tn_error_help(error, "make shards of at least %.200s plans: --plans %.60s", digits ? digits : "?",
+                  digits ? digits : "?");
+    free(digits);
+    mpz_clear(least);
+    return TN_LIMIT;
+}
+
+/* How many shards there are to be; false: too many. */
+static bool count_shards(const mpz_t all, uint64_t shards, uint64_t plans, uint32_t *count)
+{
+    mpz_t number;
+    mpz_init_set_ui(number, shards);
+    if (shards == 0)
+        mpz_cdiv_q_ui(number, all, plans);
+    else if (mpz_cmp(number, all) > 0)
+        mpz_set(number, all);
+    if (mpz_sgn(number) == 0)
+        mpz_set_ui(number, 1); /* an empty one */
+    bool fits = mpz_cmp_ui(number, TN_SHARDS_MAX) <= 0 && shards <= TN_SHARDS_MAX;
+    *count = (uint32_t)mpz_get_ui(number);
+    mpz_clear(number);
+    return fits;
+}
+
+/* bound := where shard i begins. */
+static void find_bound(const mpz_t from, const mpz_t all, uint32_t count, uint64_t plans, uint32_t i, mpz_t bound)
+{
+    if (plans > 0) {
+        mpz_set_ui(bound, plans);
+        mpz_mul_ui(bound, bound, i);
+        if (mpz_cmp(bound, all) > 0)
+            mpz_set(bound, all);
+    } else {
+        mpz_mul_ui(bound, all, i);
+        mpz_fdiv_q_ui(bound, bound, count);
+    }
+    mpz_add(bound, bound, from);
+}
+
+tn_status tn_shard_set_divide(tn_shard_set *set, const mpz_t from, const mpz_t to, uint64_t shards, uint64_t plans,
+                              tn_error *error)
+{
+    mpz_t all;
+    mpz_init(all);
+    mpz_sub(all, to, from);
+    tn_status status = TN_OK;
+    if (!count_shards(all, shards, plans, &set->count))
+        status = too_many(all, error);
+    else if (!(set->bounds = calloc((size_t)set->count + 1, sizeof *set->bounds)))
+        status = tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i <= set->count; i++) {
+        mpz_init(set->bounds[i]);
+        find_bound(from, all, set->count, shards > 0 ? 0 : plans, i, set->bounds[i]);
+    }
+    mpz_clear(all);
+    return status;
+}
+
+/* ---- creating */
+
+static tn_status write_file(const tn_shard_set *set, const char *name, const void *bytes, size_t size, tn_error *error)
+{
+    tn_output output;
+    char *path = tn_shard_set_path(set, name);
+    tn_status status = path ? tn_output_open(path, &output, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        fwrite(bytes, 1, size, output.stream);
+        status = tn_output_commit(&output, error);
+    }
+    free(path);
+    return status;
+}
+
+static tn_status make_folder(const tn_shard_set *set, const char *name, tn_error *error)
+{
+    char *path = tn_shard_set_path(set, name);
+    tn_status status = path ? tn_folder_make(path, error) : tn_fail_memory(error);
+    free(path);
+    return status;
+}
+
+static tn_status make_folders(const tn_shard_set *set, tn_error *error)
+{
+    char name[20];
+    tn_status status = tn_folder_make(set->folder, error);
+    if (status == TN_OK)
+        status = make_folder(set, "shards", error);
+    for (uint32_t i = 0; status == TN_OK && i < set->count; i += TN_SHARDS_A_FOLDER) {
+        snprintf(name, sizeof name, "shards/%03u", i / TN_SHARDS_A_FOLDER);
+        status = make_folder(set, name, error);
+    }
+    return status;
+}
+
+/* A set that is there is never written over: its shards would be taken for those of the new one. */
+static tn_status refuse_another(const tn_shard_set *set, tn_error *error)
+{
+    char *path = tn_shard_set_path(set, TN_MANIFEST_NAME), *shards = tn_shard_set_path(set, "shards");
+    bool there = path && shards && (tn_path_exists(path) || tn_path_exists(shards));
+    free(path);
+    free(shards);
+    if (!there)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_SHARD_SET_THERE, "%.300s has a shard set already", set->folder);
+    tn_error_help(error, "name another folder after -o, or delete this one");
+    return TN_INVALID;
+}
+
+tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error)
+{
+    tn_buffer text = {0};
+    tn_hash_bytes(module, module_size, set->module_hash);
+    free(set->version);
+    set->version = strdup(TARTAN_VERSION);
+    tn_status status = refuse_another(set, error);
+    if (status == TN_OK && (!set->version || !tn_manifest_write(set, &text)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = make_folders(set, error);
+    if (status == TN_OK)
+        status = write_file(set, TN_MODULE_NAME, module, module_size, error);
+    if (status == TN_OK)
+        status = write_file(set, TN_MANIFEST_NAME, text.data, text.size, error);
+    free(text.data);
+    return status;
+}
+
+/* ---- reading */
+
+tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    *set = (tn_shard_set){.folder = strdup(folder)};
+    char *path = set->folder ? tn_shard_set_path(set, TN_MANIFEST_NAME) : NULL;
+    tn_status status = path ? tn_file_read(path, MANIFEST_BYTES, &bytes, &size, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_manifest_read((const char *)bytes, size, set, error);
+    else if (status == TN_IO && path && !tn_path_exists(path))
+        tn_error_help(error, "a shard set is a folder that `tartan shards new` made");
+    free(bytes);
+    free(path);
+    return status;
+}
+
+static tn_status refuse_module(const tn_shard_set *set, const char *what, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_SHARD_MODULE, "%.200s/%s", set->folder, what);
+    tn_error_help(error, "get another copy of the set, or make a new one by `tartan shards new`");
+    return TN_INVALID;
+}
+
+tn_status tn_shard_set_module_same(const tn_shard_set *set, tn_error *error)
+{
+    char hash[33];
+    uint64_t size;
+    char *path = tn_shard_set_path(set, TN_MODULE_NAME);
+    tn_status status = path ? tn_hash_file(path, hash, &size, error) : tn_fail_memory(error);
+    free(path);
+    if (status != TN_OK || strcmp(hash, set->module_hash) == 0)
+        return status;
+    return refuse_module(set, TN_MODULE_NAME " is not the module that the set was made with", error);
+}
+
+/* Do the shards lie within the library? A manifest whose hash is right can still be wrong. */
+static bool within(const tn_shard_set *set, const tn_library *library)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, TN_ALL_LENGTHS, kept);
+    bool fits = mpz_cmp(set->bounds[set->count], kept) <= 0;
+    mpz_clear(kept);
+    return fits;
+}
+
+tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_ready_library *ready, tn_error *error)
+{
+    char library[33], schema[17];
+    tn_library_hash(ready->library, library);
+    snprintf(schema, sizeof schema, "%016" PRIx64, tn_pack_schema_hash(ready->schema));
+    if (strcmp(set->version, TARTAN_VERSION) != 0) {
+        tn_fail(error, TN_INVALID, E_SHARD_VERSION, "Tartan %.60s made %.200s, and this is Tartan " TARTAN_VERSION,
+                set->version, set->folder);
+        tn_error_help(error, "use that version on every machine: shards of two versions may differ");
+        return TN_INVALID;
+    }
+    if (strcmp(library, set->library_hash) != 0 || strcmp(schema, set->schema_hash) != 0)
+        return refuse_module(set, TN_MANIFEST_NAME " is about another library than the module has", error);
+    if (!within(set, ready->library))
+        return refuse_module(set, TN_MANIFEST_NAME " has ranks that the library does not", error);
+    return TN_OK;
+}

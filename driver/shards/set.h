@@ -1,0 +1,74 @@
+/* Shard sets: a stretch of a library's ranks, divided into files that any number of workers write, on any machines.
+ *
+ * A set is a folder. `manifest.json` says what the shards are and never changes; `rules.tnb` is the module that every
+ * worker runs; `shards/000/000000.plans` and so on are the shards, in the order of their ranks. Nothing else is shared,
+ * and what a shard holds depends on the manifest and the module alone. Beside a shard lies its record (record.h), and
+ * while a worker writes it, its claim (claim.h).
+ *
+ * A tn_shard_set owns everything reached through it, and is constant once it was read or created: threads may share it.
+ */
+#ifndef TARTAN_DRIVER_SHARDS_SET_H
+#define TARTAN_DRIVER_SHARDS_SET_H
+
+#include "driver/plan/library.h"
+#include "runtime/plan/text/stream.h"
+
+#define TN_SHARDS_MAX 100000u
+#define TN_SHARDS_A_FOLDER 1000u /* with records and claims, 3,000 files: few enough for any file system */
+
+#define TN_SHARD_RECORD ".record"
+#define TN_SHARD_CLAIM ".claim"
+
+typedef struct tn_shard_set {
+    char *folder;
+    char *version;    /* of the Tartan that made it */
+    char *library;    /* its name in the module */
+    char *rules_path; /* as it was named when the set was made */
+    char *command;    /* the one `enumerate` whose plans these are */
+    char module_hash[33], library_hash[33], schema_hash[17];
+    tn_plan_format format;
+    bool compressed;            /* by zstd */
+    tn_library_options options; /* those that decide which plans there are, and the limits */
+    uint32_t count;
+    mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1] */
+} tn_shard_set;
+
+/* Divides the ranks [from, to) among `shards` shards, as equal as can be, but none empty where another is not; or
+ * (shards 0) among shards of `plans` plans. Fills count and bounds. TN_LIMIT (E1705) where they are too many. */
+tn_status tn_shard_set_divide(tn_shard_set *set, const mpz_t from, const mpz_t to, uint64_t shards, uint64_t plans,
+                              tn_error *error);
+
+/* Makes the folder, with the module and, last, the manifest. module_hash and version are filled. TN_INVALID (E1701)
+ * where a set is there already. */
+tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error);
+
+/* Reads and checks the manifest of a folder: TN_INVALID (E1702) where it is none or was changed, (E1703) where another
+ * version of Tartan made it, TN_LIMIT (E1705), TN_IO. Clear the set in any case. */
+tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error);
+void tn_shard_set_clear(tn_shard_set *set);
+
+/* Is the module that which the set was made with? TN_INVALID (E1704). Asked before it is opened. */
+tn_status tn_shard_set_module_same(const tn_shard_set *set, tn_error *error);
+
+/* Does the library that was opened hold what the manifest says, and would this program write the same bytes? TN_INVALID
+ * (E1703, E1704). */
+tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_ready_library *ready, tn_error *error);
+
+/* "FOLDER/NAME", and the path of a shard with an ending behind it ("": none). The caller frees them; NULL where out of
+ * memory. */
+char *tn_shard_set_path(const tn_shard_set *set, const char *name);
+char *tn_shard_path(const tn_shard_set *set, uint32_t shard, const char *ending);
+
+/* A shard's name in the folder: "shards/000/000000.plans". */
+typedef struct tn_shard_name {
+    char text[40];
+} tn_shard_name;
+tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard);
+
+/* How to open its shards. */
+tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library);
+
+/* How many plans a shard holds. `plans` is initialised. */
+void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans);
+
+#endif

@@ -1,0 +1,25 @@
+/* What of a house a rule's answer rests on: the cells, rooms, faces and walks that its questions find.
+ *
+ * The rules have been started on the house (tn_house_rules_start).
+ */
+#ifndef TARTAN_HOUSE_RULE_WITNESS_H
+#define TARTAN_HOUSE_RULE_WITNESS_H
+
+#include "runtime/house/rule/asked.h"
+
+/* One thing that a question finds, or (first: TN_NO_CELL) the question before the first of them. SOME_CELL, CELLS,
+ * AREAS: the cell `first`. SOME_ROOM, ROOMS: the room whose lowest cell that is. MEETS: the face `face`. APART: the
+ * walk from `first` comes only to the cells `reached`. offset: of the question in the code. */
+typedef struct tn_witness {
+    uint32_t opcode, offset, first, face;
+    const bool *reached; /* [cell] */
+} tn_witness;
+
+typedef tn_status tn_witness_seen(void *context, const tn_witness *witness, tn_error *error);
+
+/* Goes through the questions of a function (of kind HOLDS) and of those that it calls, in the order of the code; each
+ * is asked once. TN_MEMORY, or what `seen` returns. */
+tn_status tn_house_rules_witness(tn_house_rules *rules, uint32_t function, tn_witness_seen *seen, void *context,
+                                 tn_error *error);
+
+#endif

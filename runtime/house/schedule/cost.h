@@ -1,0 +1,51 @@
+/* What a house is made of, and what that costs: a line for each kind of part.
+ *
+ * Quantities are exact: nanometres squared and cubed. Areas of sloped roofs are rounded down to a square nanometre,
+ * face by face; their volumes are exact fractions. A line's cost is rounded half up to the hundredth, and the total is
+ * the sum of the lines. A tn_costs owns its lines; free them with tn_costs_clear.
+ */
+#ifndef TARTAN_HOUSE_COST_H
+#define TARTAN_HOUSE_COST_H
+
+#include <gmp.h>
+
+#include "runtime/house/solids.h"
+
+/* part: as in MATERIAL. material: a MATERIAL record, TN_NO_RECORD where the form names none for the part. */
+typedef struct tn_cost_line {
+    uint32_t part, material;
+    size_t count;
+    mpz_t area;
+    mpq_t volume, cost; /* unrounded */
+    mpz_t hundredths;
+} tn_cost_line;
+
+typedef struct tn_costs {
+    tn_cost_line *lines; /* one for each part that the form can have, in the order of their numbers */
+    size_t count;
+    mpz_t hundredths; /* of all lines */
+    mpq_t exact;      /* unrounded */
+} tn_costs;
+
+/* Has the form materials, so that houses have costs? */
+static inline bool tn_form_has_costs(const tn_house_form *form)
+{
+    return form->record->material_count > 0;
+}
+
+/* How many numbers of parts a form has: some of them, of later boxes of the same name, are never used. */
+uint32_t tn_form_parts(const tn_house_form *form);
+
+/* The part that a solid is one of: also of a leaf or a pane. */
+uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item);
+
+/* The first material for the part where the section is so: a MATERIAL record, or TN_NO_RECORD. */
+uint32_t tn_part_material(const tn_house *house, uint32_t part);
+
+const char *tn_form_part_text(const tn_house_form *form, uint32_t part);
+
+/* tn_costs_clear also after a failure. TN_MEMORY. */
+tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error);
+void tn_costs_clear(tn_costs *costs);
+
+#endif

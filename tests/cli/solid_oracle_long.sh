@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Many random designs of boxes against the slow independent reference.
+# Takes long: some minutes.
+set -euo pipefail
+[ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/solid/ref.py" ] || exit 77
+python3 -B tests/solid_oracle.py "$TARTAN_ORACLES/solid" 20000

@@ -1,0 +1,223 @@
+/* What is measured of grown surfaces beside a slow computation of the same from their meshes; and what requirements
+ * lack. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/geometry/crossing.h"
+#include "runtime/growth/soundness.h"
+#include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
+#include "runtime/load.h"
+#include "tests/support/compile_file.h"
+
+static const char *const stdlib_dir = TARTAN_SOURCE_DIR "/stdlib";
+static const library_folders folders = {.stdlib_dirs = &stdlib_dir, .stdlib_dir_count = 1};
+
+typedef struct grown {
+    tn_compilation compilation;
+    tn_module *module;
+    tn_growth_system *system;
+    tn_study study;
+    tn_growth *growth;
+    tn_fitness fitness;
+} grown;
+
+static void grow(grown *g, const char *text, uint64_t asked)
+{
+    tn_error error = {0};
+    memset(g, 0, sizeof *g);
+    assert_int_equal(compile_text("t.study", text, strlen(text), &folders, &g->compilation), TN_OK);
+    assert_int_equal(tn_module_load(g->compilation.module, g->compilation.module_size, NULL, &g->module, &error),
+                     TN_OK);
+    assert_int_equal(tn_growth_system_read(g->module, &g->system, &error), TN_OK);
+    assert_int_equal(tn_study_read(g->module, "t.study", NULL, &g->study, &error), TN_OK);
+    assert_int_equal(tn_growth_new(g->system, &g->study.environment, &g->study.options, &g->growth, &error), TN_OK);
+    for (uint32_t n = 0; n < g->study.steps; n++)
+        assert_int_equal(tn_growth_step(g->growth, &error), TN_OK);
+    g->fitness = tn_fitness_measure(g->growth);
+    assert_int_equal(tn_soundness_measure(g->growth, asked | g->study.goal.asked, &g->fitness, &error), TN_OK);
+}
+
+static void uproot(grown *g)
+{
+    tn_growth_free(g->growth);
+    tn_study_clear(&g->study);
+    tn_growth_system_free(g->system);
+    tn_module_free(g->module);
+    tn_compilation_clear(&g->compilation);
+}
+
+static double value(const grown *g, tn_measured measured)
+{
+    return g->fitness.further[measured - TN_MEASURED_WIDTH];
+}
+
+static void is(const grown *g, tn_measured measured, double wanted)
+{
+    double got = value(g, measured);
+    if (!(fabs(got - wanted) <= 1e-9 * (1 + fabs(wanted))))
+        fail_msg("%s is %.17g, not %.17g", tn_measured_names[measured], got, wanted);
+}
+
+static void test_flat(void **state)
+{
+    (void)state;
+    grown g;
+    grow(&g, "rules \"square\" steps 3 scale 1", UINT64_MAX);
+    is(&g, TN_MEASURED_WIDTH, 1);
+    is(&g, TN_MEASURED_DEPTH, 1);
+    is(&g, TN_MEASURED_AREA, 1);
+    is(&g, TN_MEASURED_SMALLEST_ANGLE, 90);
+    for (int none = TN_MEASURED_CROSSED_FACES; none < TN_MEASURED_COUNT; none++)
+        is(&g, (tn_measured)none, 0);
+    assert_true(value(&g, TN_MEASURED_EDGE_SPREAD) < 1e-6);
+    is(&g, TN_MEASURED_HEIGHT, 0);
+    is(&g, TN_MEASURED_VOLUME, 0);
+    is(&g, TN_MEASURED_PLANARITY, 0);
+    is(&g, TN_MEASURED_SPAN, 0);
+    uproot(&g);
+}
+
+static double distance(const double *a, const double *b, int dimensions)
+{
+    double sum = 0;
+    for (int k = 0; k < dimensions; k++)
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sqrt(sum);
+}
+
+static double lowest(const tn_mesh *mesh, double *highest)
+{
+    double low = INFINITY;
+    *highest = -INFINITY;
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        low = fmin(low, mesh->positions[3 * v + 2]);
+        *highest = fmax(*highest, mesh->positions[3 * v + 2]);
+    }
+    return low;
+}
+
+static double slow_span(const tn_mesh *mesh)
+{
+    double high, low = lowest(mesh, &high), span = 0;
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        double nearest = INFINITY;
+        for (size_t w = 0; w < mesh->vertex_count; w++)
+            if (mesh->positions[3 * w + 2] <= low + 0.01 * (high - low))
+                nearest = fmin(nearest, distance(mesh->positions + 3 * v, mesh->positions + 3 * w, 2));
+        span = fmax(span, nearest);
+    }
+    return span;
+}
+
+static double slow_angle(const tn_mesh *mesh)
+{
+    double least = 180;
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        uint32_t first = mesh->face_first[f], size = mesh->face_first[f + 1] - first;
+        for (uint32_t i = 0; i < size; i++) {
+            const double *at = mesh->positions + 3 * (size_t)mesh->corners[first + i],
+                         *a = mesh->positions + 3 * (size_t)mesh->corners[first + (i + 1) % size],
+                         *b = mesh->positions + 3 * (size_t)mesh->corners[first + (i + size - 1) % size];
+            double p = distance(at, a, 3), q = distance(at, b, 3), r = distance(a, b, 3);
+            least = fmin(least, acos(fmax(-1, fmin(1, (p * p + q * q - r * r) / (2 * p * q)))) * 180 / acos(-1));
+        }
+    }
+    return least;
+}
+
+/* Area and volume by triangles: all faces of these surfaces have four corners, cut along either diagonal. */
+static void slow_sizes(const tn_mesh *mesh, double *least, double *most, double *volume)
+{
+    double high, low = lowest(mesh, &high);
+    *least = *most = *volume = 0;
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        uint32_t size = mesh->face_first[f + 1] - mesh->face_first[f];
+        double n[3];
+        tn_mesh_face_normal(mesh, mesh->corners + mesh->face_first[f], size, n);
+        double own = 0, middle = 0;
+        for (uint32_t i = 0; i < size; i++)
+            middle += mesh->positions[3 * (size_t)mesh->corners[mesh->face_first[f] + i] + 2] / size;
+        for (uint32_t i = 1; i + 1 < size; i++) {
+            uint32_t triangle[3] = {mesh->corners[mesh->face_first[f]], mesh->corners[mesh->face_first[f] + i],
+                                    mesh->corners[mesh->face_first[f] + i + 1]};
+            double t[3];
+            tn_mesh_face_normal(mesh, triangle, 3, t);
+            own += 0.5 * sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+        }
+        *most += own;
+        *least += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        *volume += 0.5 * n[2] * (middle - low);
+    }
+    *volume = fabs(*volume);
+}
+
+static void test_bent(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "rules \"square\" steps 4 scale 1.2 gravity 0 0 -0.2 repeller at 0.5 0.5 -1 strength 0.6",
+        "rules \"square\" steps 5 scale 1 attractor at 2 1 3 strength 0.9 repeller at 0 0 1 strength 0.3",
+        "rules \"triangle\" steps 4 scale 1.1 attractor at 0.3 0.2 2 strength 1.5"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        grown g;
+        tn_mesh mesh;
+        tn_error error;
+        double least, most, volume;
+        uint64_t crossings;
+        grow(&g, texts[i], UINT64_MAX);
+        assert_int_equal(tn_surface_mesh(g.growth, &(tn_surface_options){0}, &mesh, &error), TN_OK);
+        slow_sizes(&mesh, &least, &most, &volume);
+        is(&g, TN_MEASURED_AREA, least);
+        assert_true(value(&g, TN_MEASURED_AREA) <= most * (1 + 1e-12));
+        is(&g, TN_MEASURED_VOLUME, volume);
+        is(&g, TN_MEASURED_SPAN, slow_span(&mesh));
+        assert_true(fabs(value(&g, TN_MEASURED_SMALLEST_ANGLE) - slow_angle(&mesh)) < 1e-4);
+        assert_true(value(&g, TN_MEASURED_PLANARITY) <= value(&g, TN_MEASURED_WORST_PLANARITY));
+        assert_true(value(&g, TN_MEASURED_WORST_PLANARITY) > 0 || i == 2);
+        assert_int_equal(tn_mesh_triangulate(&mesh, &error), TN_OK);
+        assert_int_equal(tn_mesh_crossings(&mesh, &crossings, &error), TN_OK);
+        is(&g, TN_MEASURED_CROSSINGS, (double)crossings);
+        tn_mesh_clear(&mesh);
+        uproot(&g);
+    }
+}
+
+static void test_requirements(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double lacking;
+    } cases[] = {{"require area <= 1", 0},
+                 {"require area <= 0.25", 0.75},
+                 {"require width = 3 and depth >= 1.5", 2.5},
+                 {"require width = 3 or depth >= 1.5", 0.5},
+                 {"require faces >= 20 require edges in 100..200", 64}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        grown g;
+        char text[200];
+        snprintf(text, sizeof text, "rules \"square\" steps 2 scale 1 fitness area target 2 weight 3 %s",
+                 cases[i].text);
+        grow(&g, text, 0);
+        assert_true(fabs(tn_fitness_lacking(&g.fitness, &g.study.goal) - cases[i].lacking) < 1e-9);
+        assert_true(fabs(tn_fitness_total(&g.fitness, &g.study.goal, 1) - (cases[i].lacking + 1.5)) < 1e-9);
+        is(&g, TN_MEASURED_CROSSINGS, 0);
+        uproot(&g);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_bent),
+                                       cmocka_unit_test(test_requirements)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
