@@ -30,8 +30,8 @@ typedef struct tn_forward {
     tn_houses_kind *kind;
     uint32_t layer;
     mpz_t *counts, *next;
-    size_t next_count, next_room; /* of `next`, in numbers */
-    uint64_t nodes;               /* of all layers */
+    size_t count, next_count, next_room; /* in numbers */
+    uint64_t nodes;                      /* of all layers */
     mpz_t one;
 } tn_forward;
 
@@ -83,8 +83,9 @@ static tn_status count_layer(tn_forward *f, tn_error *error)
     f->nodes += f->kind->layers[f->layer].nodes.count;
     if (status == TN_OK && f->layer < h->high)
         status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
-    free_integers(f->counts, 2 * (size_t)f->kind->layers[f->layer].nodes.count);
+    free_integers(f->counts, f->count);
     f->counts = f->next;
+    f->count = f->next_count;
     f->next = NULL;
     f->next_count = f->next_room = 0;
     return status;
@@ -92,13 +93,13 @@ static tn_status count_layer(tn_forward *f, tn_error *error)
 
 static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_forward f = {.houses = h, .kind = kind};
+    tn_forward f = {.houses = h, .kind = kind, .count = 2};
     tn_status status = TN_OK;
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
     kind->houses = integers(tn_houses_lengths(h));
-    f.counts = integers(2);
+    f.counts = integers(f.count);
     if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
-        free_integers(f.counts, 2);
+        free_integers(f.counts, f.count);
         return tn_fail_memory(error);
     }
     mpz_init(f.one);
@@ -106,8 +107,7 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     mpz_set_ui(f.counts[1], 1);
     for (f.layer = 0; status == TN_OK && f.layer <= h->high; f.layer++)
         status = count_layer(&f, error);
-    free_integers(f.counts, f.layer <= h->high ? 2 * (size_t)kind->layers[f.layer].nodes.count : 0);
-    free_integers(f.next, f.next_count);
+    free_integers(f.counts, f.count);
     mpz_clear(f.one);
     return status;
 }

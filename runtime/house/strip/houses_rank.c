@@ -188,8 +188,11 @@ static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t 
 static tn_status onward(tn_plan_walk *w, size_t kind, uint32_t slice, uint32_t plan, mpz_ptr *sum, tn_error *error)
 {
     tn_onward *o = &w->onwards[kind];
-    uint32_t before = o->keys.count, at = tn_number(&o->keys, (uint64_t)slice << 32 | plan);
-    if (at == UINT32_MAX || !tn_array_reserve(&o->houses, &o->room, before, 1, sizeof *o->houses))
+    uint32_t before = o->keys.count;
+    if (!tn_array_reserve(&o->houses, &o->room, before, 1, sizeof *o->houses))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&o->keys, (uint64_t)slice << 32 | plan);
+    if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at < before) {
         *sum = o->houses[at];

@@ -208,8 +208,10 @@ static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error)
 {
     uint32_t before = strip->plane_keys.count;
+    if (!tn_array_reserve(&strip->planes, &strip->plane_room, before, 1, sizeof *strip->planes))
+        return tn_fail_memory(error);
     uint32_t at = tn_number(&strip->plane_keys, (uint64_t)left << 32 | right);
-    if (at == UINT32_MAX || !tn_array_reserve(&strip->planes, &strip->plane_room, before, 1, sizeof *strip->planes))
+    if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at == before)
         strip->planes[at] = (tn_strip_list){0};

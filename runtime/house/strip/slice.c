@@ -91,8 +91,10 @@ static tn_status find_edge(tn_cutting *c, uint32_t *edge, tn_error *error)
     s->key.size = 0;
     if (!push_cells(c, &s->key) || !push_ends(c, &s->key))
         return tn_fail_memory(error);
+    if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
+        return tn_fail_memory(error);
     *edge = tn_intern(&s->edge_keys, s->key.data, s->key.size);
-    if (*edge == UINT32_MAX || !tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
+    if (*edge == UINT32_MAX)
         return tn_fail_memory(error);
     if (*edge < before)
         return TN_OK;
