@@ -57,7 +57,7 @@ def asked(seed, what, *arguments):
     code, out, err = run(*arguments)
     if code == 4 and "--max-states" in err:  # the limit is a choice of the default, and the answer must be right past it too
         code, out, err = run(*arguments, "--max-states", "4000000")
-    if code == 4 and any(limit in err for limit in ("steps to build", "MB to build", "transitions at")):
+    if code == 4 and any(limit in err for limit in ("steps to build", "MB to build", "transitions at", "limit of 4000000 states")):
         unanswered.append("seed %d: %s" % (seed, what))
         return None
     if code != 0:
