@@ -1,4 +1,4 @@
-/* Counts the houses of a library, and names them: plan by plan, each plan's houses one after another. */
+/* Opens a library of houses, and names them: each plan's houses one after another. */
 #include "cli/house/numbered_parts.h"
 
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static bool choose(tn_numbered *n, const char *name)
 bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings)
 {
     tn_error error;
-    *n = (tn_numbered){.job = job};
+    *n = (tn_numbered){.job = job, .max_states = settings->plans.max_states};
     if (!choose(n, settings->library))
         return false;
     const tn_module *module = job->opened.module;
@@ -43,6 +43,7 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
 
 void tn_numbered_close(tn_numbered *n)
 {
+    tn_houses_free(n->all);
     tn_house_variants_free(n->variants);
     tn_library_free(n->plans);
     tn_schema_free(n->schema);
@@ -169,125 +170,37 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
     return status;
 }
 
-/* ---- counting */
+/* ---- all houses */
 
-typedef struct house_tally {
-    uint64_t plans, with_houses;
-    tn_house_counts counts;
-    mpz_t *lengths; /* houses on plans of each length, from the shortest */
-    uint32_t low, high;
-} house_tally;
-
-static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally, tn_error *error)
+tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
 {
-    mpz_t before;
-    mpz_init_set(before, tally->counts.houses);
-    tn_status status = tn_house_variants_count(n->variants, trays, length, &tally->counts, error);
-    tally->plans++;
-    tally->with_houses += mpz_cmp(before, tally->counts.houses) != 0;
-    mpz_sub(before, tally->counts.houses, before);
-    if (length >= tally->low && length <= tally->high)
-        mpz_add(tally->lengths[length - tally->low], tally->lengths[length - tally->low], before);
-    mpz_clear(before);
-    return status;
+    return n->all ? TN_OK : tn_houses_new(&n->form, n->record, n->plans, n->max_states, &n->all, error);
 }
 
-static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
-                            tn_error *error)
+static bool at_most(const tn_numbered *n, unsigned long plans)
 {
-    (void)stop;
-    return tally_plan(n, trays, length, context, error);
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, kept);
+    bool few = mpz_cmp_ui(kept, plans) <= 0;
+    mpz_clear(kept);
+    return few;
 }
 
-static tn_status tally_text(tn_numbered *n, const char *text, size_t max_length, house_tally *tally, tn_error *error)
+bool tn_numbered_few(const tn_numbered *n)
 {
-    tn_plan plan;
-    tn_status status = tn_numbered_plan(n, text, max_length, &plan, error);
-    if (status == TN_OK)
-        status = tally_plan(n, plan.trays, (uint32_t)plan.length, tally, error);
-    free(plan.trays);
-    return status;
+    return at_most(n, TN_HOUSE_PLANS_FEW);
 }
 
-static void write_tally(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+bool tn_numbered_countable(const tn_numbered *n)
 {
-    static const char *const names[] = {"plans", "plans_with_houses", "zoned", "faced"};
-    static const char *const words[] = {"plans", "with a house", "sections and functions", "with openings"};
-    const uint64_t numbers[] = {tally->plans, tally->with_houses, tally->counts.zoned, tally->counts.faced};
-    fputs(json ? "{" : "", out);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (json)
-            fprintf(out, "\"%s\":\"%llu\",", names[i], (unsigned long long)numbers[i]);
-        else
-            fprintf(out, "%-24s%llu\n", words[i], (unsigned long long)numbers[i]);
-    }
-    if (json)
-        gmp_fprintf(out, "\"library\":\"%s\",\"houses\":\"%Zd\",\"by_length\":{",
-                    tn_text(n->job->opened.module, n->record->name), tally->counts.houses);
-    else
-        gmp_fprintf(out, "%-24s%Zd\n", "houses", tally->counts.houses);
-    bool first = true;
-    for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
-        if (mpz_sgn(tally->lengths[i]) == 0)
-            continue;
-        char label[40];
-        snprintf(label, sizeof label, "  of %u tray%s", tally->low + i, tally->low + i == 1 ? "" : "s");
-        if (json)
-            gmp_fprintf(out, "%s\"%u\":\"%Zd\"", first ? "" : ",", tally->low + i, tally->lengths[i]);
-        else
-            gmp_fprintf(out, "%-24s%Zd\n", label, tally->lengths[i]);
-        first = false;
-    }
-    fputs(json ? "}}\n" : "", out);
-}
-
-static bool tally_new(const tn_numbered *n, house_tally *tally)
-{
-    *tally = (house_tally){.low = tn_library_min(n->plans), .high = tn_library_max(n->plans)};
-    size_t count = (size_t)tally->high - tally->low + 1;
-    tally->lengths = malloc(count * sizeof *tally->lengths);
-    for (size_t i = 0; tally->lengths && i < count; i++)
-        mpz_init(tally->lengths[i]);
-    tn_house_counts_init(&tally->counts);
-    return tally->lengths != NULL;
-}
-
-static void tally_free(house_tally *tally)
-{
-    for (size_t i = 0; tally->lengths && i <= tally->high - tally->low; i++)
-        mpz_clear(tally->lengths[i]);
-    free(tally->lengths);
-    tn_house_counts_clear(&tally->counts);
-}
-
-void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const char *plan, bool json,
-                         const char *output)
-{
-    tn_numbered n;
-    house_tally tally = {0};
-    tn_error error = {0};
-    tn_output out;
-    if (!tn_numbered_open(&n, job, settings)) {
-        tn_numbered_close(&n);
-        return;
-    }
-    tn_status status = tally_new(&n, &tally) ? TN_OK : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = plan ? tally_text(&n, plan, settings->max_length, &tally, &error)
-                      : tn_numbered_plans(&n, tally_next, &tally, &error);
-    if (status != TN_OK) {
-        tn_numbered_bad_text(job, &error, "PLAN", plan ? plan : "");
-    } else if (tn_job_output(job, output, &out)) {
-        write_tally(&n, &tally, json, out.stream);
-        tn_job_commit(job, &out);
-    }
-    tally_free(&tally);
-    tn_numbered_close(&n);
+    return at_most(n, TN_HOUSE_PLANS_MAX);
 }
 
 /* ---- names */
 
-static tn_status name_house(tn_numbered *n, const char *line, size_t max_length, mpz_t plan, mpz_t variant,
+/* variant := the rank among all houses, where that is wanted. */
+static tn_status name_house(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan, mpz_t variant,
                             tn_error *error)
 {
     tn_house house;
@@ -298,11 +211,17 @@ static tn_status name_house(tn_numbered *n, const char *line, size_t max_length,
     }
     if (status == TN_OK)
         status = tn_house_variants_rank(n->variants, &house, variant, error);
+    if (status == TN_OK && of_all)
+        status = tn_numbered_all(n, error);
+    if (status == TN_OK && of_all) {
+        status = tn_houses_before(n->all, house.trays, (uint32_t)house.length, plan, error);
+        mpz_add(variant, variant, plan);
+    }
     tn_house_clear(&house);
     return status;
 }
 
-void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line)
+void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all)
 {
     tn_numbered n;
     tn_error error = {0};
@@ -310,10 +229,13 @@ void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const cha
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
     if (tn_numbered_open(&n, job, settings)) {
-        if (name_house(&n, line, settings->max_length, plan, variant, &error) != TN_OK) {
+        if (name_house(&n, line, settings->max_length, of_all, plan, variant, &error) != TN_OK) {
             tn_numbered_bad_text(job, &error, "HOUSE", line);
         } else if (tn_job_output(job, NULL, &out)) {
-            gmp_fprintf(out.stream, "#%Zd:%Zd\n", plan, variant);
+            if (of_all)
+                gmp_fprintf(out.stream, "#%Zd\n", variant);
+            else
+                gmp_fprintf(out.stream, "#%Zd:%Zd\n", plan, variant);
             tn_job_commit(job, &out);
         }
     }
@@ -349,8 +271,8 @@ static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays
     return status;
 }
 
-/* The house that `rank` others come before: plan by plan, the houses before it are counted. */
-static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+/* Plan by plan, the houses before it are counted. */
+static tn_status search_plans(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
 {
     tn_house_search s = {.house = house};
     mpz_init_set(s.left, rank);
@@ -361,6 +283,33 @@ static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house
     }
     mpz_clear(s.left);
     return status;
+}
+
+static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    uint32_t length = 0;
+    mpz_t rest;
+    tn_tray *trays = tray_room(n, error);
+    if (!trays)
+        return TN_MEMORY;
+    mpz_init_set(rest, rank);
+    tn_status status = tn_houses_find(n->all, rest, trays, &length, error);
+    if (status == TN_OK)
+        status = tn_house_variants_at(n->variants, trays, length, rest, house, error);
+    mpz_clear(rest);
+    free(trays);
+    return status;
+}
+
+/* The house that `rank` others come before. */
+static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    if (tn_numbered_few(n))
+        return search_plans(n, rank, house, error);
+    tn_status status = tn_numbered_all(n, error);
+    if (status == TN_OK)
+        return find_house(n, rank, house, error);
+    return status == TN_LIMIT && tn_numbered_countable(n) ? search_plans(n, rank, house, error) : status;
 }
 
 static tn_status house_of_digits(tn_numbered *n, const char *digits, tn_house *house, tn_error *error)

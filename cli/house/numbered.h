@@ -13,9 +13,14 @@ typedef struct tn_house_settings {
     tn_library_options plans;
 } tn_house_settings;
 
-/* Counts the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
-void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const char *plan, bool json,
-                         const char *output);
+/* What is counted: the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
+typedef struct tn_house_counting {
+    const char *plan;
+    bool clauses; /* and what each clause keeps out */
+    bool json;
+    const char *output;
+} tn_house_counting;
+void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const tn_house_counting *counting);
 
 /* Writes the lines of different houses of the library, or of those on one plan, in the order of their ranks: each is
  * drawn with the same probability. */
@@ -36,8 +41,8 @@ void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const ch
 /* Houses are lines of text: reports an output that is named as a database. */
 bool tn_job_takes_houses(tn_job *job, const char *output);
 
-/* Writes the name #P:V of a house. */
-void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line);
+/* Writes the name #P:V of a house; of_all: #R, its rank among all houses of the library. */
+void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all);
 
 /* Is the text #P:V, P:V or #R? */
 bool tn_is_house_number(const char *text);

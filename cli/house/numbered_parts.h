@@ -4,6 +4,7 @@
 
 #include "cli/house/numbered.h"
 #include "driver/house/judge.h"
+#include "runtime/house/strip/houses.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 
@@ -14,11 +15,23 @@ typedef struct tn_numbered {
     tn_house_form form;
     tn_library *plans;
     tn_house_variants *variants;
+    tn_houses *all; /* or NULL: not asked for */
+    uint32_t max_states;
 } tn_numbered;
 
 /* Close it in any case. False: what was wrong is recorded. */
 bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings);
 void tn_numbered_close(tn_numbered *n);
+
+/* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
+tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
+
+/* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
+#define TN_HOUSE_PLANS_FEW 1000u
+bool tn_numbered_few(const tn_numbered *n);
+
+/* Can one go through them at all (TN_HOUSE_PLANS_MAX)? */
+bool tn_numbered_countable(const tn_numbered *n);
 
 /* A plan of the library: a plan line, or #P. The caller frees its trays, also after a failure. */
 tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error);

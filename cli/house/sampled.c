@@ -85,9 +85,38 @@ static tn_status visit_plans(tn_numbered *n, const tn_plan *plan, tn_plan_visit 
                 : tn_numbered_plans(n, visit, context, error);
 }
 
+/* Draws among all houses, and finds the plan of each. */
+static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, FILE *out, tn_error *error)
+{
+    tn_house_sample s = {.out = out};
+    uint32_t length = 0;
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(n->plans) + 1));
+    mpz_t rank;
+    mpz_inits(rank, s.before, NULL);
+    tn_houses_count(n->all, TN_ALL_LENGTHS, rank);
+    tn_status status = trays ? sample_draw(&s, seed, rank, wanted, error) : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < s.count; i++) {
+        mpz_set(rank, s.ranks[i]);
+        status = tn_houses_find(n->all, rank, trays, &length, error);
+        if (status == TN_OK)
+            status = write_house(n, &s, trays, length, rank, error);
+    }
+    mpz_clear(rank);
+    sample_clear(&s);
+    free(trays);
+    return status;
+}
+
 static tn_status sample_houses(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, FILE *out,
                                tn_error *error)
 {
+    if (!plan && !tn_numbered_few(n)) {
+        tn_status together = tn_numbered_all(n, error);
+        if (together == TN_OK)
+            return sample_together(n, wanted, seed, out, error);
+        if (together != TN_LIMIT || !tn_numbered_countable(n))
+            return together;
+    }
     tn_house_sample s = {.out = out};
     tn_house_counts all;
     mpz_init(s.before);

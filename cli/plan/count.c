@@ -19,6 +19,7 @@ typedef struct count_settings {
     tn_plan_settings plans;
     tn_count_options count;
     const char *plan; /* whose houses are counted */
+    bool clauses;     /* and what each of theirs keeps out */
     const char *by;   /* the measure that is counted by */
     const char *step;
     tn_option_number bins;
@@ -342,11 +343,12 @@ static void answer(tn_job *job, const tn_ready_library *ready, const count_setti
         tn_job_count(job, ready, &settings->count, settings->output);
 }
 
-/* With --plan, or where --library names a library of houses. */
+/* With --plan or --clauses, or where --library names a library of houses. */
 static bool counts_houses(const tn_job *job, const count_settings *settings)
 {
     const char *library = settings->plans.library;
-    return settings->plan || (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
+    return settings->plan || settings->clauses ||
+           (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
 }
 
 /* What only kits are asked. */
@@ -373,6 +375,7 @@ static bool asks_library(tn_job *job, const count_settings *s)
                          : s->step               ? "step"
                          : s->bins.given         ? "bins"
                          : s->plan               ? "plan"
+                         : s->clauses            ? "clauses"
                          : s->count.mirror       ? "mirror"
                          : s->count.no_effects   ? "no-effects"
                                                  : NULL;
@@ -401,7 +404,8 @@ static int count_once(const tn_settings *common, tn_files_read *read)
         tn_job_count_kit(&job, &kit, settings->output);
     } else if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
-        tn_job_count_houses(&job, &houses, settings->plan, settings->count.json, settings->output);
+        const tn_house_counting counting = {settings->plan, settings->clauses, settings->count.json, settings->output};
+        tn_job_count_houses(&job, &houses, &counting);
     } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         answer(&job, &ready, settings);
     }
@@ -427,6 +431,7 @@ static const tn_option options[] = {
     FLAG("no-effects", 0, count.no_effects,
          "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
+    FLAG("clauses", 0, clauses, "of houses: also count how many of all houses each clause keeps out"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
     NUMBER("parts", 0, "N", kit.parts, 1, 32, "of a kit: count the buildings of N parts"),
     LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),
@@ -443,7 +448,8 @@ const tn_command tn_command_count = {
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
              "[--json | -o HISTOGRAM.svg]\n"
-             "FILE --library HOUSES [--plan PLAN] [--json]\n"
+             "FILE --library HOUSES [--plan PLAN] [--clauses] [--json]
+"
              "FILE.kit --parts N [--part NAME]... [--fixed | --inside MODEL] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
@@ -456,9 +462,10 @@ const tn_command tn_command_count = {
         "quartiles. With -o and the name of a picture (.svg, .png or .pdf) that is drawn as a histogram.\n\n"
         "Counts are exact, whatever their size. They are computed from the library's automaton, without "
         "listing plans.\n\n"
-        "For a library of houses (docs/houses.md) it counts the plans, those that have a house, the choices of section "
-        "and functions, those with openings, and the houses. They are counted plan by plan; --plan counts those of one "
-        "plan.\n\n"
+        "For a library of houses (docs/houses.md) it counts the plans, the houses, and what they are without their "
+        "tiles; the houses by length, and by each value of each choice of the section. For one plan (--plan) and for "
+        "up to 1,000 plans it also counts the plans that have a house, and the choices of section and functions. "
+        "--clauses counts how many of the houses that the form allows each clause keeps out.\n\n"
         "For a kit (docs/kit-language.md) it counts buildings: sets of N parts that hang together by their connectors. "
         "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart. "
         "--inside counts those in the space of a model of the kit, each where it stands.",

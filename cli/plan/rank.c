@@ -11,6 +11,7 @@
 typedef struct rank_settings {
     tn_settings common;
     tn_plan_settings plans;
+    bool of_all;
 } rank_settings;
 
 static const rank_settings *settings_of(const tn_job *job)
@@ -97,7 +98,10 @@ static int run(const tn_command *command, const tn_settings *common)
     bool open = tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && tn_is_house_line(text)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
-        tn_job_rank_house(&job, &houses, text);
+        tn_job_rank_house(&job, &houses, text, settings->of_all);
+    } else if (open && settings->of_all) {
+        tn_diagnostic *d = tn_job_usage(&job, "--of-all is about a house, and this is a plan");
+        tn_help(tn_job_diagnostics(&job), d, "the number of a plan is its rank among all plans: leave --of-all out");
     } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         tn_plan plan = {0};
         tn_error error;
@@ -120,20 +124,27 @@ static int run(const tn_command *command, const tn_settings *common)
 }
 
 #define SETTINGS rank_settings
-static const tn_option options[] = {OPTION_LIBRARY,    OPTION_WHERE,      OPTION_TRAYS,
-                                    OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)};
+static const tn_option options[] = {
+    OPTION_LIBRARY,
+    OPTION_WHERE,
+    OPTION_TRAYS,
+    FLAG("of-all", 0, of_all, "of a house: its rank among all houses, #R, in place of #P:V"),
+    OPTION_MAX_LENGTH,
+    OPTION_MAX_STATES,
+    OPTION_THREADS(plans.threads),
+};
 
 const tn_command tn_command_rank = {
     .name = "rank",
     .summary = "print the number of a plan in its library",
-    .usage = "FILE PLAN [--library NAME]",
+    .usage = "FILE PLAN [--library NAME]\nFILE HOUSE [--library HOUSES] [--of-all]",
     .description = "Writes the rank of a plan: how many plans of the library come before it, in the order of length "
                    "and then tray by tray. "
                    "PLAN is a plan line or a JSON object, in quotes. For a plan that the library does not hold, the "
                    "exit code is 1 and "
                    "the message says which clause it fails. "
                    "Of a house line it writes #P:V: the rank of its plan, and how many houses on that plan come "
-                   "before it.",
+                   "before it. With --of-all it writes #R: how many houses of the library come before it.",
     .example = "$ tartan rank terrace \"$(tartan unrank terrace 1000)\"\n1000",
     .options = options,
     .option_count = OPTION_COUNT(options),

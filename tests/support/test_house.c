@@ -55,15 +55,21 @@ static const char text[] =
 
 void test_house_make(test_house *made)
 {
+    test_house_compile(made, text);
+}
+
+void test_house_compile(test_house *made, const char *written)
+{
     static const char path[] = "huts.plan";
     tn_error error = {0};
-    tn_input input = {.text = text, .size = sizeof text - 1, .name = path};
+    tn_input input = {.text = written, .size = strlen(written), .name = path};
     tn_compile_options options = {0};
     *made = (test_house){0};
     tn_status status =
-        tn_compile_text(tn_notation_or_first(path, text, input.size), &input, &options, &made->compilation);
+        tn_compile_text(tn_notation_or_first(path, written, input.size), &input, &options, &made->compilation);
     for (size_t i = 0; i < made->compilation.diagnostics.count; i++)
-        fprintf(stderr, "%s\n", made->compilation.diagnostics.items[i].message);
+        if (status != TN_OK)
+            fprintf(stderr, "%s\n%s", made->compilation.diagnostics.items[i].message, written);
     assert_int_equal(status, TN_OK);
     assert_int_equal(
         tn_module_load(made->compilation.module, made->compilation.module_size, NULL, &made->module, &error), TN_OK);

@@ -15,6 +15,10 @@ typedef struct test_house {
 } test_house;
 
 void test_house_make(test_house *made);
+
+/* The same of another text: with one form, and two libraries of houses. */
+void test_house_compile(test_house *made, const char *written);
+
 void test_house_clear(test_house *made);
 
 /* A plan of the schema. The caller frees its trays. */

@@ -60,8 +60,7 @@ static void meets(const tn_house *house, const tn_meeting_record *meeting, uint6
 
 /* ---- walks */
 
-/* Can one walk through the face? Never into a void; up and down by stairs alone. */
-static bool is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face)
+bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face)
 {
     if (face->second == TN_NO_CELL || house->cells[face->first].open || house->cells[face->second].open ||
         !has_kind(house->form->module, walk, face->kind))
@@ -86,7 +85,7 @@ bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_
         for (size_t i = 0; i < house->face_count; i++) {
             const tn_face *face = &house->faces[i];
             uint32_t next = face->first == at ? face->second : face->second == at ? face->first : TN_NO_CELL;
-            if (next == TN_NO_CELL || rules->seen[next] || !is_step(house, walk, face))
+            if (next == TN_NO_CELL || rules->seen[next] || !tn_house_is_step(house, walk, face))
                 continue;
             rules->seen[next] = true;
             if (tn_house_decide(house, walk->second, &house->cells[next]))

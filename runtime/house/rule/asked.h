@@ -16,6 +16,12 @@ void tn_house_rules_free(tn_house_rules *rules);
 /* Starts on a house whose functions and faces are known (borrowed); forgets what was found for the one before. */
 tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_error *error);
 
+/* Do two cells that are so, in any order, share the face, and has it one of the kinds? */
+bool tn_face_meets(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face);
+
+/* Can one walk through the face, by `apart`? Never into a void; up and down by stairs alone. */
+bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face);
+
 /* H on the whole house, for a function of kind HOLDS. */
 tn_status tn_house_rules_hold(tn_house_rules *rules, uint32_t function, bool *holds, tn_error *error);
 

@@ -29,9 +29,6 @@ struct tn_house_rules {
 tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
 
 /* ---- asked.c */
-/* Do two cells share the face that are so, in any order, and has it one of the kinds? */
-bool tn_face_meets(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face);
-
 /* Is there no walk from the cell to one of the second kind? Cells between are of the third. Then rules->seen are the
  * cells that walks come to. */
 bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from);

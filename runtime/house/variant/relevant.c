@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "runtime/module/code.h"
+#include "runtime/house/rule/outcome.h"
 
 void tn_room_questions_clear(tn_room_questions *questions)
 {
@@ -34,57 +34,20 @@ tn_status tn_room_questions_find(const tn_module *module, tn_room_questions *que
     return TN_OK;
 }
 
-/* What is known of a decision: nothing, or its outcome. */
-typedef enum tn_outcome { OUTCOME_FALSE, OUTCOME_TRUE, OUTCOME_OPEN } tn_outcome;
-
-static tn_outcome both(tn_outcome a, tn_outcome b)
-{
-    if (a == OUTCOME_FALSE || b == OUTCOME_FALSE)
-        return OUTCOME_FALSE;
-    return a == OUTCOME_TRUE && b == OUTCOME_TRUE ? OUTCOME_TRUE : OUTCOME_OPEN;
-}
-
-static tn_outcome denied(tn_outcome a)
-{
-    return a == OUTCOME_OPEN ? OUTCOME_OPEN : a == OUTCOME_TRUE ? OUTCOME_FALSE : OUTCOME_TRUE;
-}
+typedef struct tn_known_cell {
+    const tn_house *house;
+    const tn_cell *cell;
+} tn_known_cell;
 
 /* Of a room that has this cell, and perhaps others. */
-static tn_outcome ask(const tn_house *house, const tn_cell *cell, const tn_instruction *op)
+static tn_outcome ask(const void *context, const tn_instruction *op)
 {
+    const tn_known_cell *known = context;
     if (op->opcode == TN_OP_EVERY)
-        return OUTCOME_TRUE;
-    if (op->opcode == TN_OP_ALL_CELLS && !tn_house_decide(house, (uint32_t)op->first, cell))
-        return OUTCOME_FALSE;
-    return OUTCOME_OPEN;
-}
-
-static tn_outcome decide(const tn_house *house, uint32_t function, const tn_cell *cell)
-{
-    const tn_module *module = house->form->module;
-    tn_outcome stack[TN_DECISION_STACK_MAX];
-    size_t depth = 0;
-    for (uint32_t at = module->FUNCTION_records[function].code_begin;;) {
-        tn_instruction op = tn_code_read(module->code, at);
-        at += op.length;
-        switch (op.opcode) {
-        case TN_OP_ALL_OF:
-            depth--;
-            stack[depth - 1] = both(stack[depth - 1], stack[depth]);
-            break;
-        case TN_OP_ONE_OF:
-            depth--;
-            stack[depth - 1] = denied(both(denied(stack[depth - 1]), denied(stack[depth])));
-            break;
-        case TN_OP_NONE_OF:
-            stack[depth - 1] = denied(stack[depth - 1]);
-            break;
-        case TN_OP_DECIDE:
-            return stack[depth - 1];
-        default:
-            stack[depth++] = ask(house, cell, &op);
-        }
-    }
+        return TN_OUTCOME_TRUE;
+    if (op->opcode == TN_OP_ALL_CELLS && !tn_house_decide(known->house, (uint32_t)op->first, known->cell))
+        return TN_OUTCOME_FALSE;
+    return TN_OUTCOME_OPEN;
 }
 
 /* A void belongs to the room of the cell below: its function is not asked for, so the room is open. */
@@ -93,8 +56,9 @@ bool tn_face_relevant(const tn_house *house, const tn_room_questions *questions,
     const tn_cell *cell = &house->cells[face->first];
     if (face->relation != TN_FACE_OUTSIDE || cell->open)
         return true;
+    tn_known_cell known = {house, cell};
     for (size_t i = 0; i < questions->count; i++)
-        if (decide(house, questions->functions[i], cell) == OUTCOME_OPEN)
+        if (tn_outcome_decide(house->form->module, questions->functions[i], ask, &known) == TN_OUTCOME_OPEN)
             return true;
     return false;
 }

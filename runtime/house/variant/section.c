@@ -78,7 +78,7 @@ tn_status tn_sections_begin(const tn_house_form *form, tn_sections *sections, tn
     return TN_OK;
 }
 
-static tn_section_key key_of(const tn_sections *sections, const tn_house *house)
+tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *house)
 {
     tn_section_key key;
     memset(&key, 0, sizeof key);
@@ -92,7 +92,7 @@ static tn_section_key key_of(const tn_sections *sections, const tn_house *house)
 
 const tn_section_count *tn_sections_find(const tn_sections *sections, const tn_house *house)
 {
-    tn_section_key key = key_of(sections, house);
+    tn_section_key key = tn_sections_key(sections, house);
     for (size_t i = 0; i < sections->count; i++)
         if (memcmp(&sections->counts[i].key, &key, sizeof key) == 0)
             return &sections->counts[i];
@@ -104,7 +104,7 @@ tn_status tn_sections_keep(tn_sections *sections, const tn_house *house, const t
     if (!tn_array_reserve_from(&sections->counts, &sections->room, 16, sections->count, 1, sizeof *sections->counts))
         return tn_fail_memory(error);
     tn_section_count *kept = &sections->counts[sections->count++];
-    kept->key = key_of(sections, house);
+    kept->key = tn_sections_key(sections, house);
     kept->zoned = counts->zoned;
     kept->faced = counts->faced;
     mpz_init_set(kept->houses, counts->houses);

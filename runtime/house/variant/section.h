@@ -32,7 +32,8 @@ typedef struct tn_sections {
 
 /* Finds the questions of a form and its rules. TN_MEMORY. */
 tn_status tn_sections_begin(const tn_house_form *form, tn_sections *sections, tn_error *error);
-void tn_sections_forget(tn_sections *sections); /* the counts: another plan comes */
+tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *house); /* only its section is looked at */
+void tn_sections_forget(tn_sections *sections);                                     /* the counts: another plan comes */
 void tn_sections_free(tn_sections *sections);
 
 /* The count of the house's section if it is known; NULL where it is not. */

@@ -302,6 +302,32 @@ tn_status tn_house_variants_count(tn_house_variants *v, const tn_tray *trays, si
     return tn_variants_go_through(v, trays, length, &(tn_house_visitor){.count = add_counts, .context = counts}, error);
 }
 
+typedef struct tn_by_section {
+    tn_section_each *each;
+    void *context;
+    tn_status status;
+    tn_error *error;
+} tn_by_section;
+
+static void show_section(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
+                         bool *taken)
+{
+    tn_by_section *by = context;
+    (void)part;
+    if (by->status == TN_OK && mpz_sgn(counts->houses) > 0)
+        by->status = by->each(by->context, v->house.shapes, counts, by->error);
+    *taken = true;
+}
+
+tn_status tn_house_variants_sections(tn_house_variants *v, const tn_tray *trays, size_t length, tn_section_each *each,
+                                     void *context, tn_error *error)
+{
+    tn_by_section by = {each, context, TN_OK, error};
+    tn_status status =
+        tn_variants_go_through(v, trays, length, &(tn_house_visitor){.count = show_section, .context = &by}, error);
+    return status == TN_OK ? by.status : status;
+}
+
 /* ---- making */
 
 tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_library_record *library, uint64_t work,

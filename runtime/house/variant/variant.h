@@ -35,6 +35,12 @@ void tn_house_counts_clear(tn_house_counts *counts);
 tn_status tn_house_variants_count(tn_house_variants *variants, const tn_tray *trays, size_t length,
                                   tn_house_counts *counts, tn_error *error);
 
+/* The same section by section: calls `each` with the values of each section that has a house. */
+typedef tn_status tn_section_each(void *context, const uint32_t *shapes, const tn_house_counts *counts,
+                                  tn_error *error);
+tn_status tn_house_variants_sections(tn_house_variants *variants, const tn_tray *trays, size_t length,
+                                     tn_section_each *each, void *context, tn_error *error);
+
 /* Calls `each` with the houses on a plan, in order, from number `from` on, until there are no more or *stop. The house
  * is borrowed for the call. The limit of work is for the way to the next house. */
 typedef tn_status tn_house_each(void *context, const tn_house *house, bool *stop, tn_error *error);

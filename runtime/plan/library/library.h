@@ -71,6 +71,11 @@ tn_status tn_library_effect(const tn_library *library, uint32_t i, mpz_t out, mp
 tn_status tn_library_matches(const tn_library *library, const uint32_t *functions, size_t count, mpz_t *matched,
                              tn_error *error);
 
+/* The automaton of the kept plans, step by step, for what counts more than plans: 0 is the state before the first tray.
+ * Does a plan of the library have `left` more trays from a state on? */
+uint32_t tn_library_next(const tn_library *library, uint32_t state, tn_tray tray);
+bool tn_library_lives(const tn_library *library, uint32_t left, uint32_t state);
+
 /* One of each mirror pair: kept plans w such that the reversed plan is not kept, or has no lower rank. */
 tn_status tn_library_kept_mirror(const tn_library *library, uint32_t length, mpz_t count, tn_error *error);
 

@@ -43,6 +43,16 @@ void tn_plans_before(const tn_library *library, uint32_t state, tn_tray tray, ui
         tn_count_row_add(row, next[library->tray_column[t]], 1, sum);
 }
 
+uint32_t tn_library_next(const tn_library *library, uint32_t state, tn_tray tray)
+{
+    return tn_library_step(library, state, tray);
+}
+
+bool tn_library_lives(const tn_library *library, uint32_t left, uint32_t state)
+{
+    return left <= library->max && tn_library_alive(library, left, state);
+}
+
 bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank)
 {
     if (!tn_library_has(library, trays, length))

@@ -33,6 +33,8 @@ struct tn_lowering {
     uint64_t spent;           /* work on the rules before */
     const uint32_t *disabled; /* code offsets of instructions that give nothing */
     size_t disabled_count;
+    tn_lowering_ask *ask; /* about houses, or NULL */
+    void *house;
     tn_lowered *lowered; /* [functions][FORM_COUNT] */
 };
 
@@ -98,6 +100,12 @@ void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t 
 {
     lowering->disabled = offsets;
     lowering->disabled_count = count;
+}
+
+void tn_lowering_house(tn_lowering *lowering, tn_lowering_ask *ask, void *house)
+{
+    lowering->ask = ask;
+    lowering->house = house;
 }
 
 static bool is_disabled(const tn_lowering *lowering, uint32_t offset)
@@ -287,6 +295,14 @@ static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, ui
     return status;
 }
 
+static tn_status lower_house(const tn_lowering *lowering, const tn_node *node, bool reversed, tn_dfa **out,
+                             tn_error *error)
+{
+    if (!lowering->ask)
+        return tn_fail(error, TN_INVALID, E_NOT_A_HOUSE, "a rule about houses was asked about a plan alone");
+    return lowering->ask(lowering->house, &lowering->marked, &node->code, reversed, out, error);
+}
+
 static bool compares(tn_opcode opcode)
 {
     return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
@@ -315,9 +331,11 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
         break;
     }
     tn_dfa *relation = NULL;
-    tn_status status = compares(node->code.opcode)
-                           ? lower_comparison(lowering, node, form, &relation, error)
-                           : lower_relation(lowering, node, form & FORM_REVERSED, in, &relation, error);
+    bool reversed = form & FORM_REVERSED;
+    tn_status status = compares(node->code.opcode) ? lower_comparison(lowering, node, form, &relation, error)
+                       : tn_code_asks_house(node->code.opcode)
+                           ? lower_house(lowering, node, reversed, &relation, error)
+                           : lower_relation(lowering, node, reversed, in, &relation, error);
     if (status != TN_OK || !node->plain) {
         *out = relation;
         return status;

@@ -6,6 +6,7 @@
 #ifndef TARTAN_PLAN_MATCH_LOWER_H
 #define TARTAN_PLAN_MATCH_LOWER_H
 
+#include "runtime/module/code.h"
 #include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 
@@ -23,6 +24,13 @@ void tn_lowering_within(tn_lowering *lowering, uint32_t max_trays);
 /* Makes what the instructions at these code offsets give the empty relation, for coverage. Only before the first
  * function is lowered; the offsets are borrowed. */
 void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count);
+
+/* What makes the relation of an instruction about houses (tn_code_asks_house), over marked words; reversed: of the plan
+ * turned round. The letters are then classes of trays with what stands on them: the caller makes such tn_classes. Only
+ * before the first function is lowered; rules about houses are TN_INVALID (E1616) without it. */
+typedef tn_status tn_lowering_ask(void *house, const tn_marked *marked, const tn_instruction *op, bool reversed,
+                                  tn_dfa **out, tn_error *error);
+void tn_lowering_house(tn_lowering *lowering, tn_lowering_ask *ask, void *house);
 
 /* The minimal automaton, over the classes, of the plans whose whole stretch [0, N) is in the function's relation. The
  * caller frees *out. TN_LIMIT (E0802) where an intermediate automaton passes the bounds; the error's code_offset is the

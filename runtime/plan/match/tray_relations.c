@@ -60,3 +60,16 @@ tn_status tn_relate_count(const tn_marked *marked, const tn_classes *classes, co
     free(holds);
     return status;
 }
+
+tn_status tn_relate_numbers(const tn_marked *marked, const tn_module *module, const tn_dfa *a, uint32_t condition,
+                            const uint64_t *counts, tn_dfa **out, tn_error *error)
+{
+    uint8_t *holds = NULL;
+    tn_periodic_set set;
+    tn_status status =
+        meeting(module, condition, 1, (uint64_t)marked->bounds->max_states * 4 + 64, &set, &holds, error);
+    if (status == TN_OK)
+        status = tn_marked_count(marked, a, TN_TALLY_SINGLES, &set, counts, out, error);
+    free(holds);
+    return status;
+}

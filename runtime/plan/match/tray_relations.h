@@ -16,4 +16,8 @@ tn_status tn_relate_tray(const tn_marked *marked, const tn_classes *classes, uin
 tn_status tn_relate_count(const tn_marked *marked, const tn_classes *classes, const tn_dfa *a, tn_tally tally,
                           uint32_t condition, uint32_t field, tn_dfa **out, tn_error *error);
 
+/* Stretches that count a number that meets a condition: counts[letter] for each letter of a single of `a`. */
+tn_status tn_relate_numbers(const tn_marked *marked, const tn_module *module, const tn_dfa *a, uint32_t condition,
+                            const uint64_t *counts, tn_dfa **out, tn_error *error);
+
 #endif

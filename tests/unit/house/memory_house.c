@@ -12,6 +12,7 @@
 
 #include "runtime/house/export/export.h"
 #include "runtime/house/schedule/describe.h"
+#include "runtime/house/strip/houses.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
@@ -52,6 +53,33 @@ static tn_status count(tn_error *error)
     tn_house_counts_clear(&counts);
     tn_house_variants_free(variants);
     return status;
+}
+
+static tn_library *plans; /* of one tray */
+
+/* All houses, and the plan of the last of them. */
+static tn_status count_together(tn_error *error)
+{
+    tn_houses *houses = NULL;
+    tn_tray tray;
+    uint32_t length;
+    mpz_t rank;
+    mpz_init(rank);
+    tn_status status = tn_houses_new(&made.form, made.some, plans, 0, &houses, error);
+    if (status == TN_OK) {
+        tn_houses_count(houses, TN_ALL_LENGTHS, rank);
+        mpz_sub_ui(rank, rank, 1);
+        status = tn_houses_find(houses, rank, &tray, &length, error);
+    }
+    tn_houses_free(houses);
+    mpz_clear(rank);
+    return status;
+}
+
+static void test_count_together(void **state)
+{
+    (void)state;
+    expect_robust(count_together);
 }
 
 static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
@@ -136,14 +164,17 @@ static void test_failing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_failing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_failing)};
     tn_house_variants *variants = NULL;
     tn_error error = {0};
     mpz_t variant;
     mpz_init_set_ui(variant, 300);
     test_house_make(&made);
     plan = test_house_plan(&made, "8' room:12' open:4' | 10' room:10' empty");
+    tn_library_options options = {.override_trays = true, .trays_min = 1, .trays_max = 1};
     tn_status status = tn_house_variants_new(&made.form, made.all, 0, &variants, &error);
+    if (status == TN_OK)
+        status = tn_library_new(made.schema, made.some->plans, &options, &plans, &error);
     if (status == TN_OK)
         status = tn_house_variants_at(variants, plan.trays, plan.length, variant, &house, &error);
     if (status == TN_OK)
@@ -156,6 +187,7 @@ int main(void)
         fclose(sink);
     tn_solids_clear(&solids);
     tn_house_clear(&house);
+    tn_library_free(plans);
     free(plan.trays);
     test_house_clear(&made);
     return failed;

@@ -1,0 +1,327 @@
+/* Counts the houses of a library, all together or plan by plan: by length, by section, and what clauses keep out. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/numbered_parts.h"
+
+/* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
+typedef struct house_tally {
+    bool each; /* the plans were gone through */
+    uint64_t with_houses, zoned, states;
+    mpz_t plans, faced, houses;
+    mpz_t *lengths; /* houses on plans of each length, from the shortest */
+    uint32_t low, high;
+    mpz_t *values;   /* houses that have each value of each choice, choice by choice */
+    mpz_t *kept_out; /* by each clause, of the houses that no clause is asked about; NULL: not counted */
+} house_tally;
+
+static mpz_t *integers(size_t count)
+{
+    mpz_t *items = malloc((count + 1) * sizeof *items);
+    for (size_t i = 0; items && i < count; i++)
+        mpz_init(items[i]);
+    return items;
+}
+
+static void free_integers(mpz_t *items, size_t count)
+{
+    for (size_t i = 0; items && i < count; i++)
+        mpz_clear(items[i]);
+    free(items);
+}
+
+static size_t value_count(const tn_numbered *n)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < n->form.record->choice_count; i++)
+        count += tn_form_choice(&n->form, i)->shape_count;
+    return count;
+}
+
+static bool tally_new(const tn_numbered *n, house_tally *tally)
+{
+    *tally = (house_tally){.low = tn_library_min(n->plans), .high = tn_library_max(n->plans)};
+    tally->high = tally->high < tally->low ? tally->low : tally->high;
+    tally->lengths = integers((size_t)tally->high - tally->low + 1);
+    tally->values = integers(value_count(n));
+    mpz_inits(tally->plans, tally->faced, tally->houses, NULL);
+    return tally->lengths && tally->values;
+}
+
+static void tally_free(const tn_numbered *n, house_tally *tally)
+{
+    free_integers(tally->lengths, (size_t)tally->high - tally->low + 1);
+    free_integers(tally->values, value_count(n));
+    free_integers(tally->kept_out, n->record->clause_count);
+    mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
+}
+
+/* ---- sections */
+
+typedef struct section_tally {
+    const tn_numbered *n;
+    house_tally *tally;
+} section_tally;
+
+static void add_section(const tn_numbered *n, house_tally *tally, const uint32_t *shapes, const mpz_t houses)
+{
+    size_t first = 0;
+    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
+        mpz_add(tally->values[first + shapes[i]], tally->values[first + shapes[i]], houses);
+        first += tn_form_choice(&n->form, i)->shape_count;
+    }
+}
+
+static tn_status tally_section(void *context, const uint32_t *shapes, const tn_house_counts *counts, tn_error *error)
+{
+    const section_tally *s = context;
+    (void)error;
+    add_section(s->n, s->tally, shapes, counts->houses);
+    s->tally->zoned += counts->zoned;
+    mpz_add_ui(s->tally->faced, s->tally->faced, counts->faced);
+    mpz_add(s->tally->houses, s->tally->houses, counts->houses);
+    return TN_OK;
+}
+
+static bool next_section(const tn_numbered *n, uint32_t *shapes)
+{
+    for (uint32_t i = n->form.record->choice_count; i-- > 0;) {
+        if (++shapes[i] < tn_form_choice(&n->form, i)->shape_count)
+            return true;
+        shapes[i] = 0;
+    }
+    return false;
+}
+
+/* ---- plan by plan */
+
+static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally, tn_error *error)
+{
+    section_tally sections = {n, tally};
+    mpz_t before;
+    mpz_init_set(before, tally->houses);
+    tn_status status = tn_house_variants_sections(n->variants, trays, length, tally_section, &sections, error);
+    mpz_add_ui(tally->plans, tally->plans, 1);
+    tally->with_houses += mpz_cmp(before, tally->houses) != 0;
+    mpz_sub(before, tally->houses, before);
+    if (length >= tally->low && length <= tally->high)
+        mpz_add(tally->lengths[length - tally->low], tally->lengths[length - tally->low], before);
+    mpz_clear(before);
+    return status;
+}
+
+static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                            tn_error *error)
+{
+    (void)stop;
+    return tally_plan(n, trays, length, context, error);
+}
+
+/* ---- all together */
+
+static void tally_together(tn_numbered *n, house_tally *tally)
+{
+    uint32_t shapes[TN_CHOICES_MAX] = {0};
+    mpz_t houses;
+    mpz_init(houses);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, tally->plans);
+    tn_houses_faced(n->all, tally->faced);
+    tn_houses_count(n->all, TN_ALL_LENGTHS, tally->houses);
+    tally->states = tn_houses_states(n->all);
+    for (uint32_t k = tally->low; k <= tally->high; k++)
+        tn_houses_count(n->all, k, tally->lengths[k - tally->low]);
+    for (bool more = true; more; more = next_section(n, shapes)) {
+        tn_houses_of_section(n->all, shapes, houses);
+        add_section(n, tally, shapes, houses);
+    }
+    mpz_clear(houses);
+}
+
+static tn_status tally_all(tn_numbered *n, house_tally *tally, tn_error *error)
+{
+    if (!tn_numbered_few(n)) {
+        tn_status status = tn_numbered_all(n, error);
+        if (status == TN_OK)
+            tally_together(n, tally);
+        if (status != TN_LIMIT || !tn_numbered_countable(n))
+            return status;
+    }
+    tally->each = true;
+    return tn_numbered_plans(n, tally_next, tally, error);
+}
+
+/* ---- what clauses keep out */
+
+/* The houses on the plan, or on all plans, that some of the clauses keep. */
+static tn_status count_by(const tn_numbered *n, const tn_house_library_record *clauses, const tn_plan *plan,
+                          mpz_t houses, tn_error *error)
+{
+    tn_house_variants *variants = NULL;
+    tn_houses *all = NULL;
+    tn_house_counts counts;
+    tn_status status;
+    if (!plan) {
+        status = tn_houses_new(&n->form, clauses, n->plans, n->max_states, &all, error);
+        if (status == TN_OK)
+            tn_houses_count(all, TN_ALL_LENGTHS, houses);
+        tn_houses_free(all);
+        return status;
+    }
+    tn_house_counts_init(&counts);
+    status = tn_house_variants_new(&n->form, clauses, 0, &variants, error);
+    if (status == TN_OK)
+        status = tn_house_variants_count(variants, plan->trays, plan->length, &counts, error);
+    mpz_set(houses, counts.houses);
+    tn_house_variants_free(variants);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    tn_house_library_record some = *n->record;
+    mpz_t all;
+    mpz_init(all);
+    tally->kept_out = integers(n->record->clause_count);
+    some.clause_count = 0;
+    tn_status status = tally->kept_out ? count_by(n, &some, plan, all, error) : tn_fail_memory(error);
+    some.clause_count = 1;
+    for (uint32_t i = 0; status == TN_OK && i < n->record->clause_count; i++) {
+        some.clause_first = n->record->clause_first + i;
+        status = count_by(n, &some, plan, tally->kept_out[i], error);
+        mpz_sub(tally->kept_out[i], all, tally->kept_out[i]);
+    }
+    mpz_clear(all);
+    return status;
+}
+
+/* ---- writing */
+
+enum { LABEL_WIDTH = 24 };
+
+static void write_lengths(const house_tally *tally, bool json, FILE *out)
+{
+    bool first = true;
+    for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
+        if (mpz_sgn(tally->lengths[i]) == 0)
+            continue;
+        char label[40];
+        snprintf(label, sizeof label, "  of %u tray%s", tally->low + i, tally->low + i == 1 ? "" : "s");
+        if (json)
+            gmp_fprintf(out, "%s\"%u\":\"%Zd\"", first ? "" : ",", tally->low + i, tally->lengths[i]);
+        else
+            gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, label, tally->lengths[i]);
+        first = false;
+    }
+}
+
+/* Choices that leave nothing to choose are left out of the text. */
+static void write_sections(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+{
+    const tn_module *module = n->form.module;
+    const mpz_t *value = (const mpz_t *)tally->values;
+    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&n->form, i);
+        if (json)
+            fprintf(out, "%s\"%s\":{", i ? "," : "", tn_text(module, choice->name));
+        else if (choice->shape_count > 1)
+            fprintf(out, "%s\n", tn_text(module, choice->name));
+        for (uint32_t k = 0; k < choice->shape_count; k++, value++) {
+            const char *name = tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling);
+            if (json)
+                gmp_fprintf(out, "%s\"%s\":\"%Zd\"", k ? "," : "", name, *value);
+            else if (choice->shape_count > 1)
+                gmp_fprintf(out, "  %-*s%Zd\n", LABEL_WIDTH - 2, name, *value);
+        }
+        fputs(json ? "}" : "", out);
+    }
+}
+
+static void write_clauses(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+{
+    const tn_module *module = n->form.module;
+    fputs(json ? ",\"kept_out\":{" : "keeps out\n", out);
+    for (uint32_t i = 0; i < n->record->clause_count; i++) {
+        const tn_house_clause_record *clause = &module->HOUSE_CLAUSE_records[n->record->clause_first + i];
+        if (json)
+            gmp_fprintf(out, "%s\"%s\":\"%Zd\"", i ? "," : "", tn_text(module, clause->name), tally->kept_out[i]);
+        else
+            gmp_fprintf(out, "  %-*s %Zd\n", LABEL_WIDTH - 3, tn_text(module, clause->name), tally->kept_out[i]);
+    }
+    fputs(json ? "}" : "", out);
+}
+
+static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
+{
+    gmp_fprintf(out, "{\"library\":\"%s\",\"plans\":\"%Zd\"", tn_text(n->form.module, n->record->name), tally->plans);
+    if (tally->each)
+        fprintf(out, ",\"plans_with_houses\":\"%llu\",\"zoned\":\"%llu\"", (unsigned long long)tally->with_houses,
+                (unsigned long long)tally->zoned);
+    else
+        fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
+    gmp_fprintf(out, ",\"faced\":\"%Zd\",\"houses\":\"%Zd\",\"by_length\":{", tally->faced, tally->houses);
+    write_lengths(tally, true, out);
+    fputs("},\"by_section\":{", out);
+    write_sections(n, tally, true, out);
+    fputs("}", out);
+    if (tally->kept_out)
+        write_clauses(n, tally, true, out);
+    fputs("}\n", out);
+}
+
+static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out)
+{
+    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "plans", tally->plans);
+    if (tally->each) {
+        fprintf(out, "%-*s%llu\n", LABEL_WIDTH, "with a house", (unsigned long long)tally->with_houses);
+        fprintf(out, "%-*s%llu\n", LABEL_WIDTH, "sections and functions", (unsigned long long)tally->zoned);
+    }
+    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "with openings", tally->faced);
+    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "houses", tally->houses);
+    write_lengths(tally, false, out);
+    write_sections(n, tally, false, out);
+    if (tally->kept_out)
+        write_clauses(n, tally, false, out);
+}
+
+/* ---- the command */
+
+static tn_status count_houses(tn_numbered *n, const char *text, bool clauses, size_t max_length, house_tally *tally,
+                              tn_error *error)
+{
+    tn_plan plan = {0};
+    tn_status status = text ? tn_numbered_plan(n, text, max_length, &plan, error) : TN_OK;
+    tally->each = text != NULL;
+    if (status == TN_OK)
+        status = text ? tally_plan(n, plan.trays, (uint32_t)plan.length, tally, error) : tally_all(n, tally, error);
+    if (status == TN_OK && clauses)
+        status = tally_clauses(n, text ? &plan : NULL, tally, error);
+    free(plan.trays);
+    return status;
+}
+
+void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const tn_house_counting *counting)
+{
+    tn_numbered n;
+    house_tally tally = {0};
+    tn_error error = {0};
+    tn_output out;
+    if (!tn_numbered_open(&n, job, settings)) {
+        tn_numbered_close(&n);
+        return;
+    }
+    tn_status status = tally_new(&n, &tally) ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = count_houses(&n, counting->plan, counting->clauses, settings->max_length, &tally, &error);
+    if (status != TN_OK) {
+        tn_numbered_bad_text(job, &error, "PLAN", counting->plan ? counting->plan : "");
+    } else if (tn_job_output(job, counting->output, &out)) {
+        if (counting->json)
+            write_json(&n, &tally, out.stream);
+        else
+            write_text(&n, &tally, out.stream);
+        tn_job_commit(job, &out);
+    }
+    tally_free(&n, &tally);
+    tn_numbered_close(&n);
+}

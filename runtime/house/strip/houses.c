@@ -1,0 +1,270 @@
+/* Counts the houses of a library layer by layer: how many choices lead to each node. */
+#include "runtime/house/strip/houses.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/strip/houses_data.h"
+
+static mpz_t *integers(size_t count)
+{
+    mpz_t *items = malloc((count + 1) * sizeof *items);
+    for (size_t i = 0; items && i < count; i++)
+        mpz_init(items[i]);
+    return items;
+}
+
+static void free_integers(mpz_t *items, size_t count)
+{
+    for (size_t i = 0; items && i < count; i++)
+        mpz_clear(items[i]);
+    free(items);
+}
+
+/* ---- counting forwards */
+
+/* counts: two numbers a node, houses and those without their tiles. */
+typedef struct tn_forward {
+    const tn_houses *houses;
+    tn_houses_kind *kind;
+    uint32_t layer;
+    mpz_t *counts, *next;
+    size_t count, next_count, next_room; /* in numbers */
+    uint64_t nodes;                      /* of all layers */
+    mpz_t one;
+} tn_forward;
+
+static tn_status too_many(const tn_forward *f, tn_error *error)
+{
+    const char *name = tn_strip_dearest(f->kind->strip);
+    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", f->houses->max_states);
+    if (name)
+        tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
+                      name);
+    else
+        tn_error_help(error, "ask about one plan (--plan), or allow more (--max-states N)");
+    return TN_LIMIT;
+}
+
+static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_forward *f = context;
+    uint32_t to = tn_number(&f->kind->layers[f->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
+    if (to == UINT32_MAX || !tn_array_reserve(&f->next, &f->next_room, f->next_count, 2, sizeof *f->next))
+        return tn_fail_memory(error);
+    for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
+        mpz_init(f->next[f->next_count]);
+    if (f->nodes + to > f->houses->max_states || f->kind->strip->states.count > f->houses->max_states)
+        return too_many(f, error);
+    const uint64_t times[2] = {edge->times, edge->faced};
+    for (size_t i = 0; i < 2; i++) {
+        mpz_mul_ui(f->one, f->counts[2 * (size_t)edge->from + i], edge->ways);
+        mpz_addmul_ui(f->next[2 * (size_t)to + i], f->one, times[i]);
+    }
+    return TN_OK;
+}
+
+static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_forward *f = context;
+    (void)error;
+    mpz_addmul_ui(f->kind->houses[f->layer - f->houses->low], f->counts[2 * (size_t)edge->from], edge->times);
+    mpz_addmul_ui(f->kind->faced, f->counts[2 * (size_t)edge->from + 1], edge->faced);
+    return TN_OK;
+}
+
+static tn_status count_layer(tn_forward *f, tn_error *error)
+{
+    const tn_houses *h = f->houses;
+    tn_status status = TN_OK;
+    if (f->layer >= h->low)
+        status = tn_houses_expand(h, f->kind, f->layer, true, come_to_end, f, error);
+    f->nodes += f->kind->layers[f->layer].nodes.count;
+    if (status == TN_OK && f->layer < h->high)
+        status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
+    free_integers(f->counts, f->count);
+    f->counts = f->next;
+    f->count = f->next_count;
+    f->next = NULL;
+    f->next_count = f->next_room = 0;
+    return status;
+}
+
+static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
+    tn_forward f = {.houses = h, .kind = kind, .count = 2};
+    tn_status status = TN_OK;
+    kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
+    kind->houses = integers(tn_houses_lengths(h));
+    f.counts = integers(f.count);
+    if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
+        free_integers(f.counts, f.count);
+        return tn_fail_memory(error);
+    }
+    mpz_init(f.one);
+    mpz_set_ui(f.counts[0], 1);
+    mpz_set_ui(f.counts[1], 1);
+    for (f.layer = 0; status == TN_OK && f.layer <= h->high; f.layer++)
+        status = count_layer(&f, error);
+    free_integers(f.counts, f.count);
+    mpz_clear(f.one);
+    return status;
+}
+
+/* ---- sections */
+
+static bool next_section(const tn_house_form *form, uint32_t *shapes)
+{
+    for (uint32_t i = form->record->choice_count; i-- > 0;) {
+        if (++shapes[i] < tn_form_choice(form, i)->shape_count)
+            return true;
+        shapes[i] = 0;
+    }
+    return false;
+}
+
+/* The trays that stand in some plan of the library. */
+static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
+{
+    tn_numbering layer = {0}, next = {0};
+    bool ok = tn_number(&layer, 0) != UINT32_MAX;
+    for (uint32_t k = 0; ok && k < h->high; k++) {
+        for (uint32_t i = 0; ok && i < layer.count; i++)
+            for (tn_tray t = 0; ok && t < h->form->schema->tray_count; t++) {
+                uint32_t plan = tn_library_next(h->plans, (uint32_t)layer.keys[i], t);
+                if (!tn_houses_plan_lives(h, k + 1, plan))
+                    continue;
+                trays[t] = true;
+                ok = tn_number(&next, plan) != UINT32_MAX;
+            }
+        tn_numbering_clear(&layer);
+        layer = next;
+        next = (tn_numbering){0};
+    }
+    tn_numbering_clear(&layer);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_houses_kind *kind_of(const tn_houses *h, const tn_house *section)
+{
+    tn_section_key key = tn_sections_key(&h->sections, section);
+    for (size_t i = 0; i < h->kind_count; i++)
+        if (memcmp(&h->kinds[i].key, &key, sizeof key) == 0)
+            return &h->kinds[i];
+    return NULL;
+}
+
+static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *trays, tn_error *error)
+{
+    tn_houses_kind *kind = kind_of(h, section);
+    if (kind) {
+        kind->sections++;
+        return TN_OK;
+    }
+    if (!tn_array_reserve_from(&h->kinds, &h->kind_room, 4, h->kind_count, 1, sizeof *h->kinds))
+        return tn_fail_memory(error);
+    kind = &h->kinds[h->kind_count++];
+    *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
+    mpz_init(kind->faced);
+    tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->high, &kind->strip, error);
+    return status == TN_OK ? count_kind(h, kind, error) : status;
+}
+
+static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error)
+{
+    tn_house section = {.form = h->form};
+    tn_status status = TN_OK;
+    for (bool more = true; status == TN_OK && more; more = next_section(h->form, section.shapes))
+        if (tn_house_section_stands(&section))
+            status = add_kind(h, &section, trays, error);
+    return status;
+}
+
+/* ---- the whole */
+
+tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
+                        uint32_t max_states, tn_houses **out, tn_error *error)
+{
+    tn_houses *h = *out = calloc(1, sizeof *h);
+    if (!h)
+        return tn_fail_memory(error);
+    *h = (tn_houses){.form = form,
+                     .library = library,
+                     .plans = plans,
+                     .max_states = max_states > 0 ? max_states : TN_HOUSES_STATES_DEFAULT,
+                     .low = tn_library_min(plans),
+                     .high = tn_library_max(plans)};
+    h->high = h->high < h->low ? h->low : h->high;
+    bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
+    tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = find_trays(h, trays, error);
+    if (status == TN_OK)
+        status = count_sections(h, trays, error);
+    free(trays);
+    if (status != TN_OK) {
+        tn_houses_free(h);
+        *out = NULL;
+    }
+    return status;
+}
+
+void tn_houses_free(tn_houses *h)
+{
+    if (!h)
+        return;
+    for (size_t i = 0; i < h->kind_count; i++) {
+        tn_houses_kind *kind = &h->kinds[i];
+        for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
+            free_integers(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
+            tn_numbering_clear(&kind->layers[k].nodes);
+        }
+        free(kind->layers);
+        free_integers(kind->houses, tn_houses_lengths(h));
+        mpz_clear(kind->faced);
+        tn_strip_free(kind->strip);
+    }
+    tn_sections_free(&h->sections);
+    free(h->kinds);
+    free(h);
+}
+
+/* ---- numbers */
+
+void tn_houses_count(const tn_houses *h, uint32_t length, mpz_t count)
+{
+    mpz_set_ui(count, 0);
+    for (size_t i = 0; i < h->kind_count; i++)
+        for (uint32_t k = h->low; k <= h->high; k++)
+            if (length == TN_ALL_LENGTHS || length == k)
+                mpz_addmul_ui(count, h->kinds[i].houses[k - h->low], h->kinds[i].sections);
+}
+
+void tn_houses_faced(const tn_houses *h, mpz_t faced)
+{
+    mpz_set_ui(faced, 0);
+    for (size_t i = 0; i < h->kind_count; i++)
+        mpz_addmul_ui(faced, h->kinds[i].faced, h->kinds[i].sections);
+}
+
+void tn_houses_of_section(const tn_houses *h, const uint32_t *shapes, mpz_t count)
+{
+    tn_house section = {.form = h->form};
+    memcpy(section.shapes, shapes, h->form->record->choice_count * sizeof *shapes);
+    mpz_set_ui(count, 0);
+    if (!tn_house_section_stands(&section))
+        return;
+    const tn_houses_kind *kind = kind_of(h, &section);
+    for (uint32_t k = h->low; k <= h->high; k++)
+        mpz_add(count, count, kind->houses[k - h->low]);
+}
+
+uint64_t tn_houses_states(const tn_houses *h)
+{
+    uint64_t states = 0;
+    for (size_t i = 0; i < h->kind_count; i++)
+        for (uint32_t k = 0; k <= h->high; k++)
+            states += h->kinds[i].layers[k].nodes.count;
+    return states;
+}

@@ -1,0 +1,45 @@
+/* All houses of a library: counted, and their ranks, without going through plans or houses.
+ *
+ * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
+ * reach together are counted, layer by layer (parts.h says what a state is). Sections that nothing tells apart share
+ * the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of them; houses
+ * on one plan (variant.h) do not depend on it.
+ *
+ * Ranks compare the plan first: the rank of a house is that of the first house on its plan, and its number among the
+ * houses on that plan. A tn_houses belongs to one thread, and borrows the form and the library of plans.
+ */
+#ifndef TARTAN_HOUSE_STRIP_HOUSES_H
+#define TARTAN_HOUSE_STRIP_HOUSES_H
+
+#include <gmp.h>
+
+#include "runtime/house/house.h"
+#include "runtime/plan/library/library.h"
+
+#define TN_HOUSES_STATES_DEFAULT 3000000u
+
+typedef struct tn_houses tn_houses;
+
+/* max_states: of a section, with plans; 0 is the default. */
+tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
+                        uint32_t max_states, tn_houses **houses, tn_error *error);
+void tn_houses_free(tn_houses *houses);
+
+/* How many there are on plans of a length, or (TN_ALL_LENGTHS) in all; faced: without tiles, of those with any. */
+void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);
+void tn_houses_faced(const tn_houses *houses, mpz_t faced);
+
+/* How many have a section (a value for each choice of the form). */
+void tn_houses_of_section(const tn_houses *houses, const uint32_t *shapes, mpz_t count);
+
+/* States of all sections. */
+uint64_t tn_houses_states(const tn_houses *houses);
+
+/* How many houses come before the first on this plan, one of the library's. */
+tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
+
+/* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
+ * number among those on the plan. TN_INVALID (E1618) where there are not so many. */
+tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+
+#endif

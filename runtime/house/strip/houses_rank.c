@@ -1,0 +1,356 @@
+/* Ranks of houses among all of a library: how many come before a plan, and the plan of a rank.
+ *
+ * Behind each node it is counted how many houses go on from there, for each length. A walk along a plan then has, for
+ * each node that the plan reaches, the number of choices that lead there. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/strip/houses_data.h"
+
+/* ---- what is ahead */
+
+typedef struct tn_backward {
+    const tn_houses *houses;
+    tn_houses_kind *kind;
+    uint32_t layer;
+    mpz_t one;
+} tn_backward;
+
+static tn_status add_end(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_backward *b = context;
+    mpz_t *ahead = &b->kind->layers[b->layer].ahead[(size_t)edge->from * tn_houses_lengths(b->houses)];
+    (void)error;
+    mpz_add_ui(ahead[b->layer - b->houses->low], ahead[b->layer - b->houses->low], edge->times);
+    return TN_OK;
+}
+
+static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_backward *b = context;
+    const tn_houses_layer *next = &b->kind->layers[b->layer + 1];
+    uint32_t lengths = tn_houses_lengths(b->houses);
+    uint32_t to = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
+    mpz_t *ahead = &b->kind->layers[b->layer].ahead[(size_t)edge->from * lengths];
+    (void)error;
+    for (uint32_t i = 0; i < lengths; i++) {
+        if (mpz_sgn(next->ahead[(size_t)to * lengths + i]) == 0)
+            continue;
+        mpz_mul_ui(b->one, next->ahead[(size_t)to * lengths + i], edge->ways);
+        mpz_addmul_ui(ahead[i], b->one, edge->times);
+    }
+    return TN_OK;
+}
+
+static tn_status look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
+    tn_backward b = {.houses = h, .kind = kind};
+    tn_status status = TN_OK;
+    mpz_init(b.one);
+    for (b.layer = h->high + 1; status == TN_OK && b.layer-- > 0;) {
+        tn_houses_layer *layer = &kind->layers[b.layer];
+        size_t count = (size_t)layer->nodes.count * tn_houses_lengths(h);
+        layer->ahead = malloc((count + 1) * sizeof *layer->ahead);
+        for (size_t i = 0; layer->ahead && i < count; i++)
+            mpz_init(layer->ahead[i]);
+        status = layer->ahead ? TN_OK : tn_fail_memory(error);
+        if (status == TN_OK && b.layer >= h->low)
+            status = tn_houses_expand(h, kind, b.layer, true, add_end, &b, error);
+        if (status == TN_OK && b.layer < h->high)
+            status = tn_houses_expand(h, kind, b.layer, false, add_ahead, &b, error);
+    }
+    mpz_clear(b.one);
+    return status;
+}
+
+static tn_status make_ranked(tn_houses *h, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && !h->ranked && i < h->kind_count; i++)
+        status = look_ahead(h, &h->kinds[i], error);
+    h->ranked = status == TN_OK;
+    return status;
+}
+
+/* ---- a walk along a plan */
+
+/* The states of one kind of section that the trays so far reach, and how many choices lead to each. */
+typedef struct tn_houses_front {
+    uint32_t *states;
+    mpz_t *counts;
+    size_t count, room, counts_room;
+} tn_houses_front;
+
+/* How many houses of one length go on from a front by a slice to a plan state. */
+typedef struct tn_onward {
+    tn_numbering keys; /* slice << 32 | plan state */
+    mpz_t *houses;
+    size_t room;
+} tn_onward;
+
+typedef struct tn_plan_walk {
+    tn_houses *houses;
+    uint32_t length, layer, plan;
+    tn_houses_front *fronts; /* [kinds] */
+    tn_onward *onwards;      /* [kinds] */
+    mpz_t one;
+} tn_plan_walk;
+
+static void clear_front(tn_houses_front *front)
+{
+    for (size_t i = 0; i < front->count; i++)
+        mpz_clear(front->counts[i]);
+    front->count = 0;
+}
+
+static void clear_onward(tn_onward *onward)
+{
+    for (uint32_t i = 0; i < onward->keys.count; i++)
+        mpz_clear(onward->houses[i]);
+    tn_numbering_clear(&onward->keys);
+    onward->keys = (tn_numbering){0};
+}
+
+static tn_status add_state(tn_houses_front *front, uint32_t state, const mpz_t count, uint64_t times, tn_error *error)
+{
+    size_t i = 0;
+    while (i < front->count && front->states[i] != state)
+        i++;
+    if (i == front->count) {
+        if (!tn_array_reserve(&front->states, &front->room, i, 1, sizeof *front->states) ||
+            !tn_array_reserve(&front->counts, &front->counts_room, i, 1, sizeof *front->counts))
+            return tn_fail_memory(error);
+        front->states[i] = state;
+        mpz_init(front->counts[i]);
+        front->count++;
+    }
+    mpz_addmul_ui(front->counts[i], count, times);
+    return TN_OK;
+}
+
+static void walk_end(tn_plan_walk *w)
+{
+    for (size_t i = 0; i < w->houses->kind_count; i++) {
+        if (w->fronts) {
+            clear_front(&w->fronts[i]);
+            free(w->fronts[i].states);
+            free(w->fronts[i].counts);
+        }
+        if (w->onwards) {
+            clear_onward(&w->onwards[i]);
+            free(w->onwards[i].houses);
+        }
+    }
+    free(w->fronts);
+    free(w->onwards);
+    mpz_clear(w->one);
+}
+
+static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_error *error)
+{
+    *w = (tn_plan_walk){.houses = h, .length = length};
+    mpz_init_set_ui(w->one, 1);
+    w->fronts = calloc(h->kind_count + 1, sizeof *w->fronts);
+    w->onwards = calloc(h->kind_count + 1, sizeof *w->onwards);
+    tn_status status = w->fronts && w->onwards ? make_ranked(h, error) : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+        status = add_state(&w->fronts[i], TN_STRIP_NONE, w->one, 1, error);
+    return status;
+}
+
+/* ---- houses ahead of a tray */
+
+typedef struct tn_summing_up {
+    const tn_plan_walk *walk;
+    const tn_houses_kind *kind;
+    uint32_t plan;
+    mpz_ptr count; /* choices that lead here */
+    mpz_ptr sum;
+    mpz_t one;
+} tn_summing_up;
+
+static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error)
+{
+    tn_summing_up *s = context;
+    const tn_houses *h = s->walk->houses;
+    const tn_houses_layer *layer = &s->kind->layers[s->walk->layer + 1];
+    uint32_t node = tn_number_find(&layer->nodes, (uint64_t)s->plan << 32 | state);
+    (void)faced;
+    (void)error;
+    if (node == UINT32_MAX)
+        return TN_OK;
+    mpz_mul_ui(s->one, layer->ahead[(size_t)node * tn_houses_lengths(h) + s->walk->length - h->low], times);
+    mpz_addmul(s->sum, s->one, s->count);
+    return TN_OK;
+}
+
+static tn_status onward(tn_plan_walk *w, size_t kind, uint32_t slice, uint32_t plan, mpz_ptr *sum, tn_error *error)
+{
+    tn_onward *o = &w->onwards[kind];
+    uint32_t before = o->keys.count;
+    if (!tn_array_reserve(&o->houses, &o->room, before, 1, sizeof *o->houses))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&o->keys, (uint64_t)slice << 32 | plan);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at < before) {
+        *sum = o->houses[at];
+        return TN_OK;
+    }
+    mpz_init(o->houses[at]);
+    *sum = o->houses[at];
+    tn_houses_kind *k = &w->houses->kinds[kind];
+    tn_summing_up s = {.walk = w, .kind = k, .plan = plan, .sum = *sum};
+    tn_status status = TN_OK;
+    mpz_init(s.one);
+    for (size_t i = 0; status == TN_OK && i < w->fronts[kind].count; i++) {
+        s.count = w->fronts[kind].counts[i];
+        status = tn_strip_step(k->strip, w->fronts[kind].states[i], slice, sum_up, &s, error);
+    }
+    mpz_clear(s.one);
+    return status;
+}
+
+/* Houses whose plans go on with this tray. */
+static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error *error)
+{
+    const tn_houses *h = w->houses;
+    uint32_t plan = tn_library_next(h->plans, w->plan, tray);
+    tn_status status = TN_OK;
+    mpz_set_ui(houses, 0);
+    if (!tn_library_lives(h->plans, w->length - w->layer - 1, plan))
+        return status;
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
+        const tn_strip_list *list = &h->kinds[i].strip->of_tray[tray];
+        for (size_t k = 0; status == TN_OK && k < list->count; k++) {
+            mpz_ptr sum;
+            status = onward(w, i, list->items[k].slice, plan, &sum, error);
+            if (status != TN_OK)
+                continue;
+            mpz_mul_ui(w->one, sum, list->items[k].times);
+            mpz_addmul_ui(houses, w->one, h->kinds[i].sections);
+        }
+    }
+    return status;
+}
+
+/* ---- going on by a tray */
+
+typedef struct tn_going_on {
+    tn_houses_front *next;
+    mpz_ptr count;
+    uint64_t times; /* of the slice */
+    mpz_t one;
+} tn_going_on;
+
+static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error)
+{
+    tn_going_on *g = context;
+    (void)faced;
+    mpz_mul_ui(g->one, g->count, times);
+    return add_state(g->next, state, g->one, g->times, error);
+}
+
+static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < w->houses->kind_count; i++) {
+        tn_strip *strip = w->houses->kinds[i].strip;
+        const tn_strip_list *list = &strip->of_tray[tray];
+        tn_houses_front next = {0};
+        tn_going_on g = {.next = &next};
+        mpz_init(g.one);
+        for (size_t k = 0; status == TN_OK && k < list->count; k++)
+            for (size_t n = 0; status == TN_OK && n < w->fronts[i].count; n++) {
+                g.count = w->fronts[i].counts[n];
+                g.times = list->items[k].times;
+                status = tn_strip_step(strip, w->fronts[i].states[n], list->items[k].slice, go_to, &g, error);
+            }
+        mpz_clear(g.one);
+        clear_front(&w->fronts[i]);
+        free(w->fronts[i].states);
+        free(w->fronts[i].counts);
+        w->fronts[i] = next;
+        clear_onward(&w->onwards[i]);
+    }
+    w->plan = tn_library_next(w->houses->plans, w->plan, tray);
+    w->layer++;
+    return status;
+}
+
+/* ---- ranks */
+
+tn_status tn_houses_before(tn_houses *h, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error)
+{
+    tn_plan_walk w;
+    mpz_t houses;
+    mpz_init(houses);
+    mpz_set_ui(before, 0);
+    for (uint32_t k = h->low; k < length; k++) {
+        tn_houses_count(h, k, houses);
+        mpz_add(before, before, houses);
+    }
+    tn_status status = walk_begin(h, length, &w, error);
+    for (uint32_t i = 0; status == TN_OK && i < length; i++) {
+        for (tn_tray t = 0; status == TN_OK && t < trays[i]; t++) {
+            status = houses_by(&w, t, houses, error);
+            mpz_add(before, before, houses);
+        }
+        if (status == TN_OK)
+            status = go_on(&w, trays[i], error);
+    }
+    walk_end(&w);
+    mpz_clear(houses);
+    return status;
+}
+
+/* The length of the plan; rank becomes that among the houses of this length. */
+static bool find_length(const tn_houses *h, mpz_t rank, uint32_t *length)
+{
+    mpz_t houses;
+    bool found = false;
+    mpz_init(houses);
+    for (uint32_t k = h->low; !found && k <= h->high; k++) {
+        tn_houses_count(h, k, houses);
+        *length = k;
+        found = mpz_cmp(rank, houses) < 0;
+        if (!found)
+            mpz_sub(rank, rank, houses);
+    }
+    mpz_clear(houses);
+    return found;
+}
+
+static tn_status find_tray(tn_plan_walk *w, mpz_t rank, tn_tray *tray, tn_error *error)
+{
+    mpz_t houses;
+    mpz_init(houses);
+    tn_status status = TN_OK;
+    for (*tray = 0; *tray < w->houses->form->schema->tray_count; ++*tray) {
+        status = houses_by(w, *tray, houses, error);
+        if (status != TN_OK || mpz_cmp(rank, houses) < 0)
+            break;
+        mpz_sub(rank, rank, houses);
+    }
+    mpz_clear(houses);
+    return status;
+}
+
+tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error)
+{
+    tn_plan_walk w;
+    if (!find_length(h, rank, length)) {
+        tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has fewer houses than that");
+        tn_error_help(error, "`tartan count` says how many; ranks count from 0");
+        return status;
+    }
+    tn_status status = walk_begin(h, *length, &w, error);
+    for (uint32_t i = 0; status == TN_OK && i < *length; i++) {
+        status = find_tray(&w, rank, &trays[i], error);
+        if (status == TN_OK)
+            status = go_on(&w, trays[i], error);
+    }
+    walk_end(&w);
+    return status;
+}

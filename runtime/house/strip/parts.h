@@ -1,0 +1,252 @@
+/* What a tn_strip is made of: the houses of one section, read tray by tray. Internal to runtime/house/strip.
+ *
+ * A slice is a tray with functions and what is in its inner faces (back, front, between storeys), as far as anything
+ * can tell it apart. An edge is what a slice shows its neighbours: cells with their functions, and where walls across
+ * end. A plane is what can stand between two edges: its outcomes, each with the number of choices that have it. A state
+ * is what has to be known after a slice whose right side is not decided: edge, tiles that wait for that side, rooms,
+ * walks, and the states of the clauses. Everything is numbered by what it is (tn_interner), so that equal things are
+ * one.
+ */
+#ifndef TARTAN_HOUSE_STRIP_PARTS_H
+#define TARTAN_HOUSE_STRIP_PARTS_H
+
+#include "runtime/base/int128.h"
+#include "runtime/house/house.h"
+#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/match/lower.h"
+#include "runtime/plan/match/uses.h"
+
+#define TN_STRIP_NONE UINT32_MAX       /* no edge: the house begins or ends */
+#define TN_STRIP_CELLS_MAX 60u         /* of a tray: sets of cells are words */
+#define TN_STRIP_MEETINGS_MAX 30u      /* that clauses walk by */
+#define TN_STRIP_QUESTIONS_MAX 32u     /* about rooms */
+#define TN_STRIP_KINDS_MAX 64u         /* that these ask for */
+#define TN_STRIP_LETTERS_MAX 65536u    /* of a clause */
+#define TN_STRIP_CHOICES_MAX 4000000u  /* of a tray's functions and faces, or of a plane's */
+#define TN_STRIP_OBJECTS_MAX 20000000u /* slices, planes, states */
+
+/* ---- questions.c: what clauses and face lines ask */
+
+typedef struct tn_strip_room {
+    uint32_t function;   /* of kind ROOM */
+    uint64_t all, kinds; /* which of the ALL_CELLS functions and the kinds below it asks for */
+    bool area, cells;
+} tn_strip_room;
+
+typedef struct tn_strip_questions {
+    uint32_t *decisions; /* functions of kind CELL that are asked of cells at a plane, or of cells of rooms */
+    size_t decision_count, decision_room;
+    uint32_t meetings[64]; /* MEETING records that MEETS asks for */
+    uint32_t meeting_count;
+    uint32_t walks[TN_STRIP_MEETINGS_MAX]; /* MEETING records that APART asks for */
+    uint32_t walk_count;
+    tn_strip_room rooms[TN_STRIP_QUESTIONS_MAX];
+    uint32_t room_count;
+    uint32_t all[64]; /* decisions that rooms ask of all cells */
+    uint32_t all_count;
+    uint32_t kinds[TN_STRIP_KINDS_MAX];
+    uint32_t kind_count;
+    tn_int128 area_most; /* more than this is not told apart */
+    uint32_t cells_most;
+} tn_strip_questions;
+
+/* ---- clause.c */
+
+/* An instruction about houses that a clause depends on. radix: how many values a letter has for it that are known only
+ * at the right side of the tray; 1: none. */
+typedef struct tn_strip_atom {
+    tn_instruction op;
+    uint32_t of; /* MEETS: of `meetings`; APART: of `walks`; SOME_ROOM, ROOMS: of `rooms` */
+    uint32_t radix;
+} tn_strip_atom;
+
+/* What a slice is to one clause: {class of its tray, then a word or four for each atom}. */
+typedef struct tn_strip_clause {
+    uint32_t holds; /* function */
+    bool prunes;
+    tn_classes *classes; /* of trays */
+    tn_strip_atom *atoms;
+    size_t atom_count, atom_room;
+    uint32_t radix;    /* letters of one base: the product over the atoms */
+    tn_interner bases; /* of slices */
+    tn_dfa *dfa;       /* of what the clause keeps, over letters base * radix + value */
+    uint32_t dead;     /* its state that keeps nothing, or TN_NO_STATE */
+} tn_strip_clause;
+
+/* ---- edges, slices, planes */
+
+typedef struct tn_strip_cell {
+    int64_t y0, y1;
+    uint32_t storey, function;
+    bool open, tiled;
+} tn_strip_cell;
+
+/* inner: what is in the inner faces of the house of one tray, in their order, of the first slice that has the edge. */
+typedef struct tn_strip_edge {
+    tn_tray tray;
+    uint32_t count; /* cells */
+    tn_strip_cell *cells;
+    uint64_t *answers; /* [count][answer_words] of the decisions */
+    uint32_t *inner;
+    size_t inner_count;
+} tn_strip_edge;
+
+/* One of a tray's slices, and how many choices have it. */
+typedef struct tn_strip_choice {
+    uint32_t slice;
+    uint64_t times;
+} tn_strip_choice;
+
+typedef struct tn_strip_list {
+    tn_strip_choice *items; /* by slice: of a tray; by outcome: of a plane */
+    size_t count, room;
+    bool made;
+} tn_strip_list;
+
+/* Words of a slice's key: EDGE, then CELL_WORDS for each cell, then the number of its steps and STEP_WORDS for each,
+ * then the base of each clause. */
+enum { SLICE_EDGE, SLICE_CELLS };
+enum { CELL_TILE, CELL_AREA, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
+enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
+
+/* Words of an outcome's key: the meetings across the plane (two words), the number of steps and STEP_WORDS for each,
+ * then SIDE_WORDS for each cell of the left and of the right edge. */
+enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_WORDS };
+
+/* Planes that were crossed by rooms or a walk, and what came of it. */
+typedef struct tn_strip_crossings {
+    tn_numbering keys[3]; /* {before, left edge}, {that, outcome}, {that, slice} */
+    uint32_t *results;
+    size_t room;
+} tn_strip_crossings;
+
+typedef struct tn_strip {
+    const tn_house_form *form;
+    const tn_house_library_record *library;
+    uint32_t shapes[TN_CHOICES_MAX];
+    uint32_t trays_most;
+    tn_watch *watch;
+    tn_strip_questions questions;
+    size_t answer_words;
+    bool *tiled; /* [functions] */
+    tn_strip_clause *clauses;
+    uint32_t clause_count;
+    tn_strip_list *of_tray; /* [trays of the schema] */
+    tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
+    tn_strip_edge *edges;
+    size_t edge_room;
+    tn_numbering plane_keys;
+    tn_strip_list *planes;
+    size_t plane_room;
+    tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
+    uint32_t *fits;           /* [fit_keys[1]]: tiles */
+    size_t fit_room;
+    tn_strip_crossings crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX];
+    tn_key key, joined; /* scratch */
+    uint32_t *scratch;  /* [clauses] */
+} tn_strip;
+
+/* ---- strip.c */
+
+/* The houses of the section, on trays of these and up to so many. Free with tn_strip_free, also after a failure. */
+tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
+                       const bool *trays, uint32_t trays_most, tn_strip **strip, tn_error *error);
+void tn_strip_free(tn_strip *strip);
+
+/* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */
+const char *tn_strip_dearest(const tn_strip *strip);
+
+static inline uint32_t tn_low(uint64_t word)
+{
+    return (uint32_t)word;
+}
+
+static inline uint32_t tn_high(uint64_t word)
+{
+    return (uint32_t)(word >> 32);
+}
+
+static inline uint64_t tn_both(const uint32_t *words)
+{
+    return words[0] | (uint64_t)words[1] << 32;
+}
+
+static inline bool tn_push_long(tn_key *key, uint64_t word)
+{
+    return tn_key_push(key, tn_low(word)) && tn_key_push(key, tn_high(word));
+}
+
+static inline bool tn_edge_answers(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell, size_t decision)
+{
+    return edge->answers[cell * strip->answer_words + decision / 64] >> decision % 64 & 1;
+}
+
+tn_status tn_strip_limit(const tn_strip *strip, const char *clause, const char *what, tn_error *error);
+
+/* Finds them. TN_LIMIT (E1640) where there are too many, or one that is not known here, with the clause. */
+tn_status tn_strip_ask(tn_strip *strip, tn_error *error);
+size_t tn_strip_decision(const tn_strip *strip, uint32_t function); /* its place among the decisions */
+
+/* ---- slice.c */
+
+/* Makes the slices of a tray, if they are not made. */
+tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
+
+/* ---- plane.c */
+
+/* The outcomes between two edges; TN_STRIP_NONE: the outside. */
+tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error);
+uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind); /* the bit of a kind that rooms ask for */
+
+/* May one step through this face on walk w? */
+bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk);
+bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting);
+bool tn_strip_joins(const tn_house *house, const tn_face *face);
+
+/* ---- fit.c */
+
+/* What of a cell's own walls matters to its tiles, and what of a side. 0: nothing does. */
+tn_status tn_strip_fit_base(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *base, tn_error *error);
+tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cell, tn_house_side side, int64_t x,
+                            const tn_posts *posts, uint32_t *fit, tn_error *error);
+
+/* How many tiles fit. */
+tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles, tn_error *error);
+
+/* ---- rooms.c, walks.c: what is known before and after a plane */
+
+typedef struct tn_strip_crossing {
+    const tn_strip_edge *left, *right; /* NULL: the outside */
+    const uint32_t *slice;             /* of the right one, its key */
+    const uint32_t *outcome;
+} tn_strip_crossing;
+
+/* closed: [questions about rooms] how many rooms end at the plane and are so. */
+tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_crossing *crossing, uint32_t *after,
+                               uint32_t *closed, tn_error *error);
+
+/* apart: does a source turn out to be apart from all goals? */
+tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *crossing,
+                              uint32_t *after, bool *apart, tn_error *error);
+
+/* ---- clause.c */
+
+tn_status tn_strip_clauses_new(tn_strip *strip, tn_error *error);
+void tn_strip_clauses_free(tn_strip *strip);
+
+/* What the house of one tray is to a clause. */
+tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house *house, uint32_t *base,
+                        tn_error *error);
+
+/* When all slices are made: their automata. */
+tn_status tn_strip_lower(tn_strip *strip, tn_error *error);
+
+/* ---- step.c */
+
+/* Calls `seen` for each state after another slice (TN_STRIP_NONE: the end, and the state 0), with the number of choices
+ * that lead there, and that of those that differ in more than tiles. state: TN_STRIP_NONE before the first slice. */
+typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error);
+tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
+                        tn_error *error);
+
+#endif

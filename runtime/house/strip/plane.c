@@ -1,0 +1,230 @@
+/* Finds what can stand in the plane between two edges, or where the row begins and ends. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/rule/asked.h"
+#include "runtime/house/strip/parts.h"
+
+uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind)
+{
+    for (uint32_t i = 0; i < strip->questions.kind_count; i++)
+        if (strip->questions.kinds[i] == kind)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk)
+{
+    return tn_house_is_step(house, &strip->form->module->MEETING_records[strip->questions.walks[walk]], face);
+}
+
+bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting)
+{
+    return tn_face_meets(house, &strip->form->module->MEETING_records[strip->questions.meetings[meeting]], face);
+}
+
+bool tn_strip_joins(const tn_house *house, const tn_face *face)
+{
+    if (face->second == TN_NO_CELL || face->kind != TN_FACE_OPEN)
+        return false;
+    const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
+    return !a->open && !b->open && a->function == b->function;
+}
+
+/* ---- the house of the two trays */
+
+typedef struct tn_crossing_house {
+    tn_strip *strip;
+    uint32_t left_cells; /* those of the left edge come first */
+    bool has_left, has_right;
+    tn_house house;
+    uint32_t *faces; /* those in the plane */
+    size_t count;
+    int64_t x;
+    tn_numbering found;
+    tn_strip_list *list;
+} tn_crossing_house;
+
+static bool in_plane(const tn_crossing_house *c, const tn_face *face)
+{
+    return face->at.x0 == c->x && face->at.x1 == c->x;
+}
+
+static void furnish(tn_crossing_house *c, const tn_strip_edge *edge, size_t first_cell, size_t *face)
+{
+    for (uint32_t i = 0; i < edge->count; i++)
+        c->house.cells[first_cell + i].function = edge->cells[i].function;
+    for (size_t i = 0; i < edge->inner_count; ++*face) {
+        tn_face *f = &c->house.faces[*face];
+        if (f->relation == TN_FACE_UNDER || f->side == TN_HOUSE_BACK || f->side == TN_HOUSE_FRONT)
+            f->kind = edge->inner[i++];
+    }
+}
+
+static tn_status stand(tn_crossing_house *c, uint32_t left, uint32_t right, tn_error *error)
+{
+    const tn_strip *s = c->strip;
+    tn_tray trays[2];
+    size_t length = 0, face = 0;
+    c->has_left = left != TN_STRIP_NONE;
+    c->has_right = right != TN_STRIP_NONE;
+    if (c->has_left)
+        trays[length++] = s->edges[left].tray;
+    if (c->has_right)
+        trays[length++] = s->edges[right].tray;
+    tn_status status = tn_house_stand(s->form, trays, length, s->shapes, &c->house, error);
+    c->faces = status == TN_OK ? malloc((c->house.face_count + 1) * sizeof *c->faces) : NULL;
+    if (status == TN_OK && !c->faces)
+        status = tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
+    c->left_cells = c->has_left ? s->edges[left].count : 0;
+    if (c->has_left)
+        furnish(c, &s->edges[left], 0, &face);
+    if (c->has_right)
+        furnish(c, &s->edges[right], c->left_cells, &face);
+    c->x = c->has_left ? tn_tray_value_record(s->form->schema, trays[0], s->form->width)->length : 0;
+    for (uint32_t i = 0; i < c->house.face_count; i++)
+        if (in_plane(c, &c->house.faces[i]) && c->house.faces[i].relation != TN_FACE_UNDER)
+            c->faces[c->count++] = i;
+    return TN_OK;
+}
+
+/* ---- outcomes */
+
+static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
+{
+    const tn_strip *s = c->strip;
+    uint64_t meetings = 0;
+    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
+    for (size_t i = 0; ok && i < c->count; i++) {
+        const tn_face *face = &c->house.faces[c->faces[i]];
+        if (face->second == TN_NO_CELL)
+            continue;
+        uint32_t how = s->questions.room_count > 0 && tn_strip_joins(&c->house, face);
+        for (uint32_t w = 0; w < s->questions.walk_count; w++)
+            how |= (uint32_t)tn_strip_steps(s, &c->house, face, w) << (w + 1);
+        for (uint32_t m = 0; m < s->questions.meeting_count; m++)
+            meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
+        if (how == 0)
+            continue;
+        ok = tn_key_push(key, face->first) && tn_key_push(key, face->second - c->left_cells) && tn_key_push(key, how);
+        key->data[2]++;
+    }
+    if (ok) {
+        key->data[0] = tn_low(meetings);
+        key->data[1] = tn_high(meetings);
+    }
+    return ok;
+}
+
+static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_posts posts = {0};
+    uint32_t storey = TN_NO_CELL;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
+        const tn_cell *cell = &c->house.cells[i];
+        uint32_t fit = 0;
+        uint64_t marks = 0;
+        for (size_t k = 0; k < c->count; k++) {
+            const tn_face *face = &c->house.faces[c->faces[k]];
+            marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
+        }
+        bool tiled = !cell->open && s->tiled[cell->function];
+        if (tiled && storey != cell->storey) {
+            free(posts.items);
+            posts = (tn_posts){0};
+            status = tn_house_posts(&c->house, storey = cell->storey, &posts, error);
+        }
+        if (status == TN_OK && tiled)
+            status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x,
+                                       &posts, &fit, error);
+        if (status == TN_OK && (!tn_push_long(key, marks) || !tn_key_push(key, fit)))
+            status = tn_fail_memory(error);
+    }
+    free(posts.items);
+    return status;
+}
+
+static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_key *key = &s->joined;
+    key->size = 0;
+    if (!push_meetings_and_steps(c, key))
+        return tn_fail_memory(error);
+    tn_status status = push_sides(c, key, error);
+    if (status != TN_OK)
+        return status;
+    uint32_t outcome = tn_intern(&s->outcome_keys, key->data, key->size);
+    uint32_t at = outcome == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, outcome);
+    if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 1, at, 1, sizeof *c->list->items))
+        return tn_fail_memory(error);
+    if (at == c->list->count)
+        c->list->items[c->list->count++] = (tn_strip_choice){.slice = outcome};
+    c->list->items[at].times++;
+    return TN_OK;
+}
+
+typedef struct tn_plane_wheel {
+    uint32_t count, at, kinds[TN_FACE_KINDS_MAX];
+} tn_plane_wheel;
+
+static bool turn(tn_plane_wheel *wheels, size_t count)
+{
+    for (size_t i = count; i-- > 0;) {
+        if (++wheels[i].at < wheels[i].count)
+            return true;
+        wheels[i].at = 0;
+    }
+    return false;
+}
+
+static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
+{
+    tn_plane_wheel *wheels = malloc((c->count + 1) * sizeof *wheels);
+    uint64_t tried = 0;
+    if (!wheels)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < c->count; i++) {
+        wheels[i].at = 0;
+        wheels[i].count = (uint32_t)tn_face_options(&c->house, &c->house.faces[c->faces[i]], wheels[i].kinds);
+    }
+    tn_status status = TN_OK;
+    do {
+        for (size_t i = 0; i < c->count; i++)
+            c->house.faces[c->faces[i]].kind = wheels[i].kinds[wheels[i].at];
+        status = ++tried <= TN_STRIP_CHOICES_MAX
+                     ? add_outcome(c, error)
+                     : tn_strip_limit(c->strip, NULL, "two trays have more than 4,000,000 choices between them", error);
+    } while (status == TN_OK && turn(wheels, c->count));
+    free(wheels);
+    return status;
+}
+
+tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error)
+{
+    uint32_t before = strip->plane_keys.count;
+    if (!tn_array_reserve(&strip->planes, &strip->plane_room, before, 1, sizeof *strip->planes))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&strip->plane_keys, (uint64_t)left << 32 | right);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        strip->planes[at] = (tn_strip_list){0};
+    *plane = &strip->planes[at];
+    if (strip->planes[at].made)
+        return TN_OK;
+    tn_crossing_house c = {.strip = strip, .list = &strip->planes[at]};
+    tn_status status = stand(&c, left, right, error);
+    if (status == TN_OK)
+        status = add_outcomes(&c, error);
+    strip->planes[at].made = status == TN_OK;
+    tn_house_clear(&c.house);
+    tn_numbering_clear(&c.found);
+    free(c.faces);
+    return status;
+}

@@ -1,0 +1,207 @@
+/* Finds what is asked of houses: decisions on cells, rooms, meetings, walks. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/strip/parts.h"
+
+tn_status tn_strip_limit(const tn_strip *strip, const char *clause, const char *what, tn_error *error)
+{
+    (void)strip;
+    if (clause)
+        tn_fail(error, TN_LIMIT, E_STRIP, "`%.60s` %s: the houses of all plans together cannot be counted", clause,
+                what);
+    else
+        tn_fail(error, TN_LIMIT, E_STRIP, "%s: the houses of all plans together cannot be counted", what);
+    tn_error_help(error, "ask about one plan (--plan PLAN or '#P'), or name a house by #P:V");
+    return TN_LIMIT;
+}
+
+static tn_status add_decision(tn_strip *strip, uint32_t function, tn_error *error)
+{
+    tn_strip_questions *q = &strip->questions;
+    for (size_t i = 0; i < q->decision_count; i++)
+        if (q->decisions[i] == function)
+            return TN_OK;
+    if (!tn_array_reserve(&q->decisions, &q->decision_room, q->decision_count, 1, sizeof *q->decisions))
+        return tn_fail_memory(error);
+    q->decisions[q->decision_count++] = function;
+    return TN_OK;
+}
+
+size_t tn_strip_decision(const tn_strip *strip, uint32_t function)
+{
+    size_t i = 0;
+    while (strip->questions.decisions[i] != function)
+        i++;
+    return i;
+}
+
+static tn_status add_meeting(tn_strip *strip, uint32_t index, tn_error *error)
+{
+    const tn_meeting_record *m = &strip->form->module->MEETING_records[index];
+    tn_status status = add_decision(strip, m->first, error);
+    if (status == TN_OK)
+        status = add_decision(strip, m->second, error);
+    return status == TN_OK && m->through != TN_NO_RECORD ? add_decision(strip, m->through, error) : status;
+}
+
+/* Lines about faces that lie in a plane between trays, or are outside at the end of the row. */
+static tn_status ask_face_lines(tn_strip *strip, tn_error *error)
+{
+    const tn_house_form *form = strip->form;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < form->record->face_count; i++) {
+        const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
+        if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
+            continue;
+        status = add_decision(strip, line->first, error);
+        if (status == TN_OK && line->relation != TN_FACE_OUTSIDE)
+            status = add_decision(strip, line->second, error);
+    }
+    return status;
+}
+
+/* ---- what clauses ask */
+
+typedef struct tn_asking {
+    tn_strip *strip;
+    tn_strip_clause *clause;
+    const char *name;
+} tn_asking;
+
+static uint32_t find(const uint32_t *items, uint32_t count, uint32_t item)
+{
+    uint32_t i = 0;
+    while (i < count && items[i] != item)
+        i++;
+    return i;
+}
+
+static tn_status find_or_add(const tn_asking *a, uint32_t *items, uint32_t *count, uint32_t most, uint32_t item,
+                             uint32_t *at, tn_error *error)
+{
+    *at = find(items, *count, item);
+    if (*at == *count && *count == most)
+        return tn_strip_limit(a->strip, a->name, "asks for more than can be told apart at once", error);
+    items[*at] = item;
+    *count += *at == *count;
+    return TN_OK;
+}
+
+/* One instruction about a room. */
+static tn_status add_room_part(const tn_asking *a, const tn_instruction *op, tn_strip_room *room, tn_error *error)
+{
+    tn_strip_questions *q = &a->strip->questions;
+    uint32_t at;
+    tn_status status;
+    tn_int128 most = (tn_int128)op->second * 1000000 + 1;
+    switch (op->opcode) {
+    case TN_OP_ALL_CELLS:
+        status = find_or_add(a, q->all, &q->all_count, 64, (uint32_t)op->first, &at, error);
+        room->all |= status == TN_OK ? UINT64_C(1) << at : 0;
+        return status == TN_OK ? add_decision(a->strip, (uint32_t)op->first, error) : status;
+    case TN_OP_HAS_FACE:
+        status = find_or_add(a, q->kinds, &q->kind_count, TN_STRIP_KINDS_MAX, (uint32_t)op->first, &at, error);
+        room->kinds |= status == TN_OK ? UINT64_C(1) << at : 0;
+        return status;
+    case TN_OP_ROOM_AREA:
+        room->area = true;
+        q->area_most = most > q->area_most ? most : q->area_most;
+        return TN_OK;
+    case TN_OP_ROOM_CELLS:
+        room->cells = true;
+        q->cells_most = op->second + 1 > q->cells_most ? (uint32_t)(op->second + 1) : q->cells_most;
+        return TN_OK;
+    case TN_OP_EVERY:
+    case TN_OP_ALL_OF:
+    case TN_OP_ONE_OF:
+    case TN_OP_NONE_OF:
+    case TN_OP_DECIDE:
+        return TN_OK;
+    default:
+        return tn_strip_limit(a->strip, a->name, "asks for more than the cells, the faces and the area of rooms",
+                              error);
+    }
+}
+
+static tn_status add_room(const tn_asking *a, uint32_t function, uint32_t *at, tn_error *error)
+{
+    tn_strip_questions *q = &a->strip->questions;
+    const tn_module *module = a->strip->form->module;
+    for (*at = 0; *at < q->room_count; ++*at)
+        if (q->rooms[*at].function == function)
+            return TN_OK;
+    if (q->room_count == TN_STRIP_QUESTIONS_MAX)
+        return tn_strip_limit(a->strip, a->name, "is about more kinds of rooms than can be told apart at once", error);
+    tn_strip_room *room = &q->rooms[q->room_count++];
+    *room = (tn_strip_room){.function = function};
+    tn_status status = TN_OK;
+    for (uint32_t c = module->FUNCTION_records[function].code_begin;
+         status == TN_OK && c < module->FUNCTION_records[function].code_end;) {
+        tn_instruction op = tn_code_read(module->code, c);
+        status = add_room_part(a, &op, room, error);
+        c += op.length;
+    }
+    return status;
+}
+
+static tn_status add_atom(const tn_asking *a, const tn_instruction *op, uint32_t of, uint32_t radix, tn_error *error)
+{
+    tn_strip_clause *clause = a->clause;
+    for (size_t i = 0; i < clause->atom_count; i++)
+        if (clause->atoms[i].op.opcode == op->opcode && clause->atoms[i].op.first == op->first &&
+            clause->atoms[i].op.second == op->second)
+            return TN_OK;
+    if (!tn_array_reserve_from(&clause->atoms, &clause->atom_room, 4, clause->atom_count, 1, sizeof *clause->atoms))
+        return tn_fail_memory(error);
+    clause->atoms[clause->atom_count++] = (tn_strip_atom){.op = *op, .of = of, .radix = radix};
+    if ((uint64_t)clause->radix * radix > TN_STRIP_LETTERS_MAX)
+        return tn_strip_limit(a->strip, a->name, "asks for too much at once", error);
+    clause->radix *= radix;
+    return TN_OK;
+}
+
+/* Where in the row a room or a walk is, is known too late to be a stretch: whether there is one, is not. */
+static tn_status see(void *context, const tn_instruction *op, tn_relation_use use, tn_error *error)
+{
+    const tn_asking *a = context;
+    tn_strip_questions *q = &a->strip->questions;
+    uint32_t of = 0, radix = 1, first = (uint32_t)op->first;
+    bool counted = op->opcode == TN_OP_ROOMS, late = op->opcode == TN_OP_SOME_ROOM || op->opcode == TN_OP_APART;
+    if ((late && use != TN_USE_SOMEWHERE) || (counted && use != TN_USE_WHOLE))
+        return tn_strip_limit(a->strip, a->name, "asks where in the row a room or a walk is", error);
+    tn_status status = TN_OK;
+    switch (op->opcode) {
+    case TN_OP_SOME_ROOM:
+    case TN_OP_ROOMS:
+        radix = counted ? TN_STRIP_CELLS_MAX + 1 : 2;
+        status = add_room(a, first, &of, error);
+        break;
+    case TN_OP_MEETS:
+    case TN_OP_APART:
+        radix = 2;
+        status = late ? find_or_add(a, q->walks, &q->walk_count, TN_STRIP_MEETINGS_MAX, first, &of, error)
+                      : find_or_add(a, q->meetings, &q->meeting_count, 64, first, &of, error);
+        if (status == TN_OK)
+            status = add_meeting(a->strip, first, error);
+        break;
+    default:
+        break;
+    }
+    return status == TN_OK ? add_atom(a, op, of, radix, error) : status;
+}
+
+tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
+{
+    const tn_module *module = strip->form->module;
+    tn_status status = ask_face_lines(strip, error);
+    for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
+        tn_strip_clause *clause = &strip->clauses[i];
+        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
+        tn_asking asking = {strip, clause, tn_text(module, record->name)};
+        status = tn_rule_uses(module, clause->holds, see, &asking, error);
+    }
+    strip->answer_words = strip->questions.decision_count / 64 + 1;
+    return status;
+}

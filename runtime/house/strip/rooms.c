@@ -1,0 +1,233 @@
+/* Follows rooms from tray to tray: which cells at the plane are in one room, and what is known of it.
+ *
+ * What is known only grows, so a question that is decided stays decided, and the rest is forgotten as soon as no open
+ * question needs it. */
+#include <string.h>
+
+#include "runtime/house/rule/outcome.h"
+#include "runtime/house/strip/parts.h"
+
+/* known, truth: a bit for each question. fails: of `all`, what some cell of the room is not. */
+typedef struct tn_known_room {
+    uint64_t known, truth, fails, kinds;
+    tn_int128 area;
+    uint32_t cells;
+} tn_known_room;
+
+enum { ROOM_WORDS = sizeof(tn_known_room) / sizeof(uint32_t) };
+
+/* The rooms of the left edge, then those that begin with a cell of the right one. */
+typedef struct tn_joining {
+    const tn_strip *strip;
+    uint32_t parent[2 * TN_STRIP_CELLS_MAX];
+    tn_known_room rooms[2 * TN_STRIP_CELLS_MAX];
+    uint32_t before;
+} tn_joining;
+
+static uint32_t root_of(tn_joining *j, uint32_t room)
+{
+    while (j->parent[room] != room)
+        room = j->parent[room] = j->parent[j->parent[room]];
+    return room;
+}
+
+static void join(tn_joining *j, uint32_t a, uint32_t b)
+{
+    a = root_of(j, a);
+    b = root_of(j, b);
+    if (a == b)
+        return;
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    tn_known_room *to = &j->rooms[low], *from = &j->rooms[high];
+    j->parent[high] = low;
+    to->known |= from->known;
+    to->truth |= from->truth;
+    to->fails |= from->fails;
+    to->kinds |= from->kinds;
+    to->area += from->area;
+    to->cells += from->cells;
+}
+
+/* ---- questions */
+
+typedef struct tn_asked_known {
+    const tn_strip_questions *questions;
+    const tn_known_room *room;
+    bool whole; /* nothing is added to the room any more */
+} tn_asked_known;
+
+static uint64_t bit_of(const uint32_t *items, uint32_t count, uint32_t item)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (items[i] == item)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+/* Of a number that only grows: what it is compared with cannot be undone. */
+static tn_outcome compare(tn_int128 number, const tn_instruction *op, bool whole)
+{
+    bool now = tn_area_compares(number, op->first, op->second);
+    bool above = number > (tn_int128)op->second * 1000000;
+    return whole || above                         ? (now ? TN_OUTCOME_TRUE : TN_OUTCOME_FALSE)
+           : op->first == TN_AREA_AT_LEAST && now ? TN_OUTCOME_TRUE
+           : op->first == TN_AREA_LESS && !now    ? TN_OUTCOME_FALSE
+                                                  : TN_OUTCOME_OPEN;
+}
+
+static tn_outcome ask(const void *context, const tn_instruction *op)
+{
+    enum { SQUARE_MICROMETRE = 1000000 };
+    const tn_asked_known *a = context;
+    const tn_strip_questions *q = a->questions;
+    switch (op->opcode) {
+    case TN_OP_EVERY:
+        return TN_OUTCOME_TRUE;
+    case TN_OP_ALL_CELLS:
+        return a->room->fails & bit_of(q->all, q->all_count, (uint32_t)op->first) ? TN_OUTCOME_FALSE
+               : a->whole                                                         ? TN_OUTCOME_TRUE
+                                                                                  : TN_OUTCOME_OPEN;
+    case TN_OP_HAS_FACE:
+        return a->room->kinds & bit_of(q->kinds, q->kind_count, (uint32_t)op->first) ? TN_OUTCOME_TRUE
+               : a->whole                                                            ? TN_OUTCOME_FALSE
+                                                                                     : TN_OUTCOME_OPEN;
+    case TN_OP_ROOM_AREA:
+        return compare(a->room->area, op, a->whole);
+    case TN_OP_ROOM_CELLS:
+        return compare((tn_int128)a->room->cells * SQUARE_MICROMETRE, op, a->whole);
+    default:
+        return TN_OUTCOME_FALSE;
+    }
+}
+
+/* Decides what can be decided, and forgets what is not needed for the rest. */
+static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
+{
+    const tn_strip_questions *q = &strip->questions;
+    tn_asked_known asked = {q, room, whole};
+    uint64_t all = 0, kinds = 0;
+    bool area = false, cells = false;
+    for (uint32_t i = 0; i < q->room_count; i++) {
+        if (room->known >> i & 1)
+            continue;
+        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        room->known |= (uint64_t)(outcome != TN_OUTCOME_OPEN) << i;
+        room->truth |= (uint64_t)(outcome == TN_OUTCOME_TRUE) << i;
+        if (outcome != TN_OUTCOME_OPEN)
+            continue;
+        all |= q->rooms[i].all;
+        kinds |= q->rooms[i].kinds;
+        area |= q->rooms[i].area;
+        cells |= q->rooms[i].cells;
+    }
+    room->fails &= all;
+    room->kinds &= kinds;
+    room->area = !area ? 0 : room->area > q->area_most ? q->area_most : room->area;
+    room->cells = !cells ? 0 : room->cells > q->cells_most ? q->cells_most : room->cells;
+}
+
+/* ---- a plane */
+
+static tn_int128 area_of(const tn_strip *strip, uint32_t number)
+{
+    size_t size;
+    const uint32_t *words = tn_interned(&strip->areas, number, &size);
+    tn_int128 area = 0;
+    for (size_t i = 0; i < 4; i++)
+        area |= (tn_int128)words[i] << 32 * i;
+    return area;
+}
+
+static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, uint64_t marks)
+{
+    const uint32_t *words = c->slice + SLICE_CELLS + CELL_WORDS * cell;
+    const tn_strip_questions *q = &j->strip->questions;
+    uint32_t room = j->before + cell;
+    tn_known_room *known = &j->rooms[room];
+    memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
+    j->parent[room] = room;
+    known->kinds = marks | tn_both(words + CELL_MARKS);
+    if (c->right->cells[cell].open)
+        return;
+    known->cells = 1;
+    known->area = area_of(j->strip, words[CELL_AREA]);
+    for (uint32_t i = 0; i < q->all_count; i++)
+        known->fails |= (uint64_t)!tn_edge_answers(j->strip, c->right, cell, tn_strip_decision(j->strip, q->all[i]))
+                        << i;
+}
+
+/* The rooms before, with the faces of their last cells. */
+static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t *state, const uint32_t *sides)
+{
+    uint32_t cells = c->left ? c->left->count : 0;
+    j->before = c->left ? state[cells] : 0;
+    for (uint32_t r = 0; r < j->before; r++) {
+        j->parent[r] = r;
+        memcpy(&j->rooms[r], state + cells + 1 + (size_t)r * ROOM_WORDS, sizeof j->rooms[r]);
+    }
+    for (uint32_t i = 0; i < cells; i++)
+        j->rooms[state[i]].kinds |= tn_both(sides + SIDE_WORDS * i + SIDE_MARKS);
+}
+
+static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *after, tn_error *error)
+{
+    uint32_t number[2 * TN_STRIP_CELLS_MAX], count = 0;
+    tn_key *key = &strip->key;
+    bool ok = true;
+    key->size = 0;
+    memset(number, 0xff, sizeof number);
+    for (uint32_t i = 0; ok && i < cells; i++) {
+        uint32_t root = root_of(j, j->before + i);
+        number[root] = number[root] == UINT32_MAX ? count++ : number[root];
+        ok = tn_key_push(key, number[root]);
+    }
+    ok = ok && tn_key_push(key, count);
+    for (uint32_t next = 0, i = 0; ok && next < count; i++) {
+        uint32_t root = root_of(j, j->before + i), words[ROOM_WORDS];
+        if (number[root] != next)
+            continue;
+        next++;
+        settle(strip, &j->rooms[root], false);
+        memcpy(words, &j->rooms[root], sizeof words);
+        for (size_t w = 0; ok && w < ROOM_WORDS; w++)
+            ok = tn_key_push(key, words[w]);
+    }
+    *after = ok ? tn_intern(&strip->rooms, key->data, key->size) : UINT32_MAX;
+    return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+/* Rooms without a cell behind the plane are whole. */
+static void close_rooms(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *closed)
+{
+    bool live[2 * TN_STRIP_CELLS_MAX] = {false};
+    for (uint32_t i = 0; i < cells; i++)
+        live[root_of(j, j->before + i)] = true;
+    for (uint32_t r = 0; r < j->before; r++) {
+        if (j->parent[r] != r || live[r])
+            continue;
+        settle(strip, &j->rooms[r], true);
+        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+            closed[q] += j->rooms[r].truth >> q & 1;
+    }
+}
+
+tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_crossing *c, uint32_t *after,
+                               uint32_t *closed, tn_error *error)
+{
+    size_t size;
+    memset(closed, 0, strip->questions.room_count * sizeof *closed);
+    tn_joining j = {.strip = strip};
+    uint32_t left = c->left ? c->left->count : 0, right = c->right ? c->right->count : 0;
+    const uint32_t *steps = c->outcome + 3, *sides = steps + (size_t)STEP_WORDS * c->outcome[2];
+    begin_left(&j, c, c->left ? tn_interned(&strip->rooms, before, &size) : NULL, sides);
+    const uint32_t *state = c->left ? tn_interned(&strip->rooms, before, &size) : NULL;
+    for (uint32_t i = 0; i < right; i++)
+        begin_cell(&j, c, i, tn_both(sides + SIDE_WORDS * (left + i) + SIDE_MARKS));
+    for (uint32_t i = 0; i < right; i++)
+        join(&j, j.before + i, j.before + c->slice[SLICE_CELLS + CELL_WORDS * i + CELL_ROOM]);
+    for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)
+        if (steps[STEP_HOW] & 1)
+            join(&j, state[steps[STEP_FROM]], j.before + steps[STEP_TO]);
+    close_rooms(strip, &j, right, closed);
+    return leave(strip, &j, right, after, error);
+}

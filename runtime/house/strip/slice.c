@@ -1,0 +1,273 @@
+/* Makes the slices of a tray: its cells' functions and what is in its inner faces, one combination after another. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/strip/parts.h"
+
+/* A tray that is being cut: each wheel is a cell's functions or an inner face's kinds. */
+typedef struct tn_cutting {
+    tn_strip *strip;
+    tn_tray tray;
+    tn_house house; /* of this tray alone */
+    tn_numbering found;
+    tn_strip_list *list;
+    uint64_t tried;
+} tn_cutting;
+
+typedef struct tn_options {
+    uint32_t of, count, at;
+    uint32_t items[TN_CELL_RULES_MAX > TN_FACE_KINDS_MAX ? TN_CELL_RULES_MAX : TN_FACE_KINDS_MAX];
+} tn_options;
+
+static bool is_inner(const tn_face *face)
+{
+    return face->relation == TN_FACE_UNDER || face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
+}
+
+/* ---- edges */
+
+static bool push_cells(tn_cutting *c, tn_key *key)
+{
+    tn_strip *s = c->strip;
+    bool ok = tn_key_push(key, (uint32_t)c->house.cell_count);
+    for (size_t i = 0; ok && i < c->house.cell_count; i++) {
+        const tn_cell *cell = &c->house.cells[i];
+        ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
+             tn_key_push(key, cell->storey << 1 | cell->open) && tn_key_push(key, cell->function);
+        for (size_t w = 0; ok && w < s->answer_words; w++) {
+            uint64_t word = 0;
+            for (size_t d = 64 * w; d < s->questions.decision_count && d < 64 * w + 64; d++)
+                word |= (uint64_t)tn_house_decide(&c->house, s->questions.decisions[d], cell) << d % 64;
+            ok = tn_push_long(key, word);
+        }
+    }
+    return ok;
+}
+
+/* Walls across end at the planes on both sides of the tray. */
+static bool push_ends(tn_cutting *c, tn_key *key)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < c->house.face_count; i++) {
+        const tn_face *face = &c->house.faces[i];
+        int64_t thick = face->relation == TN_FACE_UNDER || !is_inner(face) ? 0 : tn_face_thickness(&c->house, face);
+        if (thick > 0)
+            ok = tn_key_push(key, face->storey) && tn_push_long(key, (uint64_t)face->at.y0) &&
+                 tn_push_long(key, (uint64_t)thick);
+    }
+    return ok;
+}
+
+/* The edge's cells, read back from its key; what is in the inner faces, from the house at hand. */
+static bool keep_edge(tn_cutting *c, tn_strip_edge *edge)
+{
+    tn_strip *s = c->strip;
+    size_t count = c->house.cell_count;
+    *edge = (tn_strip_edge){.tray = c->tray, .count = (uint32_t)count};
+    edge->cells = malloc((count + 1) * sizeof *edge->cells);
+    edge->answers = malloc((count * s->answer_words + 1) * sizeof *edge->answers);
+    edge->inner = malloc((c->house.face_count + 1) * sizeof *edge->inner);
+    if (!edge->cells || !edge->answers || !edge->inner)
+        return false;
+    const uint32_t *words = s->key.data + 1;
+    for (size_t i = 0; i < count; i++, words += 6 + 2 * s->answer_words) {
+        const tn_cell *cell = &c->house.cells[i];
+        edge->cells[i] = (tn_strip_cell){cell->at.y0,    cell->at.y1, cell->storey,
+                                         cell->function, cell->open,  !cell->open && s->tiled[cell->function]};
+        for (size_t w = 0; w < s->answer_words; w++)
+            edge->answers[i * s->answer_words + w] = tn_both(words + 6 + 2 * w);
+    }
+    for (size_t i = 0; i < c->house.face_count; i++)
+        if (is_inner(&c->house.faces[i]))
+            edge->inner[edge->inner_count++] = c->house.faces[i].kind;
+    return true;
+}
+
+static tn_status find_edge(tn_cutting *c, uint32_t *edge, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    uint32_t before = s->edge_keys.count;
+    s->key.size = 0;
+    if (!push_cells(c, &s->key) || !push_ends(c, &s->key))
+        return tn_fail_memory(error);
+    if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
+        return tn_fail_memory(error);
+    *edge = tn_intern(&s->edge_keys, s->key.data, s->key.size);
+    if (*edge == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*edge < before)
+        return TN_OK;
+    return keep_edge(c, &s->edges[*edge]) ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- slices */
+
+/* The kinds in the inner faces of a cell, as far as rooms ask for them. */
+static uint64_t inner_marks(const tn_cutting *c, uint32_t cell)
+{
+    uint64_t marks = 0;
+    for (size_t i = 0; i < c->house.face_count; i++) {
+        const tn_face *face = &c->house.faces[i];
+        if (is_inner(face) && (face->first == cell || face->second == cell))
+            marks |= tn_strip_marks(c->strip, face->kind);
+    }
+    return marks;
+}
+
+static uint32_t area_of(tn_cutting *c, const tn_cell *cell)
+{
+    uint32_t words[4];
+    tn_int128 area = c->strip->questions.area_most > 0 && !cell->open ? tn_cell_area(cell) : 0;
+    for (size_t i = 0; i < 4; i++)
+        words[i] = (uint32_t)(area >> 32 * i);
+    return tn_intern(&c->strip->areas, words, 4);
+}
+
+static tn_status push_inner_cells(tn_cutting *c, tn_key *key, tn_error *error)
+{
+    uint32_t *rooms = NULL;
+    tn_status status = tn_house_rooms(&c->house, &rooms, error);
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
+        uint32_t base = 0;
+        if (!c->house.cells[i].open && c->strip->tiled[c->house.cells[i].function])
+            status = tn_strip_fit_base(c->strip, &c->house, i, &base, error);
+        uint32_t area = area_of(c, &c->house.cells[i]);
+        if (status == TN_OK && (area == UINT32_MAX || !tn_key_push(key, base) || !tn_key_push(key, area) ||
+                                !tn_push_long(key, inner_marks(c, i)) || !tn_key_push(key, rooms[i])))
+            status = tn_fail_memory(error);
+    }
+    free(rooms);
+    return status;
+}
+
+static bool push_inner_steps(tn_cutting *c, tn_key *key)
+{
+    size_t at = key->size;
+    bool ok = tn_key_push(key, 0);
+    for (size_t i = 0; ok && i < c->house.face_count; i++) {
+        const tn_face *face = &c->house.faces[i];
+        uint32_t how = 0;
+        for (uint32_t w = 0; face->second != TN_NO_CELL && w < c->strip->questions.walk_count; w++)
+            how |= (uint32_t)tn_strip_steps(c->strip, &c->house, face, w) << (w + 1);
+        if (how == 0)
+            continue;
+        ok = tn_key_push(key, face->first) && tn_key_push(key, face->second) && tn_key_push(key, how);
+        key->data[at]++;
+    }
+    return ok;
+}
+
+/* The slice that the house at hand is. */
+static tn_status add_slice(tn_cutting *c, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    uint32_t edge = 0, base = 0;
+    tn_status status = find_edge(c, &edge, error);
+    tn_key *key = &s->joined;
+    key->size = 0;
+    if (status == TN_OK && !tn_key_push(key, edge))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = push_inner_cells(c, key, error);
+    if (status == TN_OK && !push_inner_steps(c, key))
+        status = tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < s->clause_count; i++) {
+        status = tn_strip_base(s, &s->clauses[i], &c->house, &base, error);
+        if (status == TN_OK && !tn_key_push(key, base))
+            status = tn_fail_memory(error);
+    }
+    if (status != TN_OK)
+        return status;
+    uint32_t slice = tn_intern(&s->slice_keys, key->data, key->size);
+    uint32_t at = slice == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, slice);
+    if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 8, at, 1, sizeof *c->list->items))
+        return tn_fail_memory(error);
+    if (at == c->list->count)
+        c->list->items[c->list->count++] = (tn_strip_choice){.slice = slice};
+    c->list->items[at].times++;
+    return TN_OK;
+}
+
+/* ---- combinations */
+
+static bool turn(tn_options *options, size_t count)
+{
+    for (size_t i = count; i-- > 0;) {
+        if (++options[i].at < options[i].count)
+            return true;
+        options[i].at = 0;
+    }
+    return false;
+}
+
+static tn_status cut_faces(tn_cutting *c, tn_error *error)
+{
+    tn_options *options = malloc((c->house.face_count + 1) * sizeof *options);
+    size_t count = 0;
+    if (!options)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < c->house.face_count; i++) {
+        if (!is_inner(&c->house.faces[i]))
+            continue;
+        options[count] = (tn_options){.of = i};
+        options[count].count = (uint32_t)tn_face_options(&c->house, &c->house.faces[i], options[count].items);
+        count++;
+    }
+    tn_status status = TN_OK;
+    do {
+        for (size_t i = 0; i < count; i++)
+            c->house.faces[options[i].of].kind = options[i].items[options[i].at];
+        status = ++c->tried <= TN_STRIP_CHOICES_MAX
+                     ? add_slice(c, error)
+                     : tn_strip_limit(c->strip, NULL, "a tray has more than 4,000,000 choices", error);
+    } while (status == TN_OK && turn(options, count));
+    free(options);
+    return status;
+}
+
+static tn_status cut_functions(tn_cutting *c, tn_error *error)
+{
+    const tn_house_form *form = c->strip->form;
+    tn_options *options = malloc((c->house.cell_count + 1) * sizeof *options);
+    size_t count = 0;
+    bool possible = true;
+    if (!options)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < c->house.cell_count; i++) {
+        if (c->house.cells[i].open)
+            continue;
+        options[count] = (tn_options){.of = i};
+        for (uint32_t f = 0; f < tn_form_functions(form); f++)
+            if (tn_cell_may(&c->house, &c->house.cells[i], f))
+                options[count].items[options[count].count++] = f;
+        possible = possible && options[count].count > 0;
+        count++;
+    }
+    tn_status status = TN_OK;
+    while (possible && status == TN_OK) {
+        for (size_t i = 0; i < count; i++)
+            c->house.cells[options[i].of].function = options[i].items[options[i].at];
+        status = cut_faces(c, error);
+        if (!turn(options, count))
+            break;
+    }
+    free(options);
+    return status;
+}
+
+tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
+{
+    tn_cutting c = {.strip = strip, .tray = tray, .list = &strip->of_tray[tray]};
+    if (c.list->made)
+        return TN_OK;
+    c.list->made = true;
+    tn_status status = tn_house_stand(strip->form, &tray, 1, strip->shapes, &c.house, error);
+    if (status == TN_OK && c.house.cell_count > TN_STRIP_CELLS_MAX)
+        status = tn_strip_limit(strip, NULL, "a tray has more than 60 cells", error);
+    if (status == TN_OK)
+        status = cut_functions(&c, error);
+    tn_house_clear(&c.house);
+    tn_numbering_clear(&c.found);
+    return status;
+}

@@ -1,0 +1,117 @@
+/* Makes a strip ready: its questions, the slices of its trays, the automata of its clauses. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/house/strip/parts.h"
+
+static void find_tiled(tn_strip *strip)
+{
+    const tn_house_form *form = strip->form;
+    for (uint32_t t = 0; t < form->record->tile_count; t++) {
+        const tn_tile_record *tile = &form->module->TILE_records[form->record->tile_first + t];
+        for (uint32_t i = 0; i < tile->purpose_count; i++)
+            strip->tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] = true;
+    }
+}
+
+static tn_status begin(tn_strip *strip, tn_error *error)
+{
+    const tn_house_form *form = strip->form;
+    strip->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->of_tray);
+    strip->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->tiled);
+    strip->scratch = calloc((size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
+    if (!strip->of_tray || !strip->tiled || !strip->scratch)
+        return tn_fail_memory(error);
+    find_tiled(strip);
+    tn_status status = tn_strip_clauses_new(strip, error);
+    return status == TN_OK ? tn_strip_ask(strip, error) : status;
+}
+
+tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
+                       const bool *trays, uint32_t trays_most, tn_strip **out, tn_error *error)
+{
+    tn_strip *strip = *out = calloc(1, sizeof *strip);
+    if (!strip)
+        return tn_fail_memory(error);
+    *strip = (tn_strip){.form = form, .library = library, .trays_most = trays_most, .watch = form->module->watch};
+    memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
+    tn_status status = begin(strip, error);
+    for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
+        if (trays[t])
+            status = tn_strip_slices(strip, t, error);
+    return status == TN_OK ? tn_strip_lower(strip, error) : status;
+}
+
+static void clear_crossings(tn_strip_crossings *crossings)
+{
+    for (size_t i = 0; i < sizeof crossings->keys / sizeof *crossings->keys; i++)
+        tn_numbering_clear(&crossings->keys[i]);
+    free(crossings->results);
+}
+
+static void free_lists(tn_strip_list *lists, size_t count)
+{
+    for (size_t i = 0; lists && i < count; i++)
+        free(lists[i].items);
+    free(lists);
+}
+
+void tn_strip_free(tn_strip *strip)
+{
+    if (!strip)
+        return;
+    tn_interner *const interners[] = {&strip->edge_keys, &strip->slice_keys, &strip->outcome_keys, &strip->areas,
+                                      &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
+                                      &strip->walks,     &strip->states};
+    for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
+        free(strip->edges[i].cells);
+        free(strip->edges[i].answers);
+        free(strip->edges[i].inner);
+    }
+    free_lists(strip->of_tray, strip->form->schema->tray_count);
+    free_lists(strip->planes, strip->plane_keys.count);
+    for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
+        tn_interner_clear(interners[i]);
+    tn_numbering_clear(&strip->plane_keys);
+    tn_numbering_clear(&strip->fit_keys[0]);
+    tn_numbering_clear(&strip->fit_keys[1]);
+    clear_crossings(&strip->crossed_rooms);
+    for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++)
+        clear_crossings(&strip->crossed_walks[w]);
+    tn_strip_clauses_free(strip);
+    free(strip->questions.decisions);
+    free(strip->edges);
+    free(strip->tiled);
+    free(strip->scratch);
+    free(strip->fits);
+    free(strip->key.data);
+    free(strip->joined.data);
+    free(strip);
+}
+
+/* How many different things a clause keeps apart: its own states, and the rooms and walks that it asks for. */
+static uint64_t kept_apart(const tn_strip *strip, const tn_strip_clause *clause)
+{
+    uint64_t states = clause->dfa ? clause->dfa->states : 0;
+    for (size_t i = 0; i < clause->atom_count; i++) {
+        tn_opcode opcode = clause->atoms[i].op.opcode;
+        states += opcode == TN_OP_APART                                ? strip->walks.count
+                  : opcode == TN_OP_SOME_ROOM || opcode == TN_OP_ROOMS ? strip->rooms.count
+                                                                       : 0;
+    }
+    return states;
+}
+
+const char *tn_strip_dearest(const tn_strip *strip)
+{
+    const tn_module *module = strip->form->module;
+    const char *name = NULL;
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < strip->clause_count; i++) {
+        uint64_t states = kept_apart(strip, &strip->clauses[i]);
+        if (states > most)
+            name = tn_text(module, module->HOUSE_CLAUSE_records[strip->library->clause_first + i].name);
+        most = states > most ? states : most;
+    }
+    return name;
+}
