@@ -448,8 +448,7 @@ const tn_command tn_command_count = {
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
              "[--json | -o HISTOGRAM.svg]\n"
-             "FILE --library HOUSES [--plan PLAN] [--clauses] [--json]
-"
+             "FILE --library HOUSES [--plan PLAN] [--clauses] [--json]\n"
              "FILE.kit --parts N [--part NAME]... [--fixed | --inside MODEL] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
