@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/house/numbered_parts.h"
+#include "runtime/base/utf8.h"
 
 /* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
 typedef struct house_tally {
@@ -215,6 +216,19 @@ static void write_lengths(const house_tally *tally, bool json, FILE *out)
     }
 }
 
+static void write_json_key(const char *name, bool first, const char *after, FILE *out)
+{
+    fputs(first ? "" : ",", out);
+    tn_write_json(out, name);
+    fputs(after, out);
+}
+
+static void write_json_count(const char *name, bool first, const mpz_t count, FILE *out)
+{
+    write_json_key(name, first, ":\"", out);
+    gmp_fprintf(out, "%Zd\"", count);
+}
+
 /* Choices that leave nothing to choose are left out of the text. */
 static void write_sections(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
@@ -223,13 +237,13 @@ static void write_sections(const tn_numbered *n, const house_tally *tally, bool 
     for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
         const tn_choice_record *choice = tn_form_choice(&n->form, i);
         if (json)
-            fprintf(out, "%s\"%s\":{", i ? "," : "", tn_text(module, choice->name));
+            write_json_key(tn_text(module, choice->name), i == 0, ":{", out);
         else if (choice->shape_count > 1)
             fprintf(out, "%s\n", tn_text(module, choice->name));
         for (uint32_t k = 0; k < choice->shape_count; k++, value++) {
             const char *name = tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling);
             if (json)
-                gmp_fprintf(out, "%s\"%s\":\"%Zd\"", k ? "," : "", name, *value);
+                write_json_count(name, k == 0, *value, out);
             else if (choice->shape_count > 1)
                 gmp_fprintf(out, "  %-*s%Zd\n", LABEL_WIDTH - 2, name, *value);
         }
@@ -244,7 +258,7 @@ static void write_clauses(const tn_numbered *n, const house_tally *tally, bool j
     for (uint32_t i = 0; i < n->record->clause_count; i++) {
         const tn_house_clause_record *clause = &module->HOUSE_CLAUSE_records[n->record->clause_first + i];
         if (json)
-            gmp_fprintf(out, "%s\"%s\":\"%Zd\"", i ? "," : "", tn_text(module, clause->name), tally->kept_out[i]);
+            write_json_count(tn_text(module, clause->name), i == 0, tally->kept_out[i], out);
         else
             gmp_fprintf(out, "  %-*s %Zd\n", LABEL_WIDTH - 3, tn_text(module, clause->name), tally->kept_out[i]);
     }
@@ -253,7 +267,9 @@ static void write_clauses(const tn_numbered *n, const house_tally *tally, bool j
 
 static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
-    gmp_fprintf(out, "{\"library\":\"%s\",\"plans\":\"%Zd\"", tn_text(n->form.module, n->record->name), tally->plans);
+    fputs("{\"library\":", out);
+    tn_write_json(out, tn_text(n->form.module, n->record->name));
+    gmp_fprintf(out, ",\"plans\":\"%Zd\"", tally->plans);
     if (tally->each)
         fprintf(out, ",\"plans_with_houses\":\"%llu\",\"zoned\":\"%llu\"", (unsigned long long)tally->with_houses,
                 (unsigned long long)tally->zoned);

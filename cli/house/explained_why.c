@@ -167,6 +167,12 @@ static void obstacle_text(const tn_house_form *form, const tn_tile_record *tile,
     }
 }
 
+static void append_member(tn_buffer *out, const char *before, const char *key, const char *value)
+{
+    tn_buffer_printf(out, "%s\"%s\":", before, key);
+    tn_buffer_append_json(out, value);
+}
+
 static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, bool first, tn_error *error)
 {
     const tn_tile_record *record = &e->judge.module->TILE_records[tile];
@@ -181,8 +187,8 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
         tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
         return TN_OK;
     }
-    tn_buffer_printf(&e->text, "%s{\"tile\":\"%s\",\"why\":", first ? "" : ",", name);
-    tn_buffer_append_json(&e->text, text);
+    append_member(&e->text, first ? "{" : ",{", "tile", name);
+    append_member(&e->text, ",", "why", text);
     tn_buffer_append(&e->text, "}", 1);
     return TN_OK;
 }
@@ -258,9 +264,10 @@ static tn_status write_near(void *context, const tn_house_change *change, const 
     tn_change_text(&n->e->house, change, &w);
     tn_status status = tn_house_write(changed, &line, error);
     if (n->e->json) {
-        tn_buffer_printf(out, "%s{\"where\":\"%s\",\"from\":\"%s\",\"to\":\"%s\",\"house\":", n->count > 1 ? "," : "",
-                         w.where, w.from, w.to);
-        tn_buffer_append_json(out, line.data ? line.data : "");
+        append_member(out, n->count > 1 ? ",{" : "{", "where", w.where);
+        append_member(out, ",", "from", w.from);
+        append_member(out, ",", "to", w.to);
+        append_member(out, ",", "house", line.data ? line.data : "");
         tn_buffer_append(out, "}", 1);
     } else {
         tn_buffer_printf(out, "%s    %s: %s for %s\n", n->count == 1 ? "kept with one change:\n" : "", w.where, w.to,
