@@ -71,18 +71,31 @@ static void copy_text(const json_t *json, const char *key, char *text, size_t si
     snprintf(text, size, "%s", value ? value : "");
 }
 
+/* A new file in a folder, of which nothing is left when it is closed: without a name, where the file system has that. */
+static int open_passing(const char *folder)
+{
+    char path[4096];
+    int file = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (file >= 0 || snprintf(path, sizeof path, "%s/.tartan-%ld.tmp", folder, (long)getpid()) >= (int)sizeof path)
+        return file;
+    file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0)
+        unlink(path);
+    return file;
+}
+
 /* What the file system would call now: the time that it gives to a file which is made now. */
 static bool file_system_time(const char *beside, struct timespec *now)
 {
-    char path[4096];
+    char folder[4096];
     struct stat known;
-    int length = snprintf(path, sizeof path, "%s.%ld-time", beside, (long)getpid());
-    int file = length < (int)sizeof path ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    int length = (int)(strrchr(beside, '/') ? strrchr(beside, '/') - beside : 0);
+    snprintf(folder, sizeof folder, "%.*s", length ? length : 1, length ? beside : ".");
+    int file = open_passing(folder);
     if (file < 0)
         return clock_gettime(CLOCK_REALTIME, now) == 0;
     bool done = fstat(file, &known) == 0;
     close(file);
-    unlink(path);
     *now = known.st_mtim;
     return done;
 }
