@@ -295,8 +295,10 @@ static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failur
     tn_variants v = {0};
     size_t count;
     *failure = (tn_tile_failure){.obstacle = TN_TILE_NO_SIDE};
-    if (!make_room(&v, room->house->form->module->TILE_records[tile].box_count))
+    if (!make_room(&v, room->house->form->module->TILE_records[tile].box_count)) {
+        tn_variants_clear(&v);
         return tn_fail_memory(error);
+    }
     for (size_t i = 0; i < 2 * (sizeof all_sides / sizeof *all_sides); i++) {
         tn_placing p;
         bool turned = turn(room, tile, all_sides[i / 2], &p);
