@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/house/numbered_parts.h"
+#include "runtime/base/integers.h"
 #include "runtime/base/utf8.h"
 
 /* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
@@ -16,21 +17,6 @@ typedef struct house_tally {
     mpz_t *kept_out; /* by each clause, of the houses that no clause is asked about; NULL: not counted */
 } house_tally;
 
-static mpz_t *integers(size_t count)
-{
-    mpz_t *items = malloc((count + 1) * sizeof *items);
-    for (size_t i = 0; items && i < count; i++)
-        mpz_init(items[i]);
-    return items;
-}
-
-static void free_integers(mpz_t *items, size_t count)
-{
-    for (size_t i = 0; items && i < count; i++)
-        mpz_clear(items[i]);
-    free(items);
-}
-
 static size_t value_count(const tn_numbered *n)
 {
     size_t count = 0;
@@ -43,17 +29,17 @@ static bool tally_new(const tn_numbered *n, house_tally *tally)
 {
     *tally = (house_tally){.low = tn_library_min(n->plans), .high = tn_library_max(n->plans)};
     tally->high = tally->high < tally->low ? tally->low : tally->high;
-    tally->lengths = integers((size_t)tally->high - tally->low + 1);
-    tally->values = integers(value_count(n));
+    tally->lengths = tn_integers_new((size_t)tally->high - tally->low + 1);
+    tally->values = tn_integers_new(value_count(n));
     mpz_inits(tally->plans, tally->faced, tally->houses, NULL);
     return tally->lengths && tally->values;
 }
 
 static void tally_free(const tn_numbered *n, house_tally *tally)
 {
-    free_integers(tally->lengths, (size_t)tally->high - tally->low + 1);
-    free_integers(tally->values, value_count(n));
-    free_integers(tally->kept_out, n->record->clause_count);
+    tn_integers_free(tally->lengths, (size_t)tally->high - tally->low + 1);
+    tn_integers_free(tally->values, value_count(n));
+    tn_integers_free(tally->kept_out, n->record->clause_count);
     mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
 }
 
@@ -183,7 +169,7 @@ static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_
     tn_house_library_record some = *n->record;
     mpz_t all;
     mpz_init(all);
-    tally->kept_out = integers(n->record->clause_count);
+    tally->kept_out = tn_integers_new(n->record->clause_count);
     some.clause_count = 0;
     tn_status status = tally->kept_out ? count_by(n, &some, plan, all, error) : tn_fail_memory(error);
     some.clause_count = 1;

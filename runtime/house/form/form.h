@@ -40,6 +40,17 @@ static inline const tn_choice_record *tn_form_choice(const tn_house_form *form, 
     return &form->module->CHOICE_records[form->record->choice_first + choice];
 }
 
+/* The next section, by the shape of each choice, the last choice first; all zeros begin. False after the last. */
+static inline bool tn_form_next_section(const tn_house_form *form, uint32_t *shapes)
+{
+    for (uint32_t i = form->record->choice_count; i-- > 0;) {
+        if (++shapes[i] < tn_form_choice(form, i)->shape_count)
+            return true;
+        shapes[i] = 0;
+    }
+    return false;
+}
+
 /* The opening that a kind of face is; NULL where it is none. */
 static inline const tn_opening_record *tn_form_opening(const tn_house_form *form, uint32_t kind)
 {

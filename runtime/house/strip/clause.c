@@ -181,21 +181,11 @@ static tn_status relate_section(const tn_strip_lowering *l, const tn_marked *mar
 
 /* ---- counting */
 
-static tn_int128 area_at(const tn_strip *strip, uint32_t number)
-{
-    size_t size;
-    const uint32_t *words = tn_interned(&strip->areas, number, &size);
-    tn_int128 area = 0;
-    for (size_t i = 0; i < 4; i++)
-        area |= (tn_int128)words[i] << 32 * i;
-    return area;
-}
-
 static tn_int128 common_unit(const tn_strip_lowering *l, uint32_t letters, size_t atom)
 {
     tn_int128 unit = 0;
     for (uint32_t i = 0; i < letters; i++) {
-        tn_int128 a = area_at(l->strip, base_of(l->clause, i, atom));
+        tn_int128 a = tn_strip_area(l->strip, base_of(l->clause, i, atom));
         while (a != 0) {
             tn_int128 rest = unit % a;
             unit = a;
@@ -243,7 +233,7 @@ static tn_status relate_areas(const tn_strip_lowering *l, const tn_marked *marke
         return tn_fail_memory(error);
     tn_int128 unit = common_unit(l, letters, atom);
     for (uint32_t i = 0; i < letters; i++) {
-        counts[i] = (uint64_t)(area_at(l->strip, base_of(l->clause, i, atom)) / unit);
+        counts[i] = (uint64_t)(tn_strip_area(l->strip, base_of(l->clause, i, atom)) / unit);
         most = counts[i] > most ? counts[i] : most;
     }
     most = most > AREA_STEPS_MAX ? most : most * l->strip->trays_most;

@@ -5,22 +5,8 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/integers.h"
 #include "runtime/house/strip/houses_data.h"
-
-static mpz_t *integers(size_t count)
-{
-    mpz_t *items = malloc((count + 1) * sizeof *items);
-    for (size_t i = 0; items && i < count; i++)
-        mpz_init(items[i]);
-    return items;
-}
-
-static void free_integers(mpz_t *items, size_t count)
-{
-    for (size_t i = 0; items && i < count; i++)
-        mpz_clear(items[i]);
-    free(items);
-}
 
 /* ---- counting forwards */
 
@@ -83,7 +69,7 @@ static tn_status count_layer(tn_forward *f, tn_error *error)
     f->nodes += f->kind->layers[f->layer].nodes.count;
     if (status == TN_OK && f->layer < h->high)
         status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
-    free_integers(f->counts, f->count);
+    tn_integers_free(f->counts, f->count);
     f->counts = f->next;
     f->count = f->next_count;
     f->next = NULL;
@@ -96,10 +82,10 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     tn_forward f = {.houses = h, .kind = kind, .count = 2};
     tn_status status = TN_OK;
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
-    kind->houses = integers(tn_houses_lengths(h));
-    f.counts = integers(f.count);
+    kind->houses = tn_integers_new(tn_houses_lengths(h));
+    f.counts = tn_integers_new(f.count);
     if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
-        free_integers(f.counts, f.count);
+        tn_integers_free(f.counts, f.count);
         return tn_fail_memory(error);
     }
     mpz_init(f.one);
@@ -107,22 +93,12 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     mpz_set_ui(f.counts[1], 1);
     for (f.layer = 0; status == TN_OK && f.layer <= h->high; f.layer++)
         status = count_layer(&f, error);
-    free_integers(f.counts, f.count);
+    tn_integers_free(f.counts, f.count);
     mpz_clear(f.one);
     return status;
 }
 
 /* ---- sections */
-
-static bool next_section(const tn_house_form *form, uint32_t *shapes)
-{
-    for (uint32_t i = form->record->choice_count; i-- > 0;) {
-        if (++shapes[i] < tn_form_choice(form, i)->shape_count)
-            return true;
-        shapes[i] = 0;
-    }
-    return false;
-}
 
 /* The trays that stand in some plan of the library. */
 static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
@@ -175,7 +151,7 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
 {
     tn_house section = {.form = h->form};
     tn_status status = TN_OK;
-    for (bool more = true; status == TN_OK && more; more = next_section(h->form, section.shapes))
+    for (bool more = true; status == TN_OK && more; more = tn_form_next_section(h->form, section.shapes))
         if (tn_house_section_stands(&section))
             status = add_kind(h, &section, trays, error);
     return status;
@@ -217,11 +193,11 @@ void tn_houses_free(tn_houses *h)
     for (size_t i = 0; i < h->kind_count; i++) {
         tn_houses_kind *kind = &h->kinds[i];
         for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
-            free_integers(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
+            tn_integers_free(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
             tn_numbering_clear(&kind->layers[k].nodes);
         }
         free(kind->layers);
-        free_integers(kind->houses, tn_houses_lengths(h));
+        tn_integers_free(kind->houses, tn_houses_lengths(h));
         mpz_clear(kind->faced);
         tn_strip_free(kind->strip);
     }

@@ -249,4 +249,7 @@ typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, u
 tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
                         tn_error *error);
 
+/* The area that has this number, in square nanometres. */
+tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number);
+
 #endif

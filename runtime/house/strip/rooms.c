@@ -128,7 +128,7 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
 
 /* ---- a plane */
 
-static tn_int128 area_of(const tn_strip *strip, uint32_t number)
+tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
 {
     size_t size;
     const uint32_t *words = tn_interned(&strip->areas, number, &size);
@@ -150,7 +150,7 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
     if (c->right->cells[cell].open)
         return;
     known->cells = 1;
-    known->area = area_of(j->strip, words[CELL_AREA]);
+    known->area = tn_strip_area(j->strip, words[CELL_AREA]);
     for (uint32_t i = 0; i < q->all_count; i++)
         known->fails |= (uint64_t)!tn_edge_answers(j->strip, c->right, cell, tn_strip_decision(j->strip, q->all[i]))
                         << i;

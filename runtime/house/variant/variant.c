@@ -212,16 +212,6 @@ static tn_status go_through_functions(tn_house_variants *v, const tn_house_visit
     return status;
 }
 
-static bool next_section(const tn_house_form *form, uint32_t *shapes)
-{
-    for (uint32_t i = form->record->choice_count; i-- > 0;) {
-        if (++shapes[i] < tn_form_choice(form, i)->shape_count)
-            return true;
-        shapes[i] = 0;
-    }
-    return false;
-}
-
 static void add_counts(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
                        bool *taken)
 {
@@ -285,7 +275,7 @@ tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, siz
     v->work = v->work_limit;
     memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
     status = begin_plan(v, trays, length, error);
-    for (bool more = true; status == TN_OK && !stop && more; more = next_section(v->form, shapes)) {
+    for (bool more = true; status == TN_OK && !stop && more; more = tn_form_next_section(v->form, shapes)) {
         tn_house_clear(&v->house);
         status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
         if (status == TN_OK && tn_house_section_stands(&v->house))

@@ -9,21 +9,6 @@
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/rules.h"
 
-mpz_t *tn_integers_new(size_t count)
-{
-    mpz_t *integers = calloc(count + 1, sizeof *integers);
-    for (size_t i = 0; integers && i < count; i++)
-        mpz_init(integers[i]);
-    return integers;
-}
-
-void tn_integers_free(mpz_t *integers, size_t count)
-{
-    for (size_t i = 0; integers && i < count; i++)
-        mpz_clear(integers[i]);
-    free(integers);
-}
-
 #define TRANSITIONS_PER_STATE 64u /* that an automaton may have on average, before states are not its size any more */
 #define WORK_PER_STATE 300u
 #define FEW_TRAYS 32u      /* of plans: so many automata of one length each are about as large as one of any length */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <pthread.h>
 
+#include "runtime/base/integers.h"
 #include "runtime/plan/automata/count.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/automata/sparse.h"
@@ -142,10 +143,6 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
  * the library's tray for each of theirs, or NULL where trays are the same. */
 tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse, const tn_classes *classes,
                               const tn_tray *map, tn_sparse **out, tn_error *error);
-
-/* An array of zeroed integers; NULL where out of memory. */
-mpz_t *tn_integers_new(size_t count);
-void tn_integers_free(mpz_t *integers, size_t count);
 
 /* Keeps the plans that clause i alone keeps out, if the memory for that holds them and they are not kept yet; false:
  * they stay the caller's. One thread at a time (alone.c). */
