@@ -172,18 +172,17 @@ TN_FUNCTION_OF_2(pow)
 
 /* ---- hyperbolic tangent */
 
-/* (e^2x - 1) / (e^2x + 1); from 22 on it is 1 to the last bit. */
+/* (e^2x - 1) / (e^2x + 1); from 22 on it is 1 to the last bit. What is not a number stays that. */
 static inline double tanh_kernel(double x)
 {
     double size = __builtin_fabs(x), shifted;
-    pair r = reduce_by_ln2((pair){2 * (size < 22 ? size : 22), 0}, &shifted);
+    pair r = reduce_by_ln2((pair){2 * (size > 22 ? 22 : size), 0}, &shifted);
     double scale = power_of_two(tn_bits_of(shifted));
     pair less = sum(scale - 1, scale * r.high);
     less = quick_sum(less.high, less.low + scale * exponential_tail(r));
     pair more = sum(less.high, 2);
     pair t = pair_divide(less, (pair){more.high, more.low + less.low});
-    double value = tn_double_of(tn_bits_of(t.high) | (tn_bits_of(x) & SIGN_BIT));
-    return x == x ? value : NOTHING;
+    return tn_double_of(tn_bits_of(t.high) | (tn_bits_of(x) & SIGN_BIT));
 }
 
 static double tanh_rarely(double x)

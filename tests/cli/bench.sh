@@ -41,6 +41,8 @@ runs library "$scratch/ten.tnb" 1000
 runs field "$scratch/primitives.tnb" 20 1 1
 is 'surfaces that are timed' "$(grep -c '^[a-z]* [0-9]* [0-9.]*$' "$scratch/field.out")" 9
 [ ! -e "$bench/bench_vtk" ] || runs vtk 20 1
+runs numeric 1
+is 'functions that are timed' "$(wc -l <"$scratch/numeric.out")" 9
 runs curve "$scratch/ten.tnb" 100 4 10 2
 for x in 1 10 100; do echo "plans $x $x"; done >"$scratch/points"
 "$bench/bench_plot" "$scratch/points" "$scratch/plot.png" || fail 'bench_plot failed'
