@@ -10,8 +10,19 @@
 #include "runtime/place/count/count.h"
 #include "runtime/place/joints.h"
 
-/* Which parts of the kit are named; *wanted: NULL where none is, so that all are. The caller frees it, also after a
- * failure. */
+bool tn_job_asks_kit(tn_job *job, const tn_count_kit_options *options)
+{
+    const char *option = options->parts.given   ? "parts"
+                         : options->fixed       ? "fixed"
+                         : options->inside      ? "inside"
+                         : options->kinds.count ? "part"
+                                                : NULL;
+    if (option)
+        tn_job_usage(job, "--%s is about a kit, and %.200s is none", option, job->settings->operands.items[0]);
+    return option != NULL;
+}
+
+/* Which parts of the kit are named; *wanted: NULL where none is, so that all are. */
 static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted)
 {
     const tn_module *module = job->opened.module;
@@ -32,6 +43,8 @@ static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted
             tn_error_help(&error, "--part takes the name of one of its parts, such as %.100s",
                           tn_text(module, module->KIT_PART_records[0].name));
             tn_job_fail(job, &error);
+            free(*wanted);
+            *wanted = NULL;
             return false;
         }
         (*wanted)[part - module->KIT_PART_records] = true;
@@ -55,22 +68,20 @@ static void write_counts(const tn_count_kit_options *options, const tn_building_
         fprintf(out, "%" PRIu64 "\n", options->fixed || options->inside ? counts->fixed : counts->buildings);
 }
 
-/* Which parts lie on the lattice, the model that is named says. */
-static tn_status count_inside(tn_job *job, const tn_count_kit_options *options, const bool *wanted, uint64_t *count,
-                              tn_error *error)
+bool tn_job_kit_space(tn_job *job, const char *name, tn_place_rules *rules)
 {
-    tn_place_rules rules;
+    tn_error error;
     uint32_t model;
-    tn_status status = tn_kit_choose(&job->opened, options->inside, &model);
+    tn_status status = tn_kit_choose(&job->opened, name, &model);
     tn_job_status(job, status);
     if (status != TN_OK)
-        return TN_STOPPED; /* has been said */
-    status = tn_place_rules_of_model(job->opened.module, model, &rules, error);
+        return false;
+    status = tn_place_rules_of_model(job->opened.module, model, rules, &error);
     if (status == TN_OK)
-        status = tn_count_inside(&rules, wanted, (uint32_t)options->parts.value, options->threads,
-                                 tn_interrupt_waiting(), count, error);
-    tn_place_rules_clear(&rules);
-    return status;
+        return true;
+    tn_place_rules_clear(rules);
+    tn_job_fail(job, &error);
+    return false;
 }
 
 static bool has_parts(tn_job *job)
@@ -84,40 +95,52 @@ static bool has_parts(tn_job *job)
     return false;
 }
 
-void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const char *path)
+bool tn_job_kit_parts(tn_job *job, const tn_count_kit_options *options, bool **wanted)
 {
-    const tn_place_rules rules = {.module = job->opened.module};
-    tn_building_counts counts;
-    tn_output output;
-    tn_error error;
-    bool *wanted = NULL;
+    *wanted = NULL;
     if (!options->parts.given) {
         tn_diagnostic *d = tn_job_usage(job, "of a kit, buildings of so many parts are counted");
         tn_help(tn_job_diagnostics(job), d, "say how many: --parts 3");
-        return;
+        return false;
     }
     if (options->inside && options->fixed) {
         tn_job_usage(job,
                      "--fixed and --inside do not go together: inside of a space each building counts where it stands");
-        return;
+        return false;
     }
-    if (has_parts(job) && choose_parts(job, &options->kinds, &wanted)) {
-        tn_job_show(job);
-        size_t said = tn_job_diagnostics(job)->count;
-        tn_status status = options->inside
-                               ? count_inside(job, options, wanted, &counts.fixed, &error)
-                               : tn_count_buildings(&rules, wanted, (uint32_t)options->parts.value, options->fixed,
-                                                    options->threads, tn_interrupt_waiting(), &counts, &error);
-        if (tn_job_diagnostics(job)->count > said) {
-            free(wanted);
-            return;
-        }
-        if (status != TN_OK) {
+    return has_parts(job) && choose_parts(job, &options->kinds, wanted);
+}
+
+/* Which parts lie on the lattice, the model that is named says. */
+static tn_status count(tn_job *job, const tn_count_kit_options *options, const tn_place_rules *rules,
+                       const bool *wanted, tn_building_counts *counts, tn_error *error)
+{
+    uint32_t parts = (uint32_t)options->parts.value;
+    tn_watch *watch = tn_interrupt_waiting();
+    tn_job_show(job);
+    if (options->inside)
+        return tn_count_inside(rules, wanted, parts, options->threads, watch, &counts->fixed, error);
+    return tn_count_buildings(rules, wanted, parts, options->fixed, options->threads, watch, counts, error);
+}
+
+void tn_job_count_kit(tn_job *job, const tn_count_kit_options *options, const char *path)
+{
+    tn_place_rules rules = {.module = job->opened.module};
+    tn_building_counts counts;
+    tn_output output;
+    tn_error error;
+    bool *wanted;
+    if (!tn_job_kit_parts(job, options, &wanted))
+        return;
+    if (!options->inside || tn_job_kit_space(job, options->inside, &rules)) {
+        if (count(job, options, &rules, wanted, &counts, &error) != TN_OK) {
             tn_job_fail(job, &error);
         } else if (tn_job_output(job, path, &output)) {
             write_counts(options, &counts, output.stream);
             tn_job_commit(job, &output);
         }
     }
+    if (options->inside)
+        tn_place_rules_clear(&rules);
     free(wanted);
 }

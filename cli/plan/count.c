@@ -351,20 +351,6 @@ static bool counts_houses(const tn_job *job, const count_settings *settings)
            (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
 }
 
-/* What only kits are asked. */
-static bool asks_kit(tn_job *job, const count_settings *settings)
-{
-    const tn_count_kit_options *kit = &settings->kit;
-    const char *option = kit->parts.given   ? "parts"
-                         : kit->fixed       ? "fixed"
-                         : kit->inside      ? "inside"
-                         : kit->kinds.count ? "part"
-                                            : NULL;
-    if (option)
-        tn_job_usage(job, "--%s is about a kit, and %.200s is none", option, settings->common.operands.items[0]);
-    return option != NULL;
-}
-
 /* What only libraries of plans are asked. */
 static bool asks_library(tn_job *job, const count_settings *s)
 {
@@ -396,7 +382,7 @@ static int count_once(const tn_settings *common, tn_files_read *read)
     if (of_kit)
         open = !asks_library(&job, settings);
     else if (open)
-        open = !asks_kit(&job, settings);
+        open = !tn_job_asks_kit(&job, &settings->kit);
     if (open && of_kit) {
         tn_count_kit_options kit = settings->kit;
         kit.json = settings->count.json;
@@ -433,11 +419,7 @@ static const tn_option options[] = {
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("clauses", 0, clauses, "of houses: also count how many of all houses each clause keeps out"),
     FLAG("mirror", 0, count.mirror, "also count one of each pair of plans that mirror each other"),
-    NUMBER("parts", 0, "N", kit.parts, 1, 32, "of a kit: count the buildings of N parts"),
-    LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),
-    TEXT("inside", 0, "MODEL", kit.inside,
-         "of a kit: count those inside of the space of this model, each where it stands"),
-    FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn"),
+    OPTIONS_KIT("count"),
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,

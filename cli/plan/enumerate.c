@@ -7,6 +7,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
+#include "cli/place/enumerate_kit.h"
 #include "cli/plan/plan_output.h"
 #include "driver/house/judge.h"
 #include "driver/plan/made.h"
@@ -18,6 +19,7 @@ typedef struct enumerate_settings {
     const char *from, *to, *plan;
     tn_option_number limit;
     bool mirror;
+    tn_count_kit_options kit;
 } enumerate_settings;
 
 static const enumerate_settings *settings_of(const tn_job *job)
@@ -209,6 +211,41 @@ static void enumerate_houses(tn_job *job)
     tn_job_list_houses(job, &houses, s->plan, &range, s->written.output);
 }
 
+/* What only libraries of plans are asked. */
+static bool asks_library(tn_job *job)
+{
+    const enumerate_settings *s = settings_of(job);
+    const char *option = s->plans.library        ? "library"
+                         : s->plans.wheres.count ? "where"
+                         : s->plans.trays.given  ? "trays"
+                         : s->plan               ? "plan"
+                         : s->mirror             ? "mirror"
+                         : s->written.columns    ? "columns"
+                         : s->written.csv_safe   ? "csv-safe"
+                         : s->written.resume     ? "resume"
+                                                 : NULL;
+    if (option)
+        tn_job_usage(job, "--%s is about a library of plans, and %.200s is a kit", option, s->common.operands.items[0]);
+    return option != NULL;
+}
+
+static void enumerate_kit(tn_job *job)
+{
+    const enumerate_settings *s = settings_of(job);
+    const tn_building_range range = {s->from, s->to, s->limit};
+    tn_count_kit_options kit = s->kit;
+    int format = s->written.format;
+    if (asks_library(job))
+        return;
+    if (format != TN_FORMAT_AUTO && format != TN_FORMAT_LINES && format != TN_FORMAT_JSON) {
+        tn_diagnostic *d = tn_job_usage(job, "buildings are written as lines or as JSON");
+        tn_help(tn_job_diagnostics(job), d, "-o FILE.mpd writes a sub-file for each");
+        return;
+    }
+    kit.json = format == TN_FORMAT_JSON;
+    tn_job_enumerate_kit(job, &kit, &range, s->written.output);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -217,7 +254,11 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
     bool open = check_options(&job) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
-    if (open && is_about_houses(&job))
+    if (open && job.opened.module->KIT_count > 0)
+        enumerate_kit(&job);
+    else if (open && tn_job_asks_kit(&job, &settings->kit))
+        open = false; /* has been said */
+    else if (open && is_about_houses(&job))
         enumerate_houses(&job);
     else if (open && tn_job_opened_library(&job, &settings->plans, &ready))
         enumerate_plans(&job, &ready);
@@ -232,6 +273,7 @@ static const tn_option options[] = {
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
     TEXT("plan", 0, "PLAN", plan, "the houses on one plan: a plan line, or # and its rank"),
+    OPTIONS_KIT("list"),
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_FORMAT,
@@ -246,14 +288,19 @@ const tn_command tn_command_enumerate = {
     .name = "enumerate",
     .summary = "write all plans of a library",
     .usage = "FILE [--from RANK] [--to RANK] [--limit N] [-o FILE]\nFILE --library HOUSES [--plan PLAN] [--from RANK] "
-             "[--to RANK] [--limit N]",
+             "[--to RANK] [--limit N]\n"
+             "FILE.kit --parts N [--part NAME]... [--fixed | --inside MODEL] [-o FILE]",
     .description =
         "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. "
         "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
         "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
         "the plans written so far are kept, and a note says from which rank to continue.\n\n"
         "With --library HOUSES, or --plan, houses are written as house lines, plan by plan. Ranks are then among all "
-        "houses of the library, or among those on the plan.",
+        "houses of the library, or among those on the plan.\n\n"
+        "Of a kit (docs/kit-language.md) it lists the buildings that `tartan count` counts, a line for each: its parts "
+        "from the lowest up, each with its name, its place in LDU as LDraw has it (y points down) and its quarter "
+        "turns. -o FILE.mpd writes an LDraw file with a sub-file for each. Ranks are counted on the way, so that a "
+        "late stretch takes as long as all before it.",
     .example = "$ tartan enumerate terrace --from 1000000 --limit 100 --format csv",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -39,16 +39,28 @@ static void write_ldu(int64_t cells, int64_t unit, FILE *out)
     fprintf(out, ".%s", digits);
 }
 
+static void write_at(const tn_frame *frame, const int64_t unit[3], const char *between, FILE *out)
+{
+    for (int k = 0; k < 3; k++) {
+        fputs(k ? between : "", out);
+        write_ldu(frame->at[k], unit[k], out);
+    }
+}
+
+void tn_place_write_at(const tn_module *module, const tn_frame *frame, const char *between, FILE *out)
+{
+    int64_t unit[3];
+    unit_of(module, unit);
+    write_at(frame, unit, between, out);
+}
+
 /* Every r is left out of the names of parts of connection grammars, as by the published program. */
 static void write_part(const tn_placed_part *part, const int64_t unit[3], bool kit, FILE *out)
 {
     const tn_frame *f = &part->frame;
     fprintf(out, "1 %d ", f->colour);
-    for (int k = 0; k < 3; k++) {
-        write_ldu(f->at[k], unit[k], out);
-        putc(' ', out);
-    }
-    fprintf(out, "%s ", rotations[f->heading]);
+    write_at(f, unit, " ", out);
+    fprintf(out, " %s ", rotations[f->heading]);
     for (const char *c = part->name; *c; c++)
         if (kit || *c != 'r')
             putc(*c, out);

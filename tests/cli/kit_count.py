@@ -59,6 +59,36 @@ def ask(names, parts, *more):
     return json.loads(done.stdout)
 
 
+def listed(path, names, parts, *more):
+    """The buildings that are listed: what stands in each line, as sets of parts on whole studs."""
+    command = [tartan, "enumerate", path, "--parts", str(parts), *more]
+    for name in names:
+        command += ["--part", name]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    buildings = []
+    for line in done.stdout.splitlines():
+        building = set()
+        for part in line.split("; "):
+            name, x, y, z, turn = part.split()
+            length, high, wide, _ = PARTS[name]
+            turned = length != wide and int(turn) % 2 == 1
+            if turned:
+                length, wide = wide, length
+            corner = float(x) / 20 - length / 2, -float(y) / 8 - high, float(z) / 20 - wide / 2
+            building.add((corner[0], int(corner[1]), corner[2], turned, name))
+        assert len(building) == parts, line
+        buildings.append(frozenset(building))
+    return buildings
+
+
+def least(building):
+    turns = [settle(building)]
+    for _ in range(3):
+        turns.append(quarter(turns[-1]))
+    return min(tuple(sorted(t)) for t in turns)
+
+
 total = 0
 for names, most in ((["3005"], 6), (["3004"], 4), (["3003"], 4), (["3622"], 3), (["3001"], 3), (["3024"], 4), (["3005", "3004"], 4), (["3004", "3023"], 3), (["3005", "3070b"], 5), (["3003", "3005", "3024"], 3)):
     one = [(0, 0, 0, turned, n) for n in names for turned in ((False, True) if PARTS[n][0] != PARTS[n][2] else (False,))]
@@ -72,6 +102,11 @@ for names, most in ((["3005"], 6), (["3004"], 4), (["3003"], 4), (["3622"], 3), 
         wanted = {"parts": parts, "buildings": len(different), "fixed": len(buildings), "half_turn": half, "quarter_turn": fourth}
         assert ask(names, parts) == wanted, (names, parts, ask(names, parts), wanted)
         assert ask(names, parts, "--fixed", "--threads", "3") == {"parts": parts, "fixed": len(buildings)}
+        if len(buildings) < 20000:
+            lines = listed(bricks, names, parts)
+            assert len(lines) == len(different) and {least(b) for b in lines} == different, (names, parts)
+            lines = listed(bricks, names, parts, "--fixed")
+            assert len(lines) == len(buildings) and {settle(b) for b in lines} == buildings, (names, parts)
         total += len(buildings)
 assert total > 10000, total
 
@@ -115,5 +150,8 @@ with tempfile.TemporaryDirectory() as folder:
                 command += ["--part", name]
             said = subprocess.run(command, capture_output=True, text=True)
             assert said.returncode == 0 and json.loads(said.stdout) == {"parts": parts, "inside": len(buildings)}, (names, parts, len(buildings), said)
+            lines = listed(path, names, parts, "--inside", "room")
+            stand = {frozenset((x + wide / 2, y, z + deep / 2, *rest) for x, y, z, *rest in b) for b in lines}
+            assert len(lines) == len(buildings) and stand == buildings, (names, parts)
             inside += len(buildings)
 assert inside > 1000, inside

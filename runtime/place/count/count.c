@@ -13,6 +13,7 @@ enum { SEEN = 128 }; /* above how many of the chosen overlap a slot */
 typedef struct counting {
     uint8_t *marks;    /* [slot]: how many of the chosen overlap it; and SEEN */
     uint32_t *untried; /* for each number of chosen parts, `room` slots */
+    uint32_t chosen[TN_COUNT_PARTS_MAX];
     size_t room;
     uint64_t count;
 } counting;
@@ -26,6 +27,8 @@ typedef struct count_work {
     uint32_t *roots;          /* [item]: a slot */
     uint32_t *firsts;         /* [item]: which of the slots that join the root is taken first; NULL: each in its turn */
     size_t item_count;
+    tn_slots_visit *visit; /* of each set, or NULL: they are counted */
+    void *context;
 } count_work;
 
 static void block(const tn_lattice *l, uint8_t *marks, size_t slot, int by)
@@ -67,6 +70,38 @@ static uint64_t count_last(const tn_lattice *l, const counting *c, size_t slot, 
     return count;
 }
 
+/* Each set that a last slot completes, in the order in which they would be taken. */
+static tn_status visit_last(count_work *w, counting *c, size_t slot, size_t root, const uint32_t *rest,
+                            size_t rest_count, tn_error *error)
+{
+    const tn_lattice *l = w->lattice;
+    const tn_look *look = &l->looks[slot % l->look_count];
+    const tn_look_pair *pairs = &l->pairs[look->joining_first];
+    uint32_t *last = &c->chosen[w->parts - 1];
+    tn_status status = TN_OK;
+    for (uint32_t i = look->joining_count; i-- > 0 && status == TN_OK;) {
+        size_t next = (size_t)((int64_t)slot + pairs[i].slots);
+        *last = (uint32_t)next;
+        if (next > root && c->marks[next] == 0)
+            status = w->visit(w->context, c->chosen, error);
+    }
+    for (size_t i = rest_count; i-- > 0 && status == TN_OK;) {
+        *last = rest[i];
+        if (c->marks[rest[i]] == SEEN)
+            status = w->visit(w->context, c->chosen, error);
+    }
+    return status;
+}
+
+static tn_status end_at(count_work *w, counting *c, size_t slot, size_t root, const uint32_t *rest, size_t rest_count,
+                        tn_error *error)
+{
+    if (w->visit)
+        return visit_last(w, c, slot, root, rest, rest_count, error);
+    c->count += count_last(w->lattice, c, slot, root, rest, rest_count);
+    return TN_OK;
+}
+
 static tn_status grow(count_work *w, counting *c, uint32_t chosen, size_t root, size_t count, tn_error *error);
 
 /* Takes a slot, with `rest` of the untried ones left, and goes on. */
@@ -76,9 +111,10 @@ static tn_status take(count_work *w, counting *c, uint32_t chosen, size_t root, 
     const tn_lattice *l = w->lattice;
     uint32_t *own = &c->untried[chosen * c->room], *next = own + c->room;
     tn_status status = TN_OK;
+    c->chosen[chosen] = (uint32_t)slot;
     block(l, c->marks, slot, 1);
     if (chosen + 2 == w->parts) {
-        c->count += count_last(l, c, slot, root, own, rest);
+        status = end_at(w, c, slot, root, own, rest, error);
     } else {
         memcpy(next, own, rest * sizeof *own);
         size_t more = add_joining(l, c, slot, root, next + rest);
@@ -128,8 +164,10 @@ static tn_status count_item(void *context, unsigned thread, size_t item, tn_erro
     if (status != TN_OK)
         return status;
     block(l, c->marks, root, 1);
+    c->chosen[0] = (uint32_t)root;
     if (w->parts == 2) {
-        c->count += !w->firsts || w->firsts[item] == 0 ? count_last(l, c, root, root, NULL, 0) : 0;
+        if (!w->firsts || w->firsts[item] == 0)
+            status = end_at(w, c, root, root, NULL, 0, error);
     } else {
         uint32_t *own = &c->untried[c->room];
         size_t count = add_joining(l, c, root, root, own);
@@ -182,17 +220,29 @@ static tn_status make_threads(count_work *w, unsigned threads, tn_error *error)
     return status;
 }
 
-/* Every slot that is allowed is a root. */
+/* Every slot that is allowed is a root; where all are, one for each look is enough. */
 static tn_status make_roots(count_work *w, tn_error *error)
 {
-    size_t slots = w->lattice->slot_count;
-    w->roots = calloc(slots + 1, sizeof *w->roots);
+    const tn_lattice *l = w->lattice;
+    size_t first = w->forbidden ? 0 : l->middle, end = w->forbidden ? l->slot_count : l->middle + l->look_count;
+    w->roots = calloc(end - first + 1, sizeof *w->roots);
     if (!w->roots)
         return tn_fail_memory(error);
-    for (size_t slot = 0; slot < slots; slot++)
-        if (!w->forbidden[slot])
+    for (size_t slot = first; slot < end; slot++)
+        if (!w->forbidden || !w->forbidden[slot])
             w->roots[w->item_count++] = (uint32_t)slot;
     return TN_OK;
+}
+
+static void clear_work(count_work *w, unsigned threads)
+{
+    for (unsigned i = 0; w->threads && i < threads; i++) {
+        free(w->threads[i].marks);
+        free(w->threads[i].untried);
+    }
+    free(w->threads);
+    free(w->roots);
+    free(w->firsts);
 }
 
 static tn_status count_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
@@ -208,15 +258,24 @@ static tn_status count_sets(const tn_lattice *l, const uint8_t *forbidden, uint3
     if (status == TN_OK)
         status = tn_crew_run(crew, w.item_count, 1, count_item, &w, error);
     *count = 0;
-    for (unsigned i = 0; crew && w.threads && i < tn_crew_threads(crew); i++) {
+    for (unsigned i = 0; crew && w.threads && i < tn_crew_threads(crew); i++)
         *count += w.threads[i].count;
-        free(w.threads[i].marks);
-        free(w.threads[i].untried);
-    }
-    free(w.threads);
-    free(w.roots);
-    free(w.firsts);
+    clear_work(&w, crew ? tn_crew_threads(crew) : 0);
     tn_crew_free(crew);
+    return status;
+}
+
+tn_status tn_visit_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, tn_watch *watch,
+                        tn_slots_visit *visit, void *context, tn_error *error)
+{
+    count_work w = {
+        .lattice = l, .parts = parts, .watch = watch, .forbidden = forbidden, .visit = visit, .context = context};
+    tn_status status = make_roots(&w, error);
+    if (status == TN_OK)
+        status = make_threads(&w, 1, error);
+    for (size_t item = 0; item < w.item_count && status == TN_OK; item++)
+        status = parts == 1 ? visit(context, &w.roots[item], error) : count_item(&w, 0, item, error);
+    clear_work(&w, 1);
     return status;
 }
 

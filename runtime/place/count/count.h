@@ -25,9 +25,22 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
 tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
                           tn_watch *watch, uint64_t *count, tn_error *error);
 
+/* The lattice on which that is counted, through the anchor, and [slot] what is forbidden there: the caller clears the
+ * one and frees the other in any case. */
+tn_status tn_lattice_inside(const tn_place_rules *rules, const bool *wanted, tn_watch *watch, tn_lattice *lattice,
+                            int32_t anchor[3], uint8_t **forbidden, tn_error *error);
+
 /* The sets of so many slots that hang together and are allowed: [slot], 0 where it is. */
 tn_status tn_count_allowed(const tn_lattice *lattice, const uint8_t *forbidden, uint32_t parts, unsigned threads,
                            tn_watch *watch, uint64_t *count, tn_error *error);
+
+/* A set of slots: the lowest first, then as it grew. Anything but TN_OK ends the walk. */
+typedef tn_status tn_slots_visit(void *context, const uint32_t *slots, tn_error *error);
+
+/* Shows each of those sets once, always in the same order. forbidden NULL: all slots are allowed, and sets whose lowest
+ * slot is at the middle are shown. TN_MEMORY, TN_STOPPED, or what the visit says. */
+tn_status tn_visit_sets(const tn_lattice *lattice, const uint8_t *forbidden, uint32_t parts, tn_watch *watch,
+                        tn_slots_visit *visit, void *context, tn_error *error);
 
 /* Those that are taken to themselves by quarter turns, so many at once (1 or 2), about any vertical. */
 tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,

@@ -70,8 +70,7 @@ static tn_status find_forbidden(const tn_place_rules *rules, const tn_lattice *l
     return status;
 }
 
-static tn_status count_on(const tn_place_rules *rules, tn_lattice *l, const int32_t anchor[3], uint32_t parts,
-                          unsigned threads, tn_watch *watch, uint64_t *count, tn_error *error)
+static tn_status cover_space(const tn_place_rules *rules, tn_lattice *l, const int32_t anchor[3], tn_error *error)
 {
     const tn_kit_model_record *model = rules->space;
     const int64_t low[3] = {model->low_x, model->low_y, model->low_z},
@@ -81,15 +80,23 @@ static tn_status count_on(const tn_place_rules *rules, tn_lattice *l, const int3
         box.low[k] = (int32_t)(low[k] - anchor[k]);
         box.high[k] = (int32_t)(high[k] - anchor[k]);
     }
-    tn_status status = tn_lattice_cover(l, &box, error);
+    return tn_lattice_cover(l, &box, error);
+}
+
+tn_status tn_lattice_inside(const tn_place_rules *rules, const bool *wanted, tn_watch *watch, tn_lattice *lattice,
+                            int32_t anchor[3], uint8_t **forbidden, tn_error *error)
+{
+    *forbidden = NULL;
+    *lattice = (tn_lattice){0};
+    tn_status status = find_anchor(rules, wanted, anchor, error);
+    if (status == TN_OK)
+        status = tn_lattice_make(rules, wanted, lattice, error);
+    if (status == TN_OK)
+        status = cover_space(rules, lattice, anchor, error);
     if (status != TN_OK)
         return status;
-    uint8_t *forbidden = calloc(l->slot_count, sizeof *forbidden);
-    status = forbidden ? find_forbidden(rules, l, anchor, forbidden, watch, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_count_allowed(l, forbidden, parts, threads, watch, count, error);
-    free(forbidden);
-    return status;
+    *forbidden = calloc(lattice->slot_count, sizeof **forbidden);
+    return *forbidden ? find_forbidden(rules, lattice, anchor, *forbidden, watch, error) : tn_fail_memory(error);
 }
 
 tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
@@ -97,13 +104,12 @@ tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint3
 {
     tn_lattice lattice;
     int32_t anchor[3];
+    uint8_t *forbidden;
     *count = 0;
-    tn_status status = find_anchor(rules, wanted, anchor, error);
-    if (status != TN_OK)
-        return status;
-    status = tn_lattice_make(rules, wanted, &lattice, error);
+    tn_status status = tn_lattice_inside(rules, wanted, watch, &lattice, anchor, &forbidden, error);
     if (status == TN_OK)
-        status = count_on(rules, &lattice, anchor, parts, threads, watch, count, error);
+        status = tn_count_allowed(&lattice, forbidden, parts, threads, watch, count, error);
+    free(forbidden);
     tn_lattice_clear(&lattice);
     return status;
 }
