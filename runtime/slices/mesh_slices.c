@@ -5,9 +5,10 @@
 
 #include "runtime/base/array.h"
 #include "runtime/geometry/crease.h"
+#include "runtime/geometry/twin.h"
 #include "runtime/slices/slices.h"
 
-#define NONE UINT32_MAX
+#define NONE TN_NO_TWIN
 
 typedef struct tracing {
     const tn_mesh *mesh;
@@ -28,45 +29,6 @@ static uint32_t next_corner(uint32_t corner)
 static double height_of(const tracing *t, uint32_t corner)
 {
     return t->mesh->positions[3 * (size_t)t->mesh->corners[corner] + 2];
-}
-
-/* ---- which triangles share an edge */
-
-typedef struct side {
-    uint32_t low, high, corner;
-} side;
-
-static int by_edge(const void *a, const void *b)
-{
-    const side *x = a, *y = b;
-    if (x->low != y->low)
-        return x->low < y->low ? -1 : 1;
-    if (x->high != y->high)
-        return x->high < y->high ? -1 : 1;
-    return x->corner < y->corner ? -1 : x->corner > y->corner;
-}
-
-static tn_status find_twins(tracing *t, tn_error *error)
-{
-    size_t count = 3 * t->mesh->face_count;
-    side *sides = malloc((count + 1) * sizeof *sides);
-    if (!sides)
-        return tn_fail_memory(error);
-    for (uint32_t c = 0; c < count; c++) {
-        uint32_t a = t->mesh->corners[c], b = t->mesh->corners[next_corner(c)];
-        sides[c] = (side){a < b ? a : b, a < b ? b : a, c};
-        t->twin[c] = NONE;
-    }
-    qsort(sides, count, sizeof *sides, by_edge);
-    for (size_t i = 0; i + 1 < count; i++) {
-        if (sides[i].low != sides[i + 1].low || sides[i].high != sides[i + 1].high)
-            continue;
-        t->twin[sides[i].corner] = sides[i + 1].corner;
-        t->twin[sides[i + 1].corner] = sides[i].corner;
-        i++;
-    }
-    free(sides);
-    return TN_OK;
 }
 
 /* ---- lines */
@@ -211,7 +173,7 @@ static tn_status begin(tracing *t, double thickness, tn_error *error)
     tn_status status = tn_slices_layers(low, high, thickness, t->slices, error);
     if (status != TN_OK)
         return status;
-    t->twin = malloc((3 * faces + 1) * sizeof *t->twin);
+    t->twin = tn_mesh_twins(t->mesh);
     t->done = malloc(faces + 1);
     t->order = malloc((faces + 1) * sizeof *t->order);
     t->lowest = malloc((faces + 1) * sizeof *t->lowest);
@@ -219,8 +181,7 @@ static tn_status begin(tracing *t, double thickness, tn_error *error)
     t->slices->line_first = calloc(t->line_room, sizeof *t->slices->line_first);
     if (!t->twin || !t->done || !t->order || !t->lowest || !t->slices->line_first)
         return tn_fail_memory(error);
-    status = find_twins(t, error);
-    return status == TN_OK ? order_faces(t, error) : status;
+    return order_faces(t, error);
 }
 
 /* Groups do not matter to outlines: only where the mesh bends do they turn. */
