@@ -94,3 +94,17 @@ bool test_library_keeps(const test_library *made, uint32_t bits)
             return false;
     return true;
 }
+
+uint32_t test_libraries(test_library_maker *maker, test_library_check *check, uint64_t seeds, uint32_t shortest,
+                        uint32_t longer, uint64_t least)
+{
+    uint32_t more = 0;
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        test_library made;
+        uint32_t min = (uint32_t)(seed % shortest);
+        if (maker(&made, seed, &test_schema_tiny, min, min + longer))
+            more += check(&made, min, min + longer) > least;
+        test_library_clear(&made);
+    }
+    return more;
+}

@@ -25,6 +25,15 @@ bool test_library_make(test_library *made, uint64_t seed, const test_schema *sch
 bool test_library_make_within(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
 void test_library_clear(test_library *made);
 
+typedef bool test_library_maker(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min,
+                                uint32_t max);
+typedef uint64_t test_library_check(const test_library *made, uint32_t min, uint32_t max);
+
+/* Checks the libraries of seeds 1 to `seeds` of plans of `seed % shortest` trays and up to `longer` more. How many of
+ * the checks gave more than `least`. */
+uint32_t test_libraries(test_library_maker *maker, test_library_check *check, uint64_t seeds, uint32_t shortest,
+                        uint32_t longer, uint64_t least);
+
 /* What the reference engine says of a plan: bit i for clause i, and the next bit for the rule beside them. */
 uint32_t test_library_clauses(const test_library *made, const tn_tray *trays, uint32_t length);
 

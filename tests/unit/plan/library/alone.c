@@ -119,31 +119,16 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
     return alone;
 }
 
-typedef bool library_maker(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
-
-static void try_libraries(library_maker *make)
-{
-    uint32_t interesting = 0;
-    for (uint64_t seed = 1; seed <= 40; seed++) {
-        test_library made;
-        uint32_t min = (uint32_t)(seed % 3);
-        if (make(&made, seed, &test_schema_tiny, min, min + 2))
-            interesting += check_library(&made, min, min + 2) > 0;
-        test_library_clear(&made);
-    }
-    assert_true(interesting > 10);
-}
-
 static void of_any_length(void **state)
 {
     (void)state;
-    try_libraries(test_library_make);
+    assert_true(test_libraries(test_library_make, check_library, 40, 3, 2, 0) > 10);
 }
 
 static void within_the_lengths(void **state)
 {
     (void)state;
-    try_libraries(test_library_make_within);
+    assert_true(test_libraries(test_library_make_within, check_library, 40, 3, 2, 0) > 10);
 }
 
 int main(void)

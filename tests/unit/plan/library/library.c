@@ -210,19 +210,9 @@ static uint64_t check_library(const test_library *made, uint32_t min, uint32_t m
     return all.kept;
 }
 
-typedef bool library_maker(test_library *made, uint64_t seed, const test_schema *schema, uint32_t min, uint32_t max);
-
-static void try_every_plan(library_maker *make)
+static void try_every_plan(test_library_maker *make)
 {
-    uint32_t interesting = 0;
-    for (uint64_t seed = 1; seed <= 60; seed++) {
-        test_library made;
-        uint32_t min = (uint32_t)(seed % 3);
-        if (make(&made, seed, &test_schema_tiny, min, min + 3))
-            interesting += check_library(&made, min, min + 3) > 10;
-        test_library_clear(&made);
-    }
-    assert_true(interesting > 15);
+    assert_true(test_libraries(make, check_library, 60, 3, 3, 10) > 15);
     for (uint64_t seed = 100; seed < 110; seed++) {
         test_library made;
         if (make(&made, seed, &test_schema_house, 0, 2))
