@@ -151,9 +151,17 @@ static tn_expression *call(tn_growth_parse *parse, tn_span span, const char *nam
     return arguments;
 }
 
-static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, bool at_definition)
+static bool one_of(const yysymbol_kind_t *kinds, int count, yysymbol_kind_t kind)
 {
-    if (at_definition && found == YYSYMBOL_OPEN)
+    for (int i = 0; i < count; i++)
+        if (kinds[i] == kind)
+            return true;
+    return false;
+}
+
+static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, const yysymbol_kind_t *expected, int count)
+{
+    if (one_of(expected, count, YYSYMBOL_EQUALS) && found == YYSYMBOL_OPEN)
         return "only a function has parameters: write `fn ring(a, b) = sqrt(a*a + b*b)`";
     switch (before) {
     case YYSYMBOL_USE: return "a path stands in double quotes, as in `use \"shapes\"`";
@@ -179,6 +187,10 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, boo
     if (found == YYSYMBOL_YYEOF || found == YYSYMBOL_USE || found == YYSYMBOL_LET || found == YYSYMBOL_FN || found == YYSYMBOL_SURFACE ||
         found == YYSYMBOL_BOX || found == YYSYMBOL_GRID || found == YYSYMBOL_UNIT)
         return "the statement before this does not end here; see whether all its parentheses are closed";
+    if (one_of(expected, count, YYSYMBOL_TO_DOTS))
+        return "`..` stands between the two corners of a box: `box (-7, -7, -7)..(7, 7, 7)`";
+    if ((found == YYSYMBOL_NUMBER || found == YYSYMBOL_NAME) && one_of(expected, count, YYSYMBOL_COMMA))
+        return "between two arguments there is a comma, between two values an operator: `+`, `-`, `*`, `/` or `%`";
     if (found == YYSYMBOL_NUMBER || found == YYSYMBOL_NAME || found == YYSYMBOL_OPEN)
         return "between two values there is an operator: `+`, `-`, `*`, `/` or `%`";
     return "a statement starts with `use`, `let`, `fn`, `surface`, `box`, `grid` or `unit`";
@@ -193,13 +205,10 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     int count = yypcontext_expected_tokens(context, kinds, MOST);
     if (count < 0)
         return count;
-    bool at_definition = false;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
-        at_definition = at_definition || kinds[i] == YYSYMBOL_EQUALS;
-    }
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before), at_definition));
+                           (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before), kinds, count));
     return 0;
 }
 

@@ -90,6 +90,8 @@ file
     | file USE STRING END                   { tn_solid_add_use(parse, $3); }
     | file SOLID NAME doc base OPEN_BRACE statements CLOSE_BRACE
                                             { yyerrok; end_design(parse, $7, $3, $4, $5, tn_span_join(@2, @8)); }
+    | file SOLID error OPEN_BRACE statements CLOSE_BRACE
+                                            { yyerrok; tn_solid_lost(parse); }
     | file error END                        { yyerrok; tn_solid_lost(parse); }
     | file error CLOSE_BRACE                { yyerrok; tn_solid_lost(parse); }
     ;
@@ -401,15 +403,18 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     int count = yypcontext_expected_tokens(context, kinds, MOST);
     if (count < 0)
         return count;
-    bool ends = false;
+    bool ends = false, outside = false;
     int taken = 0;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         ends |= kinds[i] == YYSYMBOL_END;
+        outside |= kinds[i] == YYSYMBOL_SOLID;
+    }
     for (int i = 0; i < count; i++)
         if (!ends || !begins_statement(kinds[i]))
             expected[taken++] = yysymbol_name(kinds[i]);
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)taken, likely_fix(found, YYTRANSLATE(parse->token_before)));
+                           (size_t)taken, outside ? "a file has designs, and everything else stands in one: `solid table { ... }`"
+                                                  : likely_fix(found, YYTRANSLATE(parse->token_before)));
     return 0;
 }
 

@@ -1,4 +1,5 @@
 /* The constructors of the syntax tree of rewrite systems (.hemls). */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,9 +110,10 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help)
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
                             size_t count, const char *help)
 {
-    char list[400] = "", here[100], meant[80];
+    char list[400] = "", here[100], meant[100];
     if (parse->reported)
         return;
+    bool named = count == 1 && strcmp(expected[0], "a name") == 0 && isalpha((unsigned char)parse->text[span.begin]);
     size_t used = 0, size = span.end > span.begin ? span.end - span.begin : 0;
     for (size_t i = 0; i < count && count <= 6 && used < sizeof list; i++)
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
@@ -126,6 +128,9 @@ void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *fo
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here%s", here, list);
     if (parse->meant) {
         snprintf(meant, sizeof meant, "did you mean `%s`?", parse->meant);
+        help = meant;
+    } else if (named) {
+        snprintf(meant, sizeof meant, "%s is a word of the language: take another name", here);
         help = meant;
     }
     tn_help(parse->diagnostics, d, "%s", help);
