@@ -107,11 +107,23 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help)
     tn_help(parse->diagnostics, d, "%s", help);
 }
 
+/* Only blanks lie between a character that means nothing, which was reported, and this place: what is wrong here follows
+ * from that. */
+static bool behind_stray(const tn_growth_parse *parse, uint32_t begin)
+{
+    if (!parse->stray_end || parse->stray_end > begin)
+        return false;
+    for (uint32_t i = parse->stray_end; i < begin; i++)
+        if (!isspace((unsigned char)parse->text[i]))
+            return false;
+    return true;
+}
+
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
                             size_t count, const char *help)
 {
     char list[400] = "", here[100], meant[100];
-    if (parse->reported)
+    if (parse->reported || behind_stray(parse, span.begin))
         return;
     bool named = count == 1 && strcmp(expected[0], "a name") == 0 && isalpha((unsigned char)parse->text[span.begin]);
     size_t used = 0, size = span.end > span.begin ? span.end - span.begin : 0;
