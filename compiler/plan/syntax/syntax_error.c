@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "compiler/plan/syntax/slip.h"
+#include "compiler/plan/syntax/syntax_example.h"
 #include "compiler/plan/syntax/syntax_fix.h"
 #include "runtime/base/nearest.h"
 
@@ -247,6 +248,21 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
     return true;
 }
 
+/* By what is known of the place, or else by how such a line is written. */
+static void advise_otherwise(tn_parse *parse, tn_diagnostic *d, tn_span span, const tn_expected *e, const char *help)
+{
+    const char *example = tn_syntax_example(parse->text, span.begin);
+    if (help)
+        tn_help(parse->diagnostics, d, "%s", help);
+    else if (tn_expects(e, "`neighbour`"))
+        tn_help(parse->diagnostics, d,
+                "here stands `any`, `tray(...)`, `neighbour(...)` or another rule expression, or the name of a rule");
+    else if (example)
+        tn_help(parse->diagnostics, d, "such a line is written `%s`", example);
+    else
+        tn_help(parse->diagnostics, d, "write what is expected, or leave this out");
+}
+
 void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *const *expected, size_t count)
 {
     tn_span span = found->span;
@@ -275,5 +291,5 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
     else if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
         tn_suggest(parse->diagnostics, d, "%s", meant);
     else
-        tn_help(parse->diagnostics, d, "%s", help ? help : "write what is expected, or leave this out");
+        advise_otherwise(parse, d, span, &e, help);
 }
