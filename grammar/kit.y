@@ -29,6 +29,7 @@ static void tn_kit_error(const tn_span *span, tn_growth_parse *parse, void *scan
 static tn_kit_node *node(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_nodes inner);
 static tn_kit_node *sized(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c);
 static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count);
+static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes);
 static tn_kit_text text_of(tn_growth_parse *parse, tn_kit_length number);
 static tn_expression *number_of(tn_growth_parse *parse, tn_kit_length number);
 static tn_expression *count_of(tn_growth_parse *parse, tn_span span, tn_kit_text part);
@@ -70,7 +71,7 @@ static const tn_kit_nodes no_nodes = {0};
 
 %type <node> statement feature space alternative placed drawn_one line condition connector has
 %type <nodes> features names alternatives drawn several lines conditions lengths stocks
-%type <text> doc part_name axis axis_word
+%type <text> doc part_name axis axis_word upright
 %type <length> length
 %type <vector> vector
 %type <expression> expression call
@@ -176,6 +177,10 @@ names
 space
     : NAME                                  { $$ = node(parse, TN_KIT_NAMED, @$, $1, no_nodes); }
     | NAME OPEN lengths CLOSE               { $$ = node(parse, TN_KIT_SHAPE, @$, $1, $3); }
+    | NAME OPEN STRING upright CLOSE        { $$ = filed(parse, @$, $1, $3, $4, no_nodes); }
+    | NAME OPEN STRING upright COMMA lengths CLOSE
+                                            { $$ = filed(parse, @$, $1, $3, $4, $6); }
+    | MODEL OPEN STRING CLOSE               { $$ = filed(parse, @$, (tn_kit_text){"model", @1}, $3, no_text, no_nodes); }
     | OPEN space CLOSE                      { $$ = $2; }
     | space AND space                       { $$ = tn_kit_space_of(parse, TN_KIT_BOTH, @$, $1, $3); }
     | space OR space                        { $$ = tn_kit_space_of(parse, TN_KIT_EITHER, @$, $1, $3); }
@@ -184,6 +189,11 @@ space
     | space REPEAT NUMBER BY vector         { $$ = tn_kit_space_of(parse, TN_KIT_REPEATED, @$, $1, NULL);
                                               if ($$) { $$->count[0] = $3; $$->at = $5; } }
     | space AT vector                       { $$ = tn_kit_space_of(parse, TN_KIT_MOVED, @$, $1, NULL); if ($$) $$->at = $3; }
+    ;
+
+upright
+    : %empty                                { $$ = no_text; }
+    | axis_word NAME                        { $$ = $1; $$.span = @$; }
     ;
 
 alternatives
@@ -233,6 +243,8 @@ line
     : INSIDE space                          { $$ = node(parse, TN_KIT_INSIDE, @$, no_text, tn_kit_nodes_add(no_nodes, $2)); }
     | START NAME axis AT vector BY NAME     { $$ = node(parse, TN_KIT_START, @$, $2, no_nodes);
                                               if ($$) { $$->doc = $3; $$->at = $5; $$->other = $7; } }
+    | START STRING BY NAME                  { $$ = node(parse, TN_KIT_STANDS, @$, no_text, no_nodes);
+                                              if ($$) { $$->doc = $2; $$->other = $4; } }
     | COLOUR NUMBER                         { $$ = counted(parse, TN_KIT_COLOUR, @$, no_text, $2); }
     | REQUIRE conditions                    { $$ = node(parse, TN_KIT_REQUIRES, @$, no_text, $2); }
     | MINIMIZE condition                    { $$ = node(parse, TN_KIT_MINIMIZES, @$, no_text, tn_kit_nodes_add(no_nodes, $2)); }
@@ -330,6 +342,16 @@ static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span sp
     tn_kit_node *made = tn_kit_node_new(parse, kind, span, name);
     if (made)
         made->count[0] = count;
+    return made;
+}
+
+static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes)
+{
+    tn_kit_node *made = node(parse, TN_KIT_FILED, span, name, sizes);
+    if (made) {
+        made->doc = file;
+        made->other = up;
+    }
     return made;
 }
 

@@ -5,6 +5,7 @@
 
 #include "compiler/common/lexical.h"
 #include "compiler/compile.h"
+#include "driver/open/attached.h"
 
 void tn_analysis_free(tn_file_analysis *analysis)
 {
@@ -39,7 +40,8 @@ tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t siz
     tn_files_begin(&files, stdlib);
     files.overlay = overlay;
     files.overlay_context = context;
-    tn_compile_options options = {.resolver = tn_files_resolver(&files), .partial = true};
+    tn_compile_options options = {
+        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
     tn_input input = {.text = text, .size = size, .name = path};
     tn_status status =
         tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, &analysis->compilation);

@@ -5,6 +5,7 @@
 
 #include "api/compiler/compile.h"
 #include "compiler/format.h"
+#include "driver/open/attached.h"
 #include "driver/open/files.h"
 #include "runtime/base/file.h"
 
@@ -103,6 +104,7 @@ static tn_status open_with_files(const tn_notation *notation, tn_input *input, c
     tn_files_begin(&files, &dirs);
     input->identity = identity;
     own->resolver = tn_files_resolver(&files);
+    own->attachments = tn_file_attachments;
     tn_status status = copied ? tn_open_text(notation, input, own, opened) : TN_MEMORY;
     tn_files_clear(&files);
     for (size_t i = 0; folders && i < options->folder_count; i++)

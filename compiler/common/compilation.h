@@ -19,6 +19,7 @@ typedef struct tn_questions {
 
 typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
+    tn_attachments attachments;
     bool warnings_are_errors;
     const tn_questions *questions; /* of a .plan file, or about parts; or NULL */
     /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins).

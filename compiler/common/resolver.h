@@ -6,6 +6,8 @@
 #ifndef TARTAN_COMPILER_COMMON_RESOLVER_H
 #define TARTAN_COMPILER_COMMON_RESOLVER_H
 
+#include <stdint.h>
+
 #include "runtime/base/error.h"
 
 /* A text to be compiled. Borrowed, all of it. */
@@ -38,5 +40,16 @@ typedef struct tn_resolver {
     tn_resolve *resolve; /* NULL: there is nothing that can be used */
     void *context;
 } tn_resolver;
+
+struct tn_mesh; /* runtime/geometry/mesh.h */
+
+/* Files that a text names without using them as texts: meshes, pictures, models made elsewhere. The request's path is
+ * relative to the text that names it. A failure becomes an error at the name, with the message and help of `error`;
+ * TN_MEMORY ends the compilation. Functions that are NULL: no file can be had. */
+typedef struct tn_attachments {
+    tn_status (*bytes)(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error);
+    tn_status (*mesh)(void *context, const tn_request *request, struct tn_mesh *mesh, tn_error *error); /* to clear */
+    void *context;
+} tn_attachments;
 
 #endif

@@ -45,6 +45,7 @@ typedef enum tn_kit_kind {
     TN_KIT_PRICE, /* count[0] */
     /* of a space */
     TN_KIT_SHAPE, /* name, inner: LENGTH */
+    TN_KIT_FILED, /* name, doc: a file, other: the axis that is up; inner: LENGTH, perhaps none */
     TN_KIT_NAMED, /* name */
     TN_KIT_BOTH,
     TN_KIT_EITHER,
@@ -59,6 +60,7 @@ typedef enum tn_kit_kind {
     /* of a model */
     TN_KIT_INSIDE,    /* inner: one of a space */
     TN_KIT_START,     /* name: of a connector, doc: its axis, at, other: a rule */
+    TN_KIT_STANDS,    /* doc: a file, other: a rule */
     TN_KIT_COLOUR,    /* count[0] */
     TN_KIT_REQUIRES,  /* inner: CONDITION */
     TN_KIT_MINIMIZES, /* inner: one CONDITION, which is a number */

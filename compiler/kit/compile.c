@@ -65,12 +65,12 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
 {
     tn_imports imports;
     tn_diagnostics *diagnostics = &c->diagnostics;
-    tn_kit kit = {.arena = c->arena, .diagnostics = diagnostics};
+    tn_kit kit = {.arena = c->arena, .diagnostics = diagnostics, .attachments = &options->attachments};
     if (options->questions && options->questions->parts)
         return compile_conditions(c, options->questions, error);
     tn_status status = tn_import_all(c, options, kit_files, parse_unit, &imports);
     bool right = status == TN_OK && tn_check_kit(&kit, &imports);
-    if (status != TN_OK || tn_arena_failed(c->arena) || diagnostics->failed)
+    if (status != TN_OK || tn_arena_failed(c->arena) || diagnostics->failed || kit.out_of_memory)
         return tn_fail_memory(error);
     if (!right || diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;

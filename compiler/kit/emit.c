@@ -250,6 +250,33 @@ static void emit_body(emitting *e, const symbol *s)
     end(e, production, s->places->span);
 }
 
+/* The parts of a file, each where it is: room is taken for all before anything grows. */
+static void stand_parts(emitting *e, const tn_kit_node *node, const tn_kit_rule *rule, bool joints)
+{
+    const tn_kit_parts *parts = tn_kit_parts_of_file(e->kit, node);
+    for (const tn_kit_stands *one = parts ? parts->first : NULL; one; one = one->next) {
+        const tn_kit_node placed = {.kind = TN_KIT_PLACED, .span = node->span, .name = one->part->node->name};
+        step(e, node->span, TN_OP_PUSH, 0, 0);
+        if (!joints)
+            step(e, node->span, TN_OP_COLOUR, one->colour, 0);
+        move(e, node->span, one->at, one->heading);
+        if (joints) {
+            put_joints(e, rule, &placed);
+        } else {
+            put_boxes(e, rule, &placed);
+            put_part(e, rule, &placed);
+        }
+        step(e, node->span, TN_OP_POP, 0, 0);
+    }
+}
+
+static void emit_standing(emitting *e, const tn_kit_node *node)
+{
+    const tn_kit_rule *rule = tn_names_get(&e->kit->rules, node->other.text);
+    stand_parts(e, node, rule, false);
+    stand_parts(e, node, rule, true);
+}
+
 static void emit_start(emitting *e, const tn_kit_model *model)
 {
     tn_production_record production = begin(e, model->node->span);
@@ -257,6 +284,8 @@ static void emit_start(emitting *e, const tn_kit_model *model)
     for (const tn_kit_node *node = model->node->inner.first; node; node = node->next) {
         tn_axis axis = TN_AXIS_UP;
         int32_t at[3];
+        if (node->kind == TN_KIT_STANDS)
+            emit_standing(e, node);
         if (node->kind != TN_KIT_START)
             continue;
         if (node->doc.text)
@@ -420,6 +449,16 @@ static void emit_part(emitting *e, const tn_kit_part *part)
     tn_builder_add_KIT_PART(b, &record);
 }
 
+static void emit_mask(emitting *e, const tn_kit_mask *mask)
+{
+    tn_builder_add_KIT_MASK(
+        e->builder,
+        &(tn_kit_mask_record){mask->low[0], mask->low[1], mask->low[2], mask->size[0], mask->size[1], mask->size[2],
+                              (uint32_t)tn_builder_count(e->builder, TN_SECTION_MASK_WORD), (uint32_t)mask->words});
+    for (size_t i = 0; i < mask->words; i++)
+        tn_builder_add_MASK_WORD(e->builder, &(tn_mask_word_record){mask->bits[i]});
+}
+
 static void emit_records(emitting *e, tn_kit_record record)
 {
     tn_builder *b = e->builder;
@@ -431,6 +470,9 @@ static void emit_records(emitting *e, tn_kit_record record)
     }
     for (const tn_kit_part *part = e->kit->part_list.first; part; part = part->next)
         emit_part(e, part);
+    for (const tn_kit_mask *mask = e->kit->mask_list.first; mask; mask = mask->next)
+        if (!mask->wrong && mask->index < e->kit->masks_placed)
+            emit_mask(e, mask);
     for (uint32_t i = 0; i < e->kit->counted_count; i++)
         tn_builder_add_COUNTED(b, &(tn_counted_record){tn_builder_string(b, e->kit->counted[i])});
     record.type_count = (uint32_t)tn_builder_count(b, TN_SECTION_CONNECTOR_TYPE);

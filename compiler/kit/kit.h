@@ -8,6 +8,7 @@
 #include "compiler/common/listing.h"
 #include "compiler/common/names.h"
 #include "compiler/kit/ast.h"
+#include "runtime/place/model/frame.h"
 #include "runtime/place/model/terms.h"
 
 enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000 };
@@ -60,6 +61,39 @@ typedef struct tn_kit_region {
     double low[3], high[3]; /* LDU, y upwards; not of endless ones */
 } tn_kit_region;
 
+/* Where a space is, in LDU, and by how many quarter turns about the vertical it is turned. */
+typedef struct tn_kit_spot {
+    double at[3];
+    uint32_t turns;
+} tn_kit_spot;
+
+/* Cells that a file gave: x fastest, then z, then y, as the head has them. One file at two spots has two. */
+typedef struct tn_kit_mask {
+    const tn_kit_node *node; /* that names the file */
+    tn_kit_spot spot;
+    bool wrong; /* it was complained of */
+    int32_t low[3];
+    uint32_t size[3], index;
+    uint64_t *bits;
+    size_t words;
+    struct tn_kit_mask *next;
+} tn_kit_mask;
+
+/* The parts of a model that a file has; what was complained of has none. */
+typedef struct tn_kit_parts {
+    const tn_kit_node *node; /* that names the file */
+    struct tn_kit_stands *first, *last;
+    struct tn_kit_parts *next;
+} tn_kit_parts;
+
+typedef struct tn_kit_stands {
+    const tn_kit_part *part;
+    int32_t at[3];
+    uint32_t heading;
+    int32_t colour;
+    struct tn_kit_stands *next;
+} tn_kit_stands;
+
 typedef struct tn_kit_model {
     const tn_kit_node *node, *inside;
     tn_kit_region region;
@@ -89,12 +123,21 @@ typedef struct tn_kit {
     struct {
         tn_kit_model *first, *last;
     } model_list;
+    struct {
+        tn_kit_mask *first, *last;
+    } mask_list;
+    struct {
+        tn_kit_parts *first, *last;
+    } file_list;
+    const tn_attachments *attachments;
     const tn_kit_node *unit_node;
     int64_t unit[3];
     uint32_t part_count;
     const char *counted[TN_KIT_COUNTED_MAX];
-    uint32_t counted_count, shapes; /* shapes: of the space at hand, each as often as it is named */
-    bool damaged;
+    size_t mask_words;
+    uint32_t mask_count, masks_placed; /* those that models have come first */
+    uint32_t counted_count, shapes;    /* shapes: of the space at hand, each as often as it is named */
+    bool damaged, out_of_memory;
 } tn_kit;
 
 /* Checks the files of all units. False where there were errors. */
@@ -120,6 +163,18 @@ void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const 
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
+
+/* The space that a file gives at a spot (mask.c), and the parts of a model that it has (stands.c): never NULL but where
+ * out of memory. */
+tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot);
+const tn_kit_parts *tn_kit_parts_of_file(tn_kit *kit, const tn_kit_node *node);
+
+/* A box of a part that stands, in cells. */
+tn_cell_box tn_kit_box_of(const tn_kit_stands *one, uint32_t index);
+
+/* Says that the file that a node names is of no use; `error` says why. TN_MEMORY is the arena's to remember. */
+void tn_kit_file_failed(tn_kit *kit, const tn_kit_node *node, tn_status status, const tn_error *error);
+tn_request tn_kit_request(const tn_kit *kit, const tn_kit_node *node);
 void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule);
 void tn_kit_check_model(tn_kit *kit, tn_kit_model *model);
 void tn_kit_check_conditions(tn_kit *kit, const tn_kit_node *node);

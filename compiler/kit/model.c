@@ -109,6 +109,23 @@ static void check_inside(tn_kit *kit, tn_kit_model *model)
     }
 }
 
+/* What stands is placed as it is: nothing looks for its place. */
+static void check_stands(tn_kit *kit, const tn_kit_model *model, const tn_kit_node *node)
+{
+    tn_kit_parts_of_file(kit, node);
+    if (!tn_names_get(&kit->rules, node->other.text)) {
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->other.span, "there is no rule `%.100s`", node->other.text);
+        tn_kit_suggest(kit, d, &kit->rules, node->other.text, "write `rule wall at stud, tube = 3001 | 3003;`");
+    }
+    if (!model->repeats)
+        return;
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_STANDS, node->span,
+                                 "parts that stand have no images: this model has a symmetry");
+    tn_note(kit->diagnostics, d, &model->repeats->span, "it is here");
+    tn_help(kit->diagnostics, d, "leave out `symmetry`, or start at connectors");
+}
+
 static void check_start(tn_kit *kit, const tn_kit_node *node)
 {
     tn_kit_type *type = tn_names_get(&kit->types, node->name.text);
@@ -152,6 +169,8 @@ void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
         } else if (node->kind == TN_KIT_START) {
             starts = true;
             check_start(kit, node);
+        } else if (node->kind == TN_KIT_STANDS) {
+            starts = true; /* it is looked at once the search is known */
         } else if (node->kind == TN_KIT_COLOUR) {
             tn_kit_whole(kit, &node->count[0], 0, TN_PLACE_COLOUR_MAX, "a colour", &model->colour);
         } else if (node->kind == TN_KIT_REQUIRES) {
@@ -169,6 +188,9 @@ void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
         lacks(kit, model, "starts nowhere",
               "write a connector, where it is, and a rule: `start stud at (0, 0, 0) by wall;`");
     tn_kit_check_searches(kit, model);
+    for (const tn_kit_node *node = model->node->inner.first; node; node = node->next)
+        if (node->kind == TN_KIT_STANDS)
+            check_stands(kit, model, node);
 }
 
 void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test)

@@ -6,12 +6,6 @@
 
 enum { SHAPES_MAX = 20000, REPEATED_MAX = 1000 };
 
-/* Where a space is, in LDU, and by how many quarter turns about the vertical it is turned. */
-typedef struct spot {
-    double at[3];
-    uint32_t turns;
-} spot;
-
 static tn_expression *number(tn_kit *kit, tn_span span, double value)
 {
     return tn_expression_number(kit->arena, span, value);
@@ -63,11 +57,19 @@ enum { BOX, SPHERE, CYLINDER, SHAPE_COUNT };
 
 static int find_shape(tn_kit *kit, const tn_kit_node *node)
 {
+    static const char *const filed[] = {"mesh", "heightmap"};
     const char *names[SHAPE_COUNT];
     for (int i = 0; i < SHAPE_COUNT; i++) {
         names[i] = shapes[i].name;
         if (strcmp(shapes[i].name, node->name.text) == 0)
             return i;
+    }
+    for (size_t i = 0; i < sizeof filed / sizeof *filed; i++) {
+        if (strcmp(filed[i], node->name.text) != 0)
+            continue;
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes a file first", filed[i]);
+        tn_help(kit->diagnostics, d, "as mesh(\"statue.stl\", 20 bricks)");
+        return SHAPE_COUNT;
     }
     tn_diagnostic *d =
         tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no shape `%.100s`", node->name.text);
@@ -75,7 +77,7 @@ static int find_shape(tn_kit *kit, const tn_kit_node *node)
     if (near)
         tn_suggest(kit->diagnostics, d, "%s", near);
     else
-        tn_help(kit->diagnostics, d, "shapes are box, sphere and cylinder");
+        tn_help(kit->diagnostics, d, "shapes are box, sphere and cylinder; and mesh, heightmap and model, of files");
     return SHAPE_COUNT;
 }
 
@@ -105,7 +107,7 @@ static bool read_sizes(tn_kit *kit, const tn_kit_node *node, int shape, double s
     return false;
 }
 
-static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     double size[3] = {0};
     tn_kit_region region = {.inside = NULL};
@@ -134,9 +136,9 @@ static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const
     return region;
 }
 
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot *at);
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at);
 
-static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     tn_kit_region none = {.inside = NULL};
     tn_kit_space *space = tn_names_get(&kit->spaces, node->name.text);
@@ -174,14 +176,14 @@ static tn_kit_region join_regions(tn_kit *kit, tn_span span, const tn_kit_region
     return region;
 }
 
-static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     tn_kit_region a = region_of(kit, node->inner.first, at), b = region_of(kit, node->inner.last, at);
     return join_regions(kit, node->span, &a, &b, node->kind == TN_KIT_BOTH);
 }
 
 /* The spot moved so many times by what stands behind `at` or `by`; turned as the spot is. */
-static bool move_spot(tn_kit *kit, const tn_kit_node *node, const spot *at, double times, spot *to)
+static bool move_spot(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at, double times, tn_kit_spot *to)
 {
     double by[3];
     for (int k = 0; k < 3; k++) {
@@ -201,16 +203,16 @@ static bool move_spot(tn_kit *kit, const tn_kit_node *node, const spot *at, doub
     return true;
 }
 
-static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
-    spot to;
+    tn_kit_spot to;
     return move_spot(kit, node, at, 1, &to) ? region_of(kit, node->inner.first, &to) : (tn_kit_region){.inside = NULL};
 }
 
-static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     int64_t turns;
-    spot to = *at;
+    tn_kit_spot to = *at;
     if (!tn_kit_whole(kit, &node->count[0], 0, 3, "a turn", &turns))
         return (tn_kit_region){.inside = NULL};
     to.turns += (uint32_t)turns;
@@ -218,9 +220,10 @@ static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const s
 }
 
 /* What is inside of any of so many copies from the first on: halves are joined, so that the condition is not deep. */
-static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const spot *at, int64_t first, int64_t count)
+static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at, int64_t first,
+                                   int64_t count)
 {
-    spot to;
+    tn_kit_spot to;
     if (count > 1) {
         tn_kit_region a = region_copies(kit, node, at, first, count / 2);
         if (!a.inside)
@@ -232,7 +235,7 @@ static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const s
                                                         : (tn_kit_region){.inside = NULL};
 }
 
-static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     int64_t count;
     return tn_kit_whole(kit, &node->count[0], 1, REPEATED_MAX, "a number of copies", &count)
@@ -242,7 +245,7 @@ static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const
 
 /* Recursion is as deep as spaces nest, which was checked for each, and as names lead to one another, which is checked
  * by the number of shapes. */
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot *at)
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
 {
     tn_kit_region region = {.inside = NULL};
     if (node->depth > TN_NESTING_MAX || ++kit->shapes > SHAPES_MAX) {
@@ -253,6 +256,8 @@ static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot 
     switch (node->kind) {
     case TN_KIT_SHAPE:
         return region_of_shape(kit, node, at);
+    case TN_KIT_FILED:
+        return tn_kit_region_of_file(kit, node, at);
     case TN_KIT_NAMED:
         return region_named(kit, node, at);
     case TN_KIT_MOVED:
@@ -273,7 +278,7 @@ static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const spot 
 
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node)
 {
-    static const spot origin = {.turns = 0};
+    static const tn_kit_spot origin = {.turns = 0};
     size_t errors = kit->diagnostics->error_count;
     kit->shapes = 0;
     tn_kit_region region = region_of(kit, node, &origin);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "driver/open/attached.h"
 #include "driver/open/files.h"
 #include "driver/open/stdlib_dirs.h"
 #include "driver/open/stdlib_find.h"
@@ -58,6 +59,7 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
     if (status == TN_OK && identity) {
         tn_input input = {text, size, opened->path, identity, NULL};
         tn_compile_options options = {.resolver = tn_files_resolver(&files),
+                                      .attachments = tn_file_attachments,
                                       .warnings_are_errors = how->warnings_are_errors,
                                       .questions = how->questions,
                                       .more = how->more,

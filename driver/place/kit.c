@@ -48,15 +48,15 @@ static void write_found(const tn_module *module, uint32_t function, const tn_pla
                         size_t size)
 {
     const tn_function_record *f = &module->FUNCTION_records[function];
-    uint64_t seen = 0;
+    bool seen[TN_PLACED_TERM_COUNT] = {false};
     size_t used = 0;
     text[0] = '\0';
     tn_instruction i;
     for (uint32_t offset = f->code_begin; offset < f->code_end && used < size; offset += i.length) {
         i = tn_code_read(module->code, offset);
-        if (i.opcode != TN_OP_TERM || seen >> i.first & 1)
+        if (i.opcode != TN_OP_TERM || seen[i.first])
             continue;
-        seen |= UINT64_C(1) << i.first;
+        seen[i.first] = true;
         double value = measured->terms[i.first];
         size_t slot = (size_t)i.first - TN_PLACED_COUNTED;
         const char *comma = used ? ", " : "";

@@ -61,7 +61,9 @@ static void report_fault(tn_opened *opened, const tn_place_rules *rules, const t
                                  model->count == 1 ? "" : "s");
     tn_note(list, d, &by, "it is of this alternative of %s", name_of(rules, fault->alternative));
     note_obstacle(list, d, rules, &fault->obstacle);
-    if (error->code == E_PLACE_BLOCKED)
+    if (error->code == E_PLACE_BLOCKED && rules->space)
+        tn_help(list, d, "parts with which a model starts lie inside of its space: write `inside room or model(...);`");
+    else if (error->code == E_PLACE_BLOCKED)
         help_blocked(list, d, &rules->symbols[tn_place_symbol_of(rules, fault->alternative)]);
     else if (error->code == E_PLACE_FRAME)
         tn_help(list, d, "every ')' needs a '(' before it");

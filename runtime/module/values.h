@@ -247,6 +247,10 @@ typedef enum tn_repair { TN_REPAIR_GENOME, TN_REPAIR_IDENTITY, TN_REPAIR_OFF, TN
 
 #define TN_KIT_LENGTH_MAX INT64_C(1000000000000) /* millionths of an LDU */
 #define TN_KIT_COUNTED_MAX 32u
+#define TN_KIT_MASKS_MAX 64u
+#define TN_MASK_CELLS_MAX (1 << 26)
+#define TN_MASK_WORDS_MAX 1000000
+#define TN_KIT_STANDS_MAX 100000
 #define TN_CONDITION_TEST 1u /* of a test, not a requirement */
 #define TN_KIT_MAXIMIZE 1u   /* the objective is to be large */
 #define TN_KIT_BREADTH 2u    /* what was opened first comes next */

@@ -205,6 +205,9 @@ static tn_status fill(derivation *d, const tn_frame *frame, const tn_step *step,
 {
     tn_cell_box box = tn_frame_box(frame, step);
     if (tn_step_may_fail(step->kind) && tn_cells_any(d->cells, &box)) {
+        tn_status looked = tn_cells_status(d->cells, d->error);
+        if (looked != TN_OK)
+            return looked;
         *d->fault = (tn_place_fault){true, index, alternative, tn_obstacle_find(d, &box)};
         return tn_fail(d->error, TN_INVALID, E_PLACE_BLOCKED, "the place of this box is not free");
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/module/code.h"
 #include "runtime/number/run.h"
 #include "runtime/place/model/terms.h"
 
@@ -11,13 +12,37 @@ enum { POINTS = 2 * TN_CHUNK_WIDTH }; /* of one run: two rows of a chunk */
 
 struct tn_space {
     tn_cell_space cells;
+    const tn_module *module;
     const uint8_t *code;
     const tn_function_record *function;
     double unit[3];
     tn_number_rows rows;
+    const tn_kit_mask_record *masks[TN_KIT_MASKS_MAX]; /* those that the space asks for; the others are NULL */
+    double *mask_rows;                                 /* [TN_KIT_MASKS_MAX][POINTS], where there are any */
     double x[POINTS], y[POINTS], z[POINTS], none[POINTS], values[POINTS];
     const double *columns[TN_PLACED_TERM_COUNT];
 };
+
+/* Is the cell one of the mask's? */
+static bool mask_holds(const tn_module *module, const tn_kit_mask_record *mask, const int64_t cell[3])
+{
+    int64_t x = cell[0] - mask->low_x, y = cell[1] - mask->low_y, z = cell[2] - mask->low_z;
+    if (x < 0 || y < 0 || z < 0 || x >= mask->size_x || y >= mask->size_y || z >= mask->size_z)
+        return false;
+    uint64_t bit = ((uint64_t)y * mask->size_z + (uint64_t)z) * mask->size_x + (uint64_t)x;
+    return module->MASK_WORD_records[mask->word_first + bit / 64].bits >> bit % 64 & 1;
+}
+
+/* What the masks say of rows z and z + 1, from x on. */
+static void look_at_masks(tn_space *space, int64_t x, int64_t y, int64_t z)
+{
+    for (size_t m = 0; space->mask_rows && m < TN_KIT_MASKS_MAX; m++) {
+        for (int i = 0; space->masks[m] && i < POINTS; i++) {
+            const int64_t cell[3] = {x + i % TN_CHUNK_WIDTH, y, z + i / TN_CHUNK_WIDTH};
+            space->mask_rows[m * POINTS + (size_t)i] = mask_holds(space->module, space->masks[m], cell);
+        }
+    }
+}
 
 /* Which cells of rows z and z + 1 are outside. */
 static tn_status look_at_rows(tn_space *space, int32_t z, uint64_t outside[2], tn_error *error)
@@ -45,10 +70,32 @@ static tn_status find_outside(void *context, const int32_t at[3], uint64_t row[T
     for (int y = 0; y < TN_CHUNK_ROWS && status == TN_OK; y++) {
         for (int i = 0; i < POINTS; i++) /* heights are upwards, cells downwards */
             space->y[i] = -((double)at[1] * TN_CHUNK_ROWS + y + 0.5) * space->unit[1];
-        for (int z = 0; z < TN_CHUNK_ROWS && status == TN_OK; z += 2)
+        for (int z = 0; z < TN_CHUNK_ROWS && status == TN_OK; z += 2) {
+            look_at_masks(space, (int64_t)at[0] * TN_CHUNK_WIDTH, (int64_t)at[1] * TN_CHUNK_ROWS + y,
+                          (int64_t)at[2] * TN_CHUNK_ROWS + z);
             status = look_at_rows(space, at[2] * TN_CHUNK_ROWS + z, &row[y][z], error);
+        }
     }
     return status;
+}
+
+/* Which masks the space's function asks for. */
+static tn_status find_masks(tn_space *space, tn_error *error)
+{
+    tn_instruction i;
+    for (uint32_t offset = space->function->code_begin; offset < space->function->code_end; offset += i.length) {
+        i = tn_code_read(space->code, offset);
+        if (i.opcode != TN_OP_TERM || i.first < TN_PLACED_MASK)
+            continue;
+        size_t mask = (size_t)i.first - TN_PLACED_MASK;
+        if (!space->mask_rows)
+            space->mask_rows = calloc((size_t)TN_KIT_MASKS_MAX * POINTS, sizeof *space->mask_rows);
+        if (!space->mask_rows)
+            return tn_fail_memory(error);
+        space->masks[mask] = &space->module->KIT_MASK_records[mask];
+        space->columns[i.first] = space->mask_rows + mask * POINTS;
+    }
+    return TN_OK;
 }
 
 tn_status tn_space_new(const tn_place_rules *rules, tn_space **space, tn_error *error)
@@ -64,6 +111,7 @@ tn_status tn_space_new(const tn_place_rules *rules, tn_space **space, tn_error *
         .outside = find_outside,
         .context = made,
     };
+    made->module = rules->module;
     made->code = rules->module->code;
     made->function = &rules->module->FUNCTION_records[model->space];
     tn_place_unit(rules->module, made->unit);
@@ -72,7 +120,7 @@ tn_status tn_space_new(const tn_place_rules *rules, tn_space **space, tn_error *
     made->columns[TN_PLACED_X] = made->x;
     made->columns[TN_PLACED_Y] = made->y;
     made->columns[TN_PLACED_Z] = made->z;
-    return TN_OK;
+    return find_masks(made, error);
 }
 
 void tn_space_free(tn_space *space)
@@ -80,6 +128,7 @@ void tn_space_free(tn_space *space)
     if (!space)
         return;
     tn_number_rows_clear(&space->rows);
+    free(space->mask_rows);
     free(space);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "compiler/compile.h"
+#include "runtime/geometry/mesh.h"
 #include "runtime/load.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -31,6 +32,32 @@ static tn_status resolve(void *context, const tn_request *request, tn_input *fou
     return TN_OK;
 }
 
+/* What a text calls a file is the file's text. */
+static tn_status give_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    (void)context;
+    *size = strlen(request->path);
+    *bytes = (uint8_t *)strdup(request->path);
+    return *bytes ? TN_OK : tn_fail_memory(error);
+}
+
+/* Every mesh is a tetrahedron, or three sides of one where its name says so. */
+static tn_status give_mesh(void *context, const tn_request *request, tn_mesh *mesh, tn_error *error)
+{
+    static const double positions[4][3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
+    static const uint32_t corners[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    size_t faces = strcmp(request->path, "open") == 0 ? 3 : 4;
+    (void)context;
+    tn_status status = tn_mesh_new(4, faces, 3 * faces, mesh, error);
+    if (status != TN_OK)
+        return status;
+    memcpy(mesh->positions, positions, sizeof positions);
+    memcpy(mesh->corners, corners, 3 * faces * sizeof *corners);
+    for (uint32_t i = 0; i <= faces; i++)
+        mesh->face_first[i] = 3 * i;
+    return TN_OK;
+}
+
 static void show(tn_compilation *compilation, const tn_module *module)
 {
     char *text = NULL;
@@ -48,7 +75,7 @@ static void show(tn_compilation *compilation, const tn_module *module)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    tn_compile_options options = {.resolver = {resolve, NULL}};
+    tn_compile_options options = {.resolver = {resolve, NULL}, .attachments = {give_bytes, give_mesh, NULL}};
     tn_input input = {.text = (const char *)data, .size = size, .name = "fuzz"};
     tn_compilation compilation;
     tn_module *module = NULL;

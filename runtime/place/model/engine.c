@@ -2,6 +2,7 @@
  * engine's.) */
 #include <stdlib.h>
 
+#include "runtime/module/code.h"
 #include "runtime/module/engine.h"
 #include "runtime/place/model/terms.h"
 
@@ -98,6 +99,16 @@ const char *const tn_placed_terms[TN_PLACED_TERM_COUNT] = {
     FOUR(28),
 #undef FOUR
 #undef COUNTED
+#define MASK(N) [TN_PLACED_MASK + (N)] = "mask " #N
+#define FOUR(N) MASK(N), MASK(N + 1), MASK(N + 2), MASK(N + 3)
+#define SIXTEEN(N) FOUR(N), FOUR(N + 4), FOUR(N + 8), FOUR(N + 12)
+    SIXTEEN(0),
+    SIXTEEN(16),
+    SIXTEEN(32),
+    SIXTEEN(48),
+#undef SIXTEEN
+#undef FOUR
+#undef MASK
 };
 
 static tn_status check_function(const tn_checker *checker, const char *what, uint32_t function)
@@ -105,6 +116,32 @@ static tn_status check_function(const tn_checker *checker, const char *what, uin
     return checker->module->FUNCTION_records[function].kind == TN_FUNCTION_KIT
                ? TN_OK
                : tn_refuse(checker, "the %s of a model is a function of another kind", what);
+}
+
+/* The words hold a bit for each cell, and no more. */
+static tn_status check_mask(const tn_checker *checker, const tn_kit_mask_record *mask)
+{
+    uint64_t layer = (uint64_t)mask->size_x * mask->size_z;
+    if (layer > TN_MASK_CELLS_MAX || layer * mask->size_y > TN_MASK_CELLS_MAX)
+        return tn_refuse(checker, "a mask of too many cells");
+    return mask->word_count == (layer * mask->size_y + 63) / 64
+               ? TN_OK
+               : tn_refuse(checker, "a mask of %u words", (unsigned)mask->word_count);
+}
+
+/* A space asks for masks that are there. */
+static tn_status check_space(const tn_checker *checker, uint32_t function)
+{
+    const tn_module *module = checker->module;
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    tn_instruction i;
+    for (uint32_t offset = f->code_begin; offset < f->code_end; offset += i.length) {
+        i = tn_code_read(module->code, offset);
+        if (i.opcode == TN_OP_TERM && i.first >= TN_PLACED_MASK &&
+            (uint64_t)i.first - TN_PLACED_MASK >= module->KIT_MASK_count)
+            return tn_refuse(checker, "a space asks for a mask that is not there");
+    }
+    return TN_OK;
 }
 
 static tn_status check_model(const tn_checker *checker, const tn_kit_model_record *model)
@@ -117,6 +154,8 @@ static tn_status check_model(const tn_checker *checker, const tn_kit_model_recor
     if (model->search == TN_SEARCH_BEAM && (model->search_amount == 0 || model->search_amount > TN_BEAM_MAX))
         return tn_refuse(checker, "a beam of %u", (unsigned)model->search_amount);
     tn_status status = check_function(checker, "space", model->space);
+    if (status == TN_OK)
+        status = check_space(checker, model->space);
     return status == TN_OK && model->objective != TN_NO_RECORD ? check_function(checker, "objective", model->objective)
                                                                : status;
 }
@@ -126,7 +165,11 @@ static tn_status verify(const tn_checker *checker)
     const tn_module *module = checker->module;
     if (module->KIT_count > 1)
         return tn_refuse(checker, "there are %zu kits", (size_t)module->KIT_count);
+    if (module->KIT_MASK_count > TN_KIT_MASKS_MAX)
+        return tn_refuse(checker, "there are %zu masks", (size_t)module->KIT_MASK_count);
     tn_status status = TN_OK;
+    for (uint32_t i = 0; i < module->KIT_MASK_count && status == TN_OK; i++)
+        status = check_mask(checker, &module->KIT_MASK_records[i]);
     for (uint32_t i = 0; i < module->KIT_MODEL_count && status == TN_OK; i++)
         status = check_model(checker, &module->KIT_MODEL_records[i]);
     for (uint32_t i = 0; i < module->KIT_CONDITION_count && status == TN_OK; i++) {
@@ -141,9 +184,10 @@ static tn_status verify(const tn_checker *checker)
 static const tn_section sections[] = {TN_SECTION_VECTOR,    TN_SECTION_KIT,           TN_SECTION_CONNECTOR_TYPE,
                                       TN_SECTION_KIT_PART,  TN_SECTION_PART_BOX,      TN_SECTION_PART_CONNECTOR,
                                       TN_SECTION_KIT_MODEL, TN_SECTION_KIT_CONDITION, TN_SECTION_COUNTED,
-                                      TN_SECTION_KIT_STOCK, TN_SECTION_STRINGS};
+                                      TN_SECTION_KIT_STOCK, TN_SECTION_KIT_MASK,      TN_SECTION_MASK_WORD,
+                                      TN_SECTION_STRINGS};
 
-/* The vectors are shown where they are used. */
+/* The vectors are shown where they are used; the words of masks are not. */
 static void list(tn_lister *lister)
 {
 #define LIST(NAME)                                                                                                     \
@@ -158,6 +202,7 @@ static void list(tn_lister *lister)
     LIST(KIT_CONDITION);
     LIST(KIT_STOCK);
     LIST(COUNTED);
+    LIST(KIT_MASK);
 #undef LIST
 }
 

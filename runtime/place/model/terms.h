@@ -23,7 +23,8 @@
     X(PRICE, "price")                                                                                                  \
     X(BALANCE, "balance")
 
-/* Behind these come x, y and z of a space, and how often each counted part is there. */
+/* Behind these come x, y and z of a space, how often each counted part is there, and whether a cell is one of a mask's.
+ */
 typedef enum tn_placed_term {
 #define X(NAME, WORD) TN_PLACED_##NAME,
     TN_PLACED_TERMS(X)
@@ -32,7 +33,8 @@ typedef enum tn_placed_term {
     TN_PLACED_Y,
     TN_PLACED_Z,
     TN_PLACED_COUNTED,
-    TN_PLACED_TERM_COUNT = TN_PLACED_COUNTED + TN_KIT_COUNTED_MAX
+    TN_PLACED_MASK = TN_PLACED_COUNTED + TN_KIT_COUNTED_MAX,
+    TN_PLACED_TERM_COUNT = TN_PLACED_MASK + TN_KIT_MASKS_MAX
 } tn_placed_term;
 
 extern const char *const tn_placed_terms[TN_PLACED_TERM_COUNT];

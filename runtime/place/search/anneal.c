@@ -48,12 +48,21 @@ static bool meet(const tn_cell_box *a, const tn_cell_box *b)
     return true;
 }
 
+/* The cells of a random part of what stands from the start on. */
+static tn_cell_box standing_box(chain *c, const tn_world *world)
+{
+    const tn_site_choices *all = world->choices;
+    const tn_site_choice *choice = &all->choices[all->standing];
+    const tn_chosen_part *part = &all->parts[choice->part_first + draw(c, world, choice->part_count)];
+    return tn_box_from(&all->kinds[part->kind].all[part->frame.heading], part->frame.at);
+}
+
 /* A box about a random part: its own cells, and those beside it as far as a random number says. Now and then also those
  * above and below. */
 static tn_cell_box choose_region(chain *c, const tn_world *world)
 {
     const tn_put *put = &c->kept.puts[draw(c, world, c->kept.put_count)];
-    tn_cell_box region = box_of(world->choices, put);
+    tn_cell_box region = put->choice == world->choices->standing ? standing_box(c, world) : box_of(world->choices, put);
     int32_t wide = (int32_t)(1 + draw(c, world, 6)), deep = (int32_t)(1 + draw(c, world, 6));
     int32_t high = draw(c, world, 4) == 0;
     region.low[0] -= wide;
@@ -74,7 +83,7 @@ static tn_status take_away(chain *c, const tn_world *world, tn_cell_box *region,
     tn_cell_box taken = *region;
     for (size_t i = 0; i < c->kept.put_count; i++) {
         tn_cell_box box = box_of(world->choices, &c->kept.puts[i]);
-        if (!meet(&box, region))
+        if (c->kept.puts[i].choice == world->choices->standing || !meet(&box, region))
             c->plan.puts[c->plan.put_count++] = c->kept.puts[i];
         else
             tn_cell_box_widen(&taken, &box);

@@ -303,11 +303,30 @@ static int32_t start_colour(const tn_place_rules *rules)
     return start->count > 0 && first->kind == TN_STEP_COLOUR ? first->a[0] : 1;
 }
 
+/* Parts that the start itself places are one more choice, which is put before all others. */
+static tn_status add_standing(walk *w, size_t part_first)
+{
+    tn_site_choices *c = w->choices;
+    tn_site_choice choice = {.part_first = (uint32_t)part_first,
+                             .part_count = (uint32_t)(c->part_count - part_first),
+                             .site_first = (uint32_t)c->start_first,
+                             .site_count = (uint32_t)(c->site_count - c->start_first),
+                             .body = UINT32_MAX};
+    if (choice.part_count == 0)
+        return TN_OK;
+    if (!tn_array_reserve(&c->choices, &c->choice_capacity, c->choice_count, 1, sizeof *c->choices))
+        return tn_fail_memory(w->error);
+    set_around(c, &choice);
+    c->standing = (uint32_t)c->choice_count;
+    c->choices[c->choice_count++] = choice;
+    return TN_OK;
+}
+
 tn_status tn_site_choices_make(const tn_place_rules *rules, tn_site_choices *choices, tn_error *error)
 {
     walk w = {.choices = choices, .error = error};
     int32_t colour = start_colour(rules);
-    *choices = (tn_site_choices){.rules = rules, .symbol_count = rules->symbol_count};
+    *choices = (tn_site_choices){.rules = rules, .symbol_count = rules->symbol_count, .standing = TN_NONE_STANDS};
     choices->symbols = calloc(rules->symbol_count, sizeof *choices->symbols);
     if (!choices->symbols)
         return tn_fail_memory(error);
@@ -315,10 +334,13 @@ tn_status tn_site_choices_make(const tn_place_rules *rules, tn_site_choices *cho
     for (uint32_t i = 0; i < rules->symbol_count && status == TN_OK; i++)
         status = make_symbol(&w, i, colour);
     choices->start_first = choices->site_count;
+    size_t part_first = choices->part_count;
     if (status == TN_OK && rules->symbols[rules->start].count > 1)
         status = not_a_kit(error);
     if (status == TN_OK)
         status = walk_alternative(&w, rules->symbols[rules->start].first, colour);
+    if (status == TN_OK)
+        status = add_standing(&w, part_first);
     return status == TN_OK ? know_all(choices, error) : status;
 }
 

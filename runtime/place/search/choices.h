@@ -46,6 +46,8 @@ typedef struct tn_choice_symbol {
     tn_cell_box around[4]; /* cells that some choice needs */
 } tn_choice_symbol;
 
+#define TN_NONE_STANDS UINT32_MAX
+
 typedef struct tn_site_choices {
     const tn_place_rules *rules;
     tn_kind_of_part *kinds;
@@ -57,7 +59,8 @@ typedef struct tn_site_choices {
     uint32_t kind_count, symbol_count;
     size_t choice_count, part_count, site_count, start_first;
     size_t part_capacity, site_capacity, choice_capacity;
-    uint64_t *known; /* what may stand at which connector: a hash table of keys */
+    uint32_t standing; /* the choice of what stands from the start on, behind those of symbols; TN_NONE_STANDS: none */
+    uint64_t *known;   /* what may stand at which connector: a hash table of keys */
     size_t known_size;
 } tn_site_choices;
 

@@ -18,6 +18,8 @@ static void add_sockets(tn_hang *h, const tn_site_choices *c, const tn_put *put,
 {
     const tn_module *module = c->rules->module;
     const tn_chosen_part *part = &c->parts[c->choices[put->choice].part_first]; /* that joins where it is put */
+    if (put->choice == c->standing)
+        return;
     const tn_kit_part_record *record = c->kinds[part->kind].record;
     tn_frame frame = tn_frame_from(&put->at, &part->frame);
     for (uint32_t i = 0; i < record->connector_count; i++) {
@@ -89,6 +91,10 @@ static tn_status reach(tn_hang *h, const tn_site_choices *c, const tn_standing *
     h->site_count = *count = 0;
     tn_status status =
         add_sites(h, &c->sites[c->start_first], c->site_count - c->start_first, &(tn_frame){.heading = 0}, error);
+    if (c->standing != TN_NONE_STANDS) { /* it hangs on nothing, and is the first */
+        h->held[0] = true;
+        h->order[(*count)++] = 0;
+    }
     for (size_t next = 0; next < h->site_count && status == TN_OK; next++) {
         uint32_t index = find_put(h, c, plan, &h->sites[next]);
         if (index == UINT32_MAX)

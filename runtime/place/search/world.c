@@ -226,13 +226,6 @@ static tn_status open_sites(tn_world *world, const tn_open_site *sites, size_t c
     return TN_OK;
 }
 
-tn_status tn_world_start(tn_world *world, tn_error *error)
-{
-    const tn_site_choices *c = world->choices;
-    return open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &(tn_frame){.heading = 0},
-                      error);
-}
-
 /* Fills the cells of what is put, or empties them. */
 static tn_status change_cells(tn_world *world, const tn_put *put, bool fill, tn_error *error)
 {
@@ -271,6 +264,28 @@ static tn_status stand(tn_world *world, const tn_put *put, tn_error *error)
         return tn_fail_memory(error);
     plan->puts[plan->put_count++] = *put;
     return change_cells(world, put, true, error);
+}
+
+tn_status tn_world_start(tn_world *world, tn_error *error)
+{
+    const tn_site_choices *c = world->choices;
+    const tn_put put = {.choice = c->standing};
+    tn_status status = TN_OK;
+    if (c->standing != TN_NONE_STANDS && !tn_world_fits(world, c->standing, &put.at)) {
+        status = tn_cells_status(world->cells, error);
+        if (status != TN_OK)
+            return status;
+        tn_fail(error, TN_INVALID, E_KIT_STANDS, "the parts with which the model starts have no room");
+        tn_error_help(error,
+                      "they lie inside of its space, which can have `or model(...)`, do not overlap, and keep to "
+                      "its stock");
+        return TN_INVALID;
+    }
+    if (c->standing != TN_NONE_STANDS)
+        status = stand(world, &put, error);
+    return status == TN_OK
+               ? open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &put.at, error)
+               : status;
 }
 
 tn_status tn_world_put(tn_world *world, uint32_t choice, const tn_frame *at, tn_error *error)

@@ -9,10 +9,12 @@
 
 #include <cmocka.h>
 
+#include "compiler/notation.h"
 #include "driver/open/open.h"
+#include "runtime/geometry/mesh.h"
 #include "runtime/place/count/count.h"
-#include "runtime/place/steps.h"
 #include "runtime/place/search/search.h"
+#include "runtime/place/steps.h"
 #include "tests/support/failing_memory.h"
 
 static const char kit[] =
@@ -112,14 +114,76 @@ static tn_status run(void)
     return status;
 }
 
-static void every_allocation(void **state)
+/* ---- files that a kit names */
+
+static tn_status give_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
 {
-    (void)state;
-    assert_int_equal(run(), TN_OK);
+    static const char hill[] = "P5 2 1 9\n\003\011", parts[] = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 two.dat\n";
+    bool is_hill = strcmp(request->path, "hill.pgm") == 0;
+    (void)context;
+    *size = is_hill ? sizeof hill - 1 : sizeof parts - 1;
+    *bytes = malloc(*size);
+    if (!*bytes)
+        return tn_fail_memory(error);
+    memcpy(*bytes, is_hill ? hill : parts, *size);
+    return TN_OK;
+}
+
+static tn_status give_mesh(void *context, const tn_request *request, tn_mesh *mesh, tn_error *error)
+{
+    static const double positions[12] = {0, 0, 0, 9, 0, 0, 0, 9, 0, 0, 0, 9};
+    static const uint32_t corners[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    (void)context, (void)request;
+    tn_status status = tn_mesh_new(4, 4, 12, mesh, error);
+    if (status != TN_OK)
+        return status;
+    memcpy(mesh->positions, positions, sizeof positions);
+    memcpy(mesh->corners, corners, sizeof corners);
+    for (uint32_t i = 0; i <= 4; i++)
+        mesh->face_first[i] = 3 * i;
+    return TN_OK;
+}
+
+/* Compiles a kit with spaces from files, and places its models. */
+static tn_status run_files(void)
+{
+    static const char text[] =
+        "unit 10 x 8 x 10;\nconnector stud joins tube every 20;\nconnector tube joins stud every 20;\n"
+        "part two { fill 40 x 24 x 20; studs up 2 x 1; tubes down 2 x 1 at (0, -24, 0); }\n"
+        "rule wall at stud, tube = two;\n"
+        "model first { inside heightmap(\"hill.pgm\", 80, 72, 60) or mesh(\"m.obj\", 96) or model(\"two.ldr\") turn "
+        "2;\n"
+        "  start \"two.ldr\" by wall; }\n"
+        "model second { inside box(80, 96, 60) or model(\"two.ldr\"); start \"two.ldr\" by wall; search anneal 3; }\n";
+    const tn_input input = {.text = text, .size = sizeof text - 1, .name = "files.kit"};
+    const tn_compile_options how = {.attachments = {give_bytes, give_mesh, NULL}};
+    tn_opened opened;
+    tn_place_rules rules = {0};
+    tn_placed_model model = {0};
+    tn_place_fault fault;
+    tn_error error;
+    tn_status status = tn_open_text(TN_NOTATION(kit), &input, &how, &opened);
+    if (status == TN_OK)
+        status = tn_place_rules_of_model(opened.module, 0, &rules, &error);
+    if (status == TN_OK)
+        status = tn_place_derive(&rules, NULL, &model, &fault, &error);
+    if (status == TN_OK)
+        assert_true(model.count > 0);
+    tn_placed_model_clear(&model);
+    tn_place_rules_clear(&rules);
+    if (status == TN_OK)
+        status = search(opened.module, &error);
+    tn_close(&opened);
+    return status;
+}
+
+static void fail_each(tn_status (*what)(void))
+{
+    assert_int_equal(what(), TN_OK);
     for (int all_after = 0; all_after < 2; all_after++) {
         for (size_t number = 0;; number++) {
             fail_allocation(number, all_after);
-            tn_status status = run();
+            tn_status status = what();
             bool reached = stop_failing() > number;
             if (!reached) {
                 assert_int_equal(status, TN_OK);
@@ -130,8 +194,20 @@ static void every_allocation(void **state)
     }
 }
 
+static void every_allocation(void **state)
+{
+    (void)state;
+    fail_each(run);
+}
+
+static void every_allocation_of_files(void **state)
+{
+    (void)state;
+    fail_each(run_files);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(every_allocation_of_files)};
     return cmocka_run_group_tests_name("memory_kit", tests, NULL, NULL);
 }
