@@ -51,7 +51,7 @@ static void add_setting(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span
 %token <symbol> LESS "`<`" GREATER "`>`"
 %token <number> NUMBER "a number"
 %token ARROW "`->`" END_OF_LINE "the end of the line" EQUAL "`=`"
-%token ANGLE "`Angle`" BRANCH_ANGLE "`BranchAngle`" SYNC "`Sync`" WEIGHT "`Weight`" IF "`If`" AGE "`i`"
+%token ANGLE "`Angle`" BRANCH_ANGLE "`BranchAngle`" SYNC "`Sync`" EVEN "`Even`" WEIGHT "`Weight`" IF "`If`" AGE "`i`"
 
 %type <symbol> symbol
 %type <symbols> symbols
@@ -82,6 +82,7 @@ line
     | ANGLE NUMBER                          { add_setting(parse, TN_HEMLS_ANGLE, @$, $2.value); }
     | BRANCH_ANGLE NUMBER                   { add_setting(parse, TN_HEMLS_BRANCH_ANGLE, @$, $2.value); }
     | SYNC                                  { add_setting(parse, TN_HEMLS_SYNC, @$, 0); }
+    | EVEN                                  { add_setting(parse, TN_HEMLS_EVEN, @$, 0); }
     ;
 
 alternatives
@@ -170,7 +171,7 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
         return "write it on a line of its own";
     if (found == YYSYMBOL_ARROW)
         return "before `->` stands the edge that is replaced: `A -> A A`";
-    return "a line is a seed (`A + B + A`), a rule (`A -> A A`), or one of Angle, BranchAngle and Sync";
+    return "a line is a seed (`A + B + A`), a rule (`A -> A A`), or one of Angle, BranchAngle, Sync and Even";
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)

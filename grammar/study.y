@@ -53,7 +53,7 @@ static tn_study_vector same(tn_decimal n);
 %token USE "`use`" TITLE "`title`" RULES "`rules`" STEPS "`steps`" SCALE "`scale`" START "`start`" START_LENGTH "`start-length`"
 %token SEED "`seed`" BRANCH_ANGLE "`branch-angle`" BRANCH_LENGTH "`branch-length`" EDGE_LIMIT "`edge-limit`"
 %token FIXED_CENTRE "`fixed-centre`" FIXED_PERIMETER "`fixed-perimeter`" FACING "`facing`" MIRROR "`mirror`"
-%token GRAVITY "`gravity`" ATTRACTOR "`attractor`" REPELLER "`repeller`" BOUNDARY "`boundary`" FITNESS "`fitness`" REQUIRE "`require`" RAW "`raw`"
+%token GRAVITY "`gravity`" ATTRACTOR "`attractor`" REPELLER "`repeller`" BOUNDARY "`boundary`" FITNESS "`fitness`" REQUIRE "`require`" RAW "`raw`" SUN "`sun`" DISTANCE_TO "`distance-to`"
 %token PLANE "`plane`" BOX "`box`" SPHERE "`sphere`" MESH "`mesh`"
 %token AT "`at`" NORMAL "`normal`" FROM "`from`" TO "`to`" RADIUS "`radius`" STRENGTH "`strength`" EXPONENT "`exponent`"
 %token INSIDE "`inside`" OUTSIDE "`outside`" SLIDE "`slide`" STOP "`stop`" SOFT "`soft`" TARGET "`target`" WEIGHT "`weight`"
@@ -105,6 +105,8 @@ statement
     | fitness NAME EQUALS expression goal_parts
                                             { $$ = with_expression(with_parts(with_text(parse, TN_STUDY_GOAL, @$, $2), $5, @$), $4); }
     | require expression                    { $$ = with_expression(tn_study_item_new(parse, TN_STUDY_REQUIREMENT, @$), $2); }
+    | sun vector                            { $$ = with_vectors(parse, TN_STUDY_SUN, @$, $2, $2); }
+    | distance_to STRING                    { $$ = with_text(parse, TN_STUDY_DISTANCE_TO, @$, $2); }
     | fitness RAW                           { $$ = tn_study_item_new(parse, TN_STUDY_SETS_RAW, @$); }
     ;
 
@@ -127,6 +129,8 @@ gravity: GRAVITY                            { yyerrok; };
 boundary: BOUNDARY                          { yyerrok; };
 fitness: FITNESS                            { yyerrok; };
 require: REQUIRE                            { yyerrok; };
+sun: SUN                                    { yyerrok; };
+distance_to: DISTANCE_TO                    { yyerrok; };
 force
     : ATTRACTOR                             { yyerrok; $$ = TN_ATTRACTOR; }
     | REPELLER                              { yyerrok; $$ = TN_REPELLER; }
@@ -286,6 +290,7 @@ static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t foun
     case YYSYMBOL_RULES:
     case YYSYMBOL_MESH:
     case YYSYMBOL_TITLE: return "a text stands in double quotes, as in `rules \"square\"`";
+    case YYSYMBOL_SUN: return "write the direction towards the sun: `sun 1 -1 2`";
     case YYSYMBOL_GRAVITY: return "gravity is a displacement in x, y and z: `gravity 0 0 -0.3`";
     case YYSYMBOL_ATTRACTOR:
     case YYSYMBOL_REPELLER: return "write `attractor at 4 4 3 strength 2`";

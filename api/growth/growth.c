@@ -152,7 +152,8 @@ tartan_status tartan_growth_measure(tartan_growth *growth, tartan_measures *meas
         return status;
     tn_status measured = tn_stats_measure(growth->growth, &stats, &found);
     if (measured == TN_OK)
-        measured = tn_soundness_measure(growth->growth, growth->study.goal.asked, &stats.fitness, &found);
+        measured = tn_soundness_measure(growth->growth, &growth->study.measuring, growth->study.goal.asked,
+                                        &stats.fitness, &found);
     if (measured == TN_OK)
         measured = tn_faults_find(growth->growth, &faults, &found);
     if (measured != TN_OK) {

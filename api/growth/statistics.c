@@ -60,7 +60,8 @@ tartan_status tartan_growth_statistics(tartan_growth *growth, tartan_statistics 
     tartan_statistics *made = calloc(1, sizeof *made);
     tn_status measured = made ? tn_stats_measure(growth->growth, &stats, &found) : tn_fail_memory(&found);
     if (measured == TN_OK)
-        measured = tn_soundness_measure(growth->growth, growth->study.goal.asked, &stats.fitness, &found);
+        measured = tn_soundness_measure(growth->growth, &growth->study.measuring, growth->study.goal.asked,
+                                        &stats.fitness, &found);
     if (measured == TN_OK && !fill(growth, &stats, made))
         measured = tn_fail_memory(&found);
     tn_stats_clear(&stats);

@@ -120,7 +120,8 @@ static tn_status note_stats(run_state *run, tn_error *error)
     tn_stats *stats = &run->stats[run->stats_count++];
     uint64_t asked = run->settings->stats == 2 ? UINT64_MAX : run->study.goal.asked;
     tn_status status = tn_stats_measure(run->growth, stats, error);
-    return status == TN_OK ? tn_soundness_measure(run->growth, asked, &stats->fitness, error) : status;
+    return status == TN_OK ? tn_soundness_measure(run->growth, &run->study.measuring, asked, &stats->fitness, error)
+                           : status;
 }
 
 /* What there is to do with each step. */
@@ -364,6 +365,8 @@ static const tn_option options[] = {
          "how far from opposite joined branches may point, instead of what the file says"),
     TEXT("branch-length", 0, "L", said.branch_length, "longest join, in sides of the seed as scaled so far"),
     TEXT("edge-limit", 0, "N", said.edge_limit, "the most edges a surface may have"),
+    TEXT("sun", 0, "\"X Y Z\"", said.sun, "where the sun stands, for the term sunlit (default: overhead)"),
+    TEXT("distance-to", 0, "MESH", said.distance_to, "measure the mean distance to this mesh"),
     FLAG("fixed-centre", 0, said.fixed_centre, "scale about the start instead of the mean of the vertices"),
     FLAG("fixed-perimeter", 0, said.fixed_perimeter, "vertices of the outline stay"),
     FLAG("facing", 0, said.facing, "join branches only where each points towards the other"),

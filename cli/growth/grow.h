@@ -15,7 +15,8 @@ typedef enum tn_grow_engine { TN_GROW_TEMPLATES, TN_GROW_VM } tn_grow_engine;
 
 /* What a study can say too, as the words of its statements. */
 typedef struct tn_grow_statements {
-    const char *steps, *scale, *start, *start_length, *seed, *branch_angle, *branch_length, *edge_limit;
+    const char *steps, *scale, *start, *start_length, *seed, *branch_angle, *branch_length, *edge_limit, *sun,
+        *distance_to;
     bool fixed_centre, fixed_perimeter, facing, mirror;
     tn_option_list attractors, repellers, gravity, boundaries, fitness;
 } tn_grow_statements;

@@ -46,8 +46,9 @@ static void write_json(FILE *out, const tn_growth_system *system, const tn_study
     write_json_named(out, &study->goal, &stats->fitness);
     fputs("}, \"measures\": {", out);
     for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
-        fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_measured_names[i],
-                stats->fitness.further[i - TN_MEASURED_WIDTH]);
+        if (isfinite(stats->fitness.further[i - TN_MEASURED_WIDTH])) /* no distance without a target */
+            fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_measured_names[i],
+                    stats->fitness.further[i - TN_MEASURED_WIDTH]);
     fputc('}', out);
     write_json_lacking(out, &study->goal, &stats->fitness);
     fputc('}', out);

@@ -49,6 +49,12 @@ static bool say_statements(FILE *out, const tn_grow_statements *s)
     any |= say_text(out, "branch-angle", s->branch_angle);
     any |= say_text(out, "branch-length", s->branch_length);
     any |= say_text(out, "edge-limit", s->edge_limit);
+    any |= say_text(out, "sun", s->sun);
+    if (s->distance_to) {
+        any = true;
+        fputs("distance-to ", out);
+        say_quoted(out, s->distance_to);
+    }
     any |= say_flag(out, "fixed-centre", s->fixed_centre);
     any |= say_flag(out, "fixed-perimeter", s->fixed_perimeter);
     any |= say_flag(out, "facing", s->facing);

@@ -12,7 +12,7 @@ typedef struct check {
     const tn_hemls_symbol *letter, *numbered; /* the first of each kind */
     uint32_t letters[26];                     /* numbers plus one, by first appearance */
     uint32_t letter_count;
-    const tn_hemls_line *seed, *angle, *branch_angle, *sync;
+    const tn_hemls_line *seed, *angle, *branch_angle, *sync, *even;
     tn_checked_rewrite *rules, *last_rule;
     uint32_t rule_count, successor_count;
     bool mixed; /* was reported */
@@ -123,6 +123,8 @@ static void read_settings(check *c)
             set_once(c, &c->branch_angle, line, "BranchAngle");
         else if (line->kind == TN_HEMLS_SYNC)
             set_once(c, &c->sync, line, "Sync");
+        else if (line->kind == TN_HEMLS_EVEN)
+            set_once(c, &c->even, line, "Even");
     }
     if (!c->angle && !c->file->damaged && c->file->first) {
         tn_diagnostic *d = tn_report(c->diagnostics, E_NO_ANGLE, c->file->last->span,
@@ -132,6 +134,7 @@ static void read_settings(check *c)
     c->growth->angle = angle_of(c, c->angle, 90);
     c->growth->branch_angle = angle_of(c, c->branch_angle, 30); /* Genr8's own */
     c->growth->sync = c->sync != NULL;
+    c->growth->even = c->even != NULL;
 }
 
 /* ---- the seed */

@@ -47,7 +47,7 @@ static bool made(const tn_module *module)
 
 static const char *spell(tn_arena *arena, const char *text, size_t size)
 {
-    static const char *const words[] = {"Angle", "BranchAngle", "Sync", "Weight", "If", "i"};
+    static const char *const words[] = {"Angle", "BranchAngle", "Sync", "Even", "Weight", "If", "i"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
             return words[i];

@@ -126,7 +126,7 @@ void tn_emit_growth(tn_builder *builder, const tn_checked_growth *growth)
                                   &(tn_edge_label_record){tn_builder_string(builder, label->name), label->number});
     tn_growth_record record = {.name = tn_builder_string(builder, growth->name),
                                .branch_angle = growth->branch_angle,
-                               .sync = growth->sync,
+                               .flags = (growth->sync ? TN_GROWTH_SYNC : 0) | (growth->even ? TN_GROWTH_EVEN : 0),
                                .seed = emit_seed(builder, growth),
                                .file = growth->span.file,
                                .begin = growth->span.begin,

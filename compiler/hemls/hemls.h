@@ -68,7 +68,8 @@ typedef enum tn_hemls_line_kind {
     TN_HEMLS_RULE,
     TN_HEMLS_ANGLE,
     TN_HEMLS_BRANCH_ANGLE,
-    TN_HEMLS_SYNC
+    TN_HEMLS_SYNC,
+    TN_HEMLS_EVEN
 } tn_hemls_line_kind;
 
 typedef struct tn_hemls_line {
@@ -203,7 +204,7 @@ typedef struct tn_checked_growth {
     tn_span axiom_span;
     tn_checked_group *groups;
     double angle, branch_angle;
-    bool sync;
+    bool sync, even;
     tn_span span;
 } tn_checked_growth;
 

@@ -116,11 +116,14 @@ static void complain_of_close(const successor *s, const tn_hemls_symbol *symbol,
     }
 }
 
-static void complain_of_crowd(const successor *s)
+static void complain_of_crowd(const successor *s, const tn_hemls_symbol *symbol)
 {
-    tn_diagnostic *d = tn_report(s->diagnostics, E_TOO_MANY, s->span,
-                                 "this successor has more edges than the limit of %u", TN_TEMPLATE_ITEMS_MAX);
-    tn_help(s->diagnostics, d, "spread it over several rules");
+    bool bracket = symbol->kind == TN_HEMLS_OPEN;
+    tn_diagnostic *d = tn_report(s->diagnostics, E_TOO_MANY, bracket ? symbol->span : s->span,
+                                 "this successor has more %s than the limit of %u", bracket ? "brackets" : "edges",
+                                 TN_TEMPLATE_ITEMS_MAX);
+    tn_help(s->diagnostics, d,
+            bracket ? "one pair of brackets is enough for a branch: `[ + A ]`" : "spread it over several rules");
 }
 
 static void complain_of_symbol(const successor *s, const tn_hemls_symbol *symbol)
@@ -133,7 +136,7 @@ static void complain_of_symbol(const successor *s, const tn_hemls_symbol *symbol
 static void complain_of_move(const successor *s, const tn_hemls_symbol *symbol, unsigned wrong, uint32_t flip)
 {
     if (wrong & TN_TURTLE_CROWDED)
-        complain_of_crowd(s);
+        complain_of_crowd(s, symbol);
     else if (wrong & TN_TURTLE_FULL)
         complain_of_full_branch(s, symbol);
     else if (wrong & TN_TURTLE_NO_MOVE)

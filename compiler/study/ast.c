@@ -41,11 +41,11 @@ void tn_study_lost(tn_growth_parse *parse)
 
 bool tn_study_heads(const char *text, size_t size)
 {
-    static const char *const words[] = {"use",          "title",           "rules",        "steps",    "scale",
-                                        "start",        "start-length",    "seed",         "facing",   "branch-angle",
-                                        "edge-limit",   "fixed-perimeter", "mirror",       "gravity",  "branch-length",
-                                        "attractor",    "repeller",        "fixed-centre", "boundary", "fitness",
-                                        "fixed-center", "require"};
+    static const char *const words[] = {
+        "use",          "title",   "rules",         "steps",        "scale",      "start",
+        "start-length", "seed",    "facing",        "branch-angle", "edge-limit", "fixed-perimeter",
+        "mirror",       "gravity", "branch-length", "attractor",    "repeller",   "fixed-centre",
+        "boundary",     "fitness", "fixed-center",  "require",      "sun",        "distance-to"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
             return true;

@@ -25,7 +25,7 @@ typedef struct check {
 static const char *const setting_names[TN_STUDY_SETTING_COUNT] = {
     "title",  "rules",        "steps",         "scale",      "start",        "start-length",
     "seed",   "branch-angle", "branch-length", "edge-limit", "fixed-centre", "fixed-perimeter",
-    "facing", "mirror",       "fitness raw"};
+    "facing", "mirror",       "fitness raw",   "sun",        "distance-to"};
 
 static void out_of_range(check *c, tn_span span, const char *what, const char *help)
 {
@@ -70,6 +70,16 @@ static void check_setting(check *c, const tn_study_item *item)
         if (!(n >= 0))
             out_of_range(c, item->number.span, "a branch length is not below 0",
                          "leave it out for branches of any length");
+        break;
+    case TN_STUDY_SUN:
+        if (!(item->a.x * item->a.x + item->a.y * item->a.y + item->a.z * item->a.z > 1e-24))
+            out_of_range(c, item->a.span, "the sun has no direction",
+                         "write where it stands, seen from the surface: `sun 1 -1 2`; `sun 0 0 1` is overhead");
+        break;
+    case TN_STUDY_DISTANCE_TO:
+        if (item->text && item->text[0] == '\0')
+            out_of_range(c, item->text_span, "the mesh has no name",
+                         "name a file that OpenMesh reads: OBJ, PLY, STL, OFF or OM");
         break;
     case TN_STUDY_EDGE_LIMIT:
         if (!is_whole(n) || n < 3)
@@ -276,6 +286,29 @@ static bool make_lists(check *c, const tn_imports *imports)
     return c->study->forces && c->study->boundaries && c->study->goals && c->study->requirements;
 }
 
+/* The first place where an expression asks for a distance. */
+static const tn_expression *distance_in(const tn_expression *expression)
+{
+    if (expression->op == TN_OP_TERM && expression->name && strcmp(expression->name, "distance-to") == 0)
+        return expression;
+    const tn_expression *found = NULL;
+    for (const tn_expression *operand = expression->first; operand && !found; operand = operand->next)
+        found = distance_in(operand);
+    return found;
+}
+
+/* A distance needs a mesh. */
+static void check_target(check *c, const tn_study_item *item)
+{
+    const tn_expression *found = item->expression ? distance_in(item->expression) : NULL;
+    bool plain = !item->expression && item->text && tn_study_term(item->text) == TN_MEASURED_DISTANCE_TO;
+    if (c->study->settings[TN_STUDY_DISTANCE_TO] || (!found && !plain))
+        return;
+    tn_diagnostic *d = tn_report(c->diagnostics, E_NO_TARGET, found ? found->span : item->text_span,
+                                 "the study does not say what the distance is to");
+    tn_help(c->diagnostics, d, "name a mesh in a line of its own: `distance-to \"hull.obj\"`");
+}
+
 static void check_whole(check *c, const tn_imports *imports, bool damaged)
 {
     const tn_checked_study *study = c->study;
@@ -284,6 +317,10 @@ static void check_whole(check *c, const tn_imports *imports, bool damaged)
             tn_report(c->diagnostics, E_NO_RULES, study->span, "this study does not say which rules grow");
         tn_help(c->diagnostics, d, "add a line such as `rules \"square\"` or `rules \"mine.hemls\"`");
     }
+    for (uint32_t i = 0; i < study->goal_count; i++)
+        check_target(c, study->goals[i]);
+    for (uint32_t i = 0; i < study->requirement_count; i++)
+        check_target(c, study->requirements[i]);
     if (study->force_count > TN_SURROUNDINGS_MAX || study->boundary_count > TN_SURROUNDINGS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
                   "this study has more forces or boundaries than the limit of %u", TN_SURROUNDINGS_MAX);

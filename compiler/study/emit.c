@@ -87,6 +87,21 @@ static void emit_boundary(tn_builder *builder, tn_arena *arena, const tn_sources
     tn_builder_add_BOUNDARY(builder, &record);
 }
 
+static void emit_measuring(tn_builder *builder, tn_arena *arena, const tn_sources *sources,
+                           const tn_checked_study *study)
+{
+    const tn_study_item *sun = study->settings[TN_STUDY_SUN], *target = study->settings[TN_STUDY_DISTANCE_TO];
+    if (sun)
+        tn_builder_add_MEASURING(builder, &(tn_measuring_record){TN_MEASURING_SUN, sun->a.x, sun->a.y, sun->a.z, 0,
+                                                                 sun->span.file, sun->span.begin, sun->span.end});
+    if (target) {
+        const char *path = tn_emit_path(arena, sources, target->span.file, target->text, study->span.file);
+        tn_builder_add_MEASURING(builder,
+                                 &(tn_measuring_record){TN_MEASURING_MESH, 0, 0, 0, tn_builder_string(builder, path),
+                                                        target->span.file, target->span.begin, target->span.end});
+    }
+}
+
 static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_study_item *goal, tn_error *error)
 {
     uint32_t term = tn_study_term(goal->text);
@@ -132,6 +147,7 @@ tn_status tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *
         emit_force(builder, study->forces[i]);
     for (uint32_t i = 0; i < study->boundary_count; i++)
         emit_boundary(builder, arena, sources, study->boundaries[i], study->span.file);
+    emit_measuring(builder, arena, sources, study);
     for (uint32_t i = 0; i < study->goal_count && status == TN_OK; i++)
         status = emit_goal(builder, &formula, study->goals[i], error);
     for (uint32_t i = 0; i < study->requirement_count && status == TN_OK; i++)

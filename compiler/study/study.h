@@ -28,6 +28,8 @@ typedef enum tn_study_kind {
     TN_STUDY_SETS_FACING,
     TN_STUDY_SETS_MIRROR,
     TN_STUDY_SETS_RAW,
+    TN_STUDY_SUN,
+    TN_STUDY_DISTANCE_TO,
     TN_STUDY_SETTING_COUNT,
     /* as many as one likes */
     TN_STUDY_USE = TN_STUDY_SETTING_COUNT,

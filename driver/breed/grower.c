@@ -81,10 +81,15 @@ tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn
 tn_status tn_grower_inputs(const tn_grower *g, char **inputs, tn_error *error)
 {
     tn_status status = tn_inputs_add_sources(inputs, "grow", g->opened.module, UINT32_MAX, error);
-    uint64_t meshes = tn_study_meshes_hash(&g->study);
-    return status == TN_OK && meshes
-               ? tn_inputs_add(inputs, "grow", "its boundary meshes", &meshes, sizeof meshes, error)
-               : status;
+    uint64_t meshes = tn_study_meshes_hash(&g->study), version = TN_GROWTH_VERSION;
+    if (status == TN_OK)
+        status = tn_inputs_add(inputs, "grow", "how surfaces grow", &version, sizeof version, error);
+    if (status == TN_OK && meshes)
+        status = tn_inputs_add(inputs, "grow", "its boundary meshes", &meshes, sizeof meshes, error);
+    if (status != TN_OK || !g->study.target)
+        return status;
+    uint64_t target = tn_boundary_mesh_hash(g->study.target, 0);
+    return tn_inputs_add(inputs, "grow", "its target mesh", &target, sizeof target, error);
 }
 
 /* ---- one growth */
@@ -162,7 +167,7 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
     tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
     if (status == TN_OK) {
         tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
-        status = tn_soundness_measure(g->growths[thread], g->study.goal.asked, &fitness, &own);
+        status = tn_soundness_measure(g->growths[thread], &g->study.measuring, g->study.goal.asked, &fitness, &own);
         if (status == TN_OK)
             score_goals(g, &fitness, score, message);
     }

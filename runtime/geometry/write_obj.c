@@ -1,5 +1,4 @@
 /* Writes a mesh as Wavefront OBJ. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "runtime/base/watch.h"
@@ -9,11 +8,11 @@
 static void write_point(tn_text_out *out, const char *word, const double *p, bool y_up)
 {
     tn_text_add(out, word);
-    tn_text_decimal(out, p[0]);
+    tn_text_number(out, p[0]);
     tn_text_add(out, " ");
-    tn_text_decimal(out, y_up ? p[2] : p[1]);
+    tn_text_number(out, y_up ? p[2] : p[1]);
     tn_text_add(out, " ");
-    tn_text_decimal(out, y_up ? -p[1] : p[2]);
+    tn_text_number(out, y_up ? -p[1] : p[2]);
     tn_text_add(out, "\n");
     tn_text_flush(out, false);
 }
@@ -81,14 +80,12 @@ static void write_all(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style
 
 tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FILE *stream, tn_error *error)
 {
-    double *normals = NULL, largest = 1;
+    double *normals = NULL;
     tn_text_out *out = malloc(sizeof *out);
     if (!out)
         return tn_fail_memory(error);
     tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
-    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-        largest = fmax(largest, fabs(mesh->positions[i]));
-    tn_text_begin(out, stream, largest);
+    tn_text_begin(out, stream, 1);
     if (status == TN_OK)
         write_all(out, mesh, style, normals);
     free(normals);

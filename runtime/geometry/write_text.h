@@ -25,6 +25,9 @@ void tn_text_add(tn_text_out *out, const char *text);
 void tn_text_whole(tn_text_out *out, uint64_t number);
 void tn_text_decimal(tn_text_out *out, double number);
 
+/* With the fewest digits that read back as the same finite number; both zeros are "0". */
+void tn_text_number(tn_text_out *out, double number);
+
 /* Writes where little room is left, or (all) everything. */
 void tn_text_flush(tn_text_out *out, bool all);
 

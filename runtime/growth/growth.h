@@ -13,6 +13,10 @@
 #include "runtime/growth/model/map.h"
 #include "runtime/growth/model/options.h"
 
+/* Of what the same rules grow to: larger where any surface became another. Runs keep it with their scores. 2: edges
+ * that stand upright in a level surface bend away from the seed's axis. */
+#define TN_GROWTH_VERSION 2u
+
 /* The seed, ready to grow. Options are checked (TN_INVALID). */
 tn_status tn_growth_new(const tn_growth_system *system, const tn_environment *environment,
                         const tn_growth_options *options, tn_growth **growth, tn_error *error);
@@ -23,8 +27,8 @@ void tn_growth_free(tn_growth *growth);
 tn_status tn_growth_renew(tn_growth *growth, const tn_growth_system *system, const tn_environment *environment,
                           const tn_growth_options *options, tn_error *error);
 
-/* One derivation step. TN_LIMIT: more edges than the options allow, or memory than the watch does, an age beyond 32,767, or a coordinate
- * that is no longer finite; the map is then unusable. */
+/* One derivation step. TN_LIMIT: more edges than the options allow, or memory than the watch does, an age beyond
+ * 32,767, or a coordinate that is no longer finite; the map is then unusable. */
 tn_status tn_growth_step(tn_growth *growth, tn_error *error);
 
 /* Who waits for the steps to come; NULL: nobody. */

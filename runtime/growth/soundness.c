@@ -3,9 +3,11 @@
 
 #include <stdlib.h>
 
+#include "runtime/geometry/boundary_mesh.h"
 #include "runtime/geometry/crossing.h"
 #include "runtime/geometry/vector.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/sunlit.h"
 #include "runtime/growth/surface.h"
 #include "runtime/numeric/numeric.h"
 
@@ -188,12 +190,31 @@ static tn_status measure_crossings(const tn_growth *growth, tn_fitness *fitness,
     return status;
 }
 
-tn_status tn_soundness_measure(const tn_growth *growth, uint64_t asked, tn_fitness *fitness, tn_error *error)
+/* ---- light and likeness */
+
+static void measure_distance(const tn_map *map, const tn_boundary_mesh *target, tn_fitness *fitness)
+{
+    double sum = 0;
+    for (size_t v = 0; target && v < map->vertex_count; v++)
+        sum += fabs(tn_boundary_mesh_distance(target, tn_vector_at(map->positions + 3 * v), NULL));
+    put(fitness, TN_MEASURED_DISTANCE_TO, target ? sum / map->vertex_count : NAN);
+}
+
+static tn_status measure_light(const tn_growth *growth, tn_vector sun, tn_fitness *fitness, tn_error *error)
+{
+    double share = 0;
+    tn_status status = tn_sunlit_share(growth, sun, &share, error);
+    put(fitness, TN_MEASURED_SUNLIT, share);
+    return status;
+}
+
+tn_status tn_soundness_measure(const tn_growth *growth, const tn_measuring *with, uint64_t asked, tn_fitness *fitness,
+                               tn_error *error)
 {
     const tn_map *map = tn_growth_map(growth);
     tn_status status = TN_OK;
     double low[3];
-    if (!is_asked(asked, TN_MEASURED_WIDTH, TN_MEASURED_CROSSINGS))
+    if (!is_asked(asked, TN_MEASURED_WIDTH, TN_MEASURED_DISTANCE_TO))
         return TN_OK;
     measure_extents(map, fitness, low);
     if (is_asked(asked, TN_MEASURED_AREA, TN_MEASURED_WORST_PLANARITY) ||
@@ -207,5 +228,9 @@ tn_status tn_soundness_measure(const tn_growth *growth, uint64_t asked, tn_fitne
         status = measure_faults(growth, fitness, error);
     if (status == TN_OK && is_asked(asked, TN_MEASURED_CROSSINGS, TN_MEASURED_CROSSINGS))
         status = measure_crossings(growth, fitness, error);
+    if (status == TN_OK && is_asked(asked, TN_MEASURED_SUNLIT, TN_MEASURED_SUNLIT))
+        status = measure_light(growth, with->sun, fitness, error);
+    if (is_asked(asked, TN_MEASURED_DISTANCE_TO, TN_MEASURED_DISTANCE_TO))
+        measure_distance(map, with->target, fitness);
     return status;
 }

@@ -4,6 +4,12 @@
 
 #include "runtime/growth/stats.h"
 
+/* What a surface is measured with. */
+typedef struct tn_measuring {
+    tn_vector sun;                         /* towards it; not zero */
+    const struct tn_boundary_mesh *target; /* or NULL */
+} tn_measuring;
+
 /* Fills in what the bits of `asked` (1 << tn_measured) name beyond the fitness terms:
  *   width, depth, height   extent in x, y and z, in model units
  *   area                   of all faces, each half of its Newell's normal long
@@ -18,7 +24,10 @@
  *   crossed-faces          whose outlines cross themselves (W105)
  *   turned-faces           turned over onto their neighbours (W106)
  *   crossings              pairs of triangles of faces that run through each other
+ *   sunlit                 the share of the area that the sun reaches (sunlit.h)
+ *   distance-to            mean over vertices of the distance to the target; no number where there is none
  * TN_OK, TN_MEMORY or TN_STOPPED. */
-tn_status tn_soundness_measure(const tn_growth *growth, uint64_t asked, tn_fitness *fitness, tn_error *error);
+tn_status tn_soundness_measure(const tn_growth *growth, const tn_measuring *with, uint64_t asked, tn_fitness *fitness,
+                               tn_error *error);
 
 #endif

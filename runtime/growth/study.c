@@ -10,6 +10,7 @@ void tn_study_clear(tn_study *study)
     for (uint32_t i = 0; study->meshes && i < study->environment.boundary_count; i++)
         tn_boundary_mesh_free(study->meshes[i]);
     free(study->meshes);
+    tn_boundary_mesh_free(study->target);
     free(study->forces);
     free(study->boundaries);
     free(study->goal.named);
@@ -50,11 +51,11 @@ static void read_settings(const tn_study_record *record, tn_study *study)
 
 /* Beside what was opened, or where the study lay when it was compiled. */
 static tn_status find_mesh(const tn_module *module, const tn_mesh_reader *reader, const char *opened, const char *name,
-                           tn_boundary_mesh **result, tn_error *error)
+                           const char *what, tn_boundary_mesh **result, tn_error *error)
 {
     uint32_t source = module->STUDY_count ? module->STUDY_records[0].file : 0;
     const char *study = source < module->SOURCE_count ? tn_text(module, module->SOURCE_records[source].path) : opened;
-    return tn_boundary_mesh_find(reader, opened, study, name, "boundary", "study", result, error);
+    return tn_boundary_mesh_find(reader, opened, study, name, what, "study", result, error);
 }
 
 static tn_status read_boundary(const tn_module *module, const tn_mesh_reader *reader, const char *path, uint32_t index,
@@ -70,8 +71,25 @@ static tn_status read_boundary(const tn_module *module, const tn_mesh_reader *re
                               .radius = record->radius};
     if (record->kind != TN_BOUNDARY_MESH || !reader)
         return TN_OK;
-    tn_status status = find_mesh(module, reader, path, tn_text(module, record->mesh), &study->meshes[index], error);
+    tn_status status =
+        find_mesh(module, reader, path, tn_text(module, record->mesh), "boundary", &study->meshes[index], error);
     boundary->mesh = study->meshes[index];
+    return status;
+}
+
+static tn_status read_measuring(const tn_module *module, const tn_mesh_reader *reader, const char *path,
+                                tn_study *study, tn_error *error)
+{
+    tn_status status = TN_OK;
+    study->measuring.sun = (tn_vector){0, 0, 1};
+    for (size_t i = 0; i < module->MEASURING_count && status == TN_OK; i++) {
+        const tn_measuring_record *m = &module->MEASURING_records[i];
+        if (m->kind == TN_MEASURING_SUN)
+            study->measuring.sun = (tn_vector){m->x, m->y, m->z};
+        else if (reader)
+            status = find_mesh(module, reader, path, tn_text(module, m->mesh), "target", &study->target, error);
+    }
+    study->measuring.target = study->target;
     return status;
 }
 
@@ -133,5 +151,7 @@ tn_status tn_study_read(const tn_module *module, const char *path, const tn_mesh
     tn_status status = read_goals(module, study, error);
     for (uint32_t i = 0; i < module->BOUNDARY_count && status == TN_OK; i++)
         status = read_boundary(module, reader, path, i, study, error);
+    if (status == TN_OK)
+        status = read_measuring(module, reader, path, study, error);
     return status;
 }

@@ -6,7 +6,7 @@
 #include "runtime/geometry/boundary_file.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/growth/growth.h"
-#include "runtime/growth/stats.h"
+#include "runtime/growth/soundness.h"
 #include "runtime/module/module.h"
 
 typedef struct tn_study {
@@ -19,6 +19,8 @@ typedef struct tn_study {
     tn_force *forces;
     tn_boundary *boundaries;
     tn_boundary_mesh **meshes; /* [boundary], NULL for other shapes */
+    tn_measuring measuring;
+    tn_boundary_mesh *target; /* what `distance-to` names, or NULL */
 } tn_study;
 
 /* Reads it, and the boundary meshes from their files by `reader` (tn_openmesh_reader of runtime/mesh); NULL: without

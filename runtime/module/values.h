@@ -83,6 +83,14 @@ typedef enum tn_side { TN_SIDE_NONE, TN_SIDE_LEFT, TN_SIDE_RIGHT, TN_SIDE_COUNT 
 /* When an alternative applies: always, or where the age is below, above or equal to its bound. */
 typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUALS, TN_COMPARISON_COUNT } tn_comparison;
 
+/* Flags of a rewrite system. */
+#define TN_GROWTH_SYNC 1u
+#define TN_GROWTH_EVEN 2u
+#define TN_GROWTH_FLAGS 3u
+
+/* What terms of goals are measured with. */
+typedef enum tn_measuring_kind { TN_MEASURING_SUN, TN_MEASURING_MESH, TN_MEASURING_KIND_COUNT } tn_measuring_kind;
+
 /* Flags of a study. */
 #define TN_STUDY_FIXED_CENTRE 1u
 #define TN_STUDY_FIXED_PERIMETER 2u

@@ -6,9 +6,9 @@
 
 #include "runtime/geometry/union/box_tree.h"
 #include "runtime/geometry/union/contacts.h"
+#include "runtime/geometry/union/footprint.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
-#include "runtime/solid/footprint.h"
 #include "runtime/solid/measure_parts.h"
 
 void tn_built_clear(tn_built *built)

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/solid/cover.h"
+#include "runtime/geometry/union/cover.h"
 #include "runtime/solid/measure_parts.h"
 
 /* Points of a cell, or of one of its faces, as they are seen along the axis. */

@@ -107,10 +107,10 @@ assert archive.testzip() is None and archive.namelist()[0] == "[Content_Types].x
 name = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 model = tree.fromstring(archive.read("3D/3dmodel.model"))
 assert model.get("unit") == "centimeter" and len(model.findall(f".//{name}item")) == 1
-places = sorted(tuple(float(v.get(axis)) for axis in "xyz") for v in model.iter(name + "vertex"))
+places = sorted(tuple(round(float(v.get(axis)), 9) for axis in "xyz") for v in model.iter(name + "vertex"))
 triangles = [tuple(int(t.get(v)) for v in ("v1", "v2", "v3")) for t in model.iter(name + "triangle")]
 lines = [line.split() for line in open(sys.argv[2])]
-wanted = sorted(tuple(map(float, line[1:])) for line in lines if line[0] == "v")
+wanted = sorted(tuple(round(float(c), 9) for c in line[1:]) for line in lines if line[0] == "v")
 assert places == wanted and len(triangles) == sum(line[0] == "f" for line in lines)
 assert max(map(max, triangles)) == len(places) - 1
 # Normals are by differentiation: on a ball they point from its middle.

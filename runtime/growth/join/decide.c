@@ -193,7 +193,7 @@ static bool decide_face(const decision *d, uint32_t face)
     tn_pass *pass = d->pass;
     if (pass->runs || pass->growth->options.explain || (face != TN_OUTER_FACE && has_pending(pass, face)))
         return decide_alone(d, face, NULL);
-    bool many = pass->old->face_count >= MANY;
+    bool many = pass->old->face_count >= MANY && !pass->growth->system->even;
     if (many && face != TN_OUTER_FACE && tn_face_size(pass->old, face) <= TN_PATTERN_DARTS) {
         const tn_cuts *cuts = &d->decider->patterns.cuts;
         uint32_t index;

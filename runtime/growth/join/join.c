@@ -96,7 +96,7 @@ static void sort_candidates(tn_loop *loop)
     }
 }
 
-static bool joined_in_loop(const tn_loop *loop, uint32_t u, uint32_t v)
+bool tn_loop_links(const tn_loop *loop, uint32_t u, uint32_t v)
 {
     for (uint32_t i = 0; i < loop->join_count; i++) {
         uint32_t x = loop->items[loop->branches[loop->joins[i].start].item].vertex;
@@ -134,6 +134,23 @@ bool tn_loop_add_join(tn_loop *loop, uint32_t low, uint32_t high)
     return true;
 }
 
+bool tn_loop_join_pair(tn_loop *loop, const tn_candidate *pair)
+{
+    if (!tn_loop_add_join(loop, pair->low, pair->high))
+        return false;
+    const tn_loop_join *join = &loop->joins[loop->join_count - 1];
+    split_region(loop, loop->branches[join->start].item, loop->branches[join->end].item);
+    return true;
+}
+
+bool tn_loop_pairs(tn_loop *loop, const tn_growth *growth)
+{
+    if (!find_candidates(loop, growth))
+        return false;
+    sort_candidates(loop);
+    return true;
+}
+
 tn_join_outcome tn_loop_may_join(const tn_loop *loop, const tn_pass *pass, uint32_t face, const tn_candidate *pair,
                                  tn_pair_set *taken)
 {
@@ -152,24 +169,21 @@ tn_join_outcome tn_loop_may_join(const tn_loop *loop, const tn_pass *pass, uint3
 
 tn_join_outcome tn_loop_join_few(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken)
 {
-    if (!find_candidates(loop, pass->growth))
+    if (!tn_loop_pairs(loop, pass->growth))
         return TN_JOIN_MEMORY;
-    sort_candidates(loop);
     for (uint32_t c = 0; c < loop->candidate_count; c++) {
         const tn_candidate *pair = &loop->candidates[c];
         const tn_loop_branch *a = &loop->branches[pair->low], *b = &loop->branches[pair->high];
         if (a->partner >= 0 || b->partner >= 0 || loop->items[a->item].region != loop->items[b->item].region ||
-            joined_in_loop(loop, loop->items[a->item].vertex, loop->items[b->item].vertex))
+            tn_loop_links(loop, loop->items[a->item].vertex, loop->items[b->item].vertex))
             continue;
         tn_join_outcome outcome = tn_loop_may_join(loop, pass, face, pair, taken);
         if (outcome == TN_JOIN_REFUSED)
             continue;
         if (outcome != TN_JOINED)
             return outcome;
-        if (!tn_loop_add_join(loop, pair->low, pair->high))
+        if (!tn_loop_join_pair(loop, pair))
             return TN_JOIN_MEMORY;
-        const tn_loop_join *join = &loop->joins[loop->join_count - 1];
-        split_region(loop, loop->branches[join->start].item, loop->branches[join->end].item);
     }
     return TN_JOINED;
 }
@@ -178,6 +192,8 @@ tn_join_outcome tn_loop_join_branches(tn_loop *loop, const tn_pass *pass, uint32
 {
     if (loop->branch_count < 2)
         return TN_JOINED;
+    if (pass->growth->system->even && loop->branch_count <= TN_EVEN_BRANCHES_MAX)
+        return tn_loop_join_even(loop, pass, face);
     return loop->branch_count <= FEW ? tn_loop_join_few(loop, pass, face, taken)
                                      : tn_loop_join_many(loop, pass, face, taken);
 }

@@ -113,6 +113,22 @@ tn_join_outcome tn_loop_join_branches(tn_loop *loop, const tn_pass *pass, uint32
 tn_join_outcome tn_loop_join_few(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 tn_join_outcome tn_loop_join_many(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 
+/* The way of `Even` (join_even.c): of pairs that are equally near, those that exclude each other do not join, so that
+ * no join hangs on the order of branches. */
+tn_join_outcome tn_loop_join_even(tn_loop *loop, const tn_pass *pass, uint32_t face);
+
+#define TN_EVEN_BRANCHES_MAX 2048u /* of a face: where there are more, ties go by the branches' numbers all the same   \
+                                    */
+
+/* All pairs that may join but for the topology, the nearest first. False: out of memory. */
+bool tn_loop_pairs(tn_loop *loop, const tn_growth *growth);
+
+/* Does a join of this face link the two vertices? */
+bool tn_loop_links(const tn_loop *loop, uint32_t u, uint32_t v);
+
+/* Joins a pair and cuts its region in two. False: out of memory. */
+bool tn_loop_join_pair(tn_loop *loop, const tn_candidate *pair);
+
 /* May these two join, whose vertices no join of this face links yet? */
 tn_join_outcome tn_loop_may_join(const tn_loop *loop, const tn_pass *pass, uint32_t face, const tn_candidate *pair,
                                  tn_pair_set *taken);

@@ -36,6 +36,20 @@ static void list_records(tn_lister *lister, tn_section section)
         tn_list_record(lister, section, i);
 }
 
+static void list_measuring(FILE *out, const tn_module *module)
+{
+    for (size_t i = 0; i < module->MEASURING_count; i++) {
+        const tn_measuring_record *m = &module->MEASURING_records[i];
+        if (m->kind == TN_MEASURING_SUN) {
+            fprintf(out, "  sun (%.15g, %.15g, %.15g)\n", m->x, m->y, m->z);
+            continue;
+        }
+        fputs("  distance to ", out);
+        write_text(out, module, m->mesh);
+        fputc('\n', out);
+    }
+}
+
 static void list_goals(FILE *out, const tn_module *module)
 {
     for (size_t i = 0; i < module->GOAL_count; i++) {
@@ -71,7 +85,9 @@ void tn_growth_list(tn_lister *lister)
     const tn_growth_record *growth = &module->GROWTH_records[0];
     fputs("\nrewrite system ", out);
     write_text(out, module, growth->name);
-    fprintf(out, ": branch angle %.15g%s\n  labels", growth->branch_angle, growth->sync ? ", sync" : "");
+    fprintf(out, ": branch angle %.15g%s", growth->branch_angle, growth->flags & TN_GROWTH_SYNC ? ", sync" : "");
+    fputs(growth->flags & TN_GROWTH_EVEN ? ", even" : "", out);
+    fputs("\n  labels", out);
     for (uint32_t i = 0; i < module->EDGE_LABEL_count; i++) {
         fputc(' ', out);
         write_label(out, module, i);
@@ -84,5 +100,6 @@ void tn_growth_list(tn_lister *lister)
         list_study(out, module);
     list_records(lister, TN_SECTION_FORCE);
     list_records(lister, TN_SECTION_BOUNDARY);
+    list_measuring(out, module);
     list_goals(out, module);
 }

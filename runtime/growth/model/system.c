@@ -241,7 +241,8 @@ tn_status tn_growth_system_read(const tn_module *module, tn_growth_system **syst
                                    .level_count = count.levels,
                                    .module = module,
                                    .branch_angle = growth->branch_angle,
-                                   .sync = growth->sync != 0};
+                                   .sync = growth->flags & TN_GROWTH_SYNC,
+                                   .even = growth->flags & TN_GROWTH_EVEN};
     read_seed(module, r);
     tn_status status = draw_templates(module, r, error);
     if (status != TN_OK) {

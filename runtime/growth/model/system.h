@@ -90,6 +90,7 @@ typedef struct tn_growth_system {
     const tn_module *module;    /* whose code this is */
     double branch_angle;        /* degrees */
     bool sync;                  /* join once, after all groups */
+    bool even;                  /* no join is decided by the order of branches */
 } tn_growth_system;
 
 /* The growth system of a verified module, in memory of its own that borrows the module's strings and code. TN_INVALID

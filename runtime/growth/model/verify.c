@@ -48,6 +48,20 @@ static tn_status check_surroundings(const tn_checker *checker)
     return TN_OK;
 }
 
+static tn_status check_measuring(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    bool seen[TN_MEASURING_KIND_COUNT] = {false};
+    for (size_t i = 0; i < module->MEASURING_count; i++) {
+        const tn_measuring_record *m = &module->MEASURING_records[i];
+        bool sound = m->kind == TN_MEASURING_SUN ? m->x * m->x + m->y * m->y + m->z * m->z > 1e-24 : m->mesh != 0;
+        if (!sound || seen[m->kind])
+            return tn_refuse(checker, "what surfaces are measured with is given twice, or is nothing");
+        seen[m->kind] = true;
+    }
+    return TN_OK;
+}
+
 static bool is_expression(const tn_module *module, const tn_goal_record *goal)
 {
     return goal->name != 0 && goal->function < module->FUNCTION_count &&
@@ -91,7 +105,7 @@ tn_status tn_growth_verify(const tn_checker *checker)
     const tn_module *module = checker->module;
     size_t parts = module->EDGE_LABEL_count + module->REWRITE_GROUP_count + module->REWRITE_RULE_count +
                    module->STUDY_count + module->FORCE_count + module->BOUNDARY_count + module->GOAL_count +
-                   module->GROWTH_REQUIREMENT_count;
+                   module->GROWTH_REQUIREMENT_count + module->MEASURING_count;
     if (module->GROWTH_count > 1 || module->STUDY_count > 1)
         return tn_refuse(checker, "it has more than one rewrite system or study");
     if (module->GROWTH_count == 0)
@@ -99,6 +113,8 @@ tn_status tn_growth_verify(const tn_checker *checker)
     tn_status status = check_system(checker);
     if (status == TN_OK)
         status = check_surroundings(checker);
+    if (status == TN_OK)
+        status = check_measuring(checker);
     if (status == TN_OK)
         status = check_goals(checker);
     return status == TN_OK ? check_requirements(checker) : status;

@@ -53,7 +53,7 @@ static const char *fault_text(unsigned fault)
            : fault & TN_TURTLE_UNCLOSED  ? "the path ends within a branch"
            : fault & TN_TURTLE_NO_PATH   ? "there is no edge outside the branches"
            : fault & TN_TURTLE_ASTRAY    ? "the turtle does not end in the direction in which it started"
-           : fault & TN_TURTLE_CROWDED   ? "a successor has more edges or branches than the limit"
+           : fault & TN_TURTLE_CROWDED   ? "a successor has more edges, branches or brackets than the limit"
                                          : "this is not a move of the turtle";
 }
 

@@ -24,20 +24,22 @@ static inline bool is_plain(double length, double square)
     return length > SHORT && square > STEEP;
 }
 
-/* Where the normals cancel or are along H, U is of the left face's, of z, then of x. */
-static tn_vector up_of(tn_vector left, tn_vector right, tn_vector heading)
+/* Where the normals cancel or are along H, U is of the left face's, of z, then away from the seed's axis: what is the
+ * same on both sides of a mirror stays so. On the axis itself there is no such direction, and the path stays on the
+ * edge. */
+static tn_vector up_of(tn_vector left, tn_vector right, tn_vector heading, tn_vector outward)
 {
-    tn_vector candidates[] = {tn_add(left, right), left, {0, 0, 1}, {1, 0, 0}};
+    tn_vector candidates[] = {tn_add(left, right), left, {0, 0, 1}, outward};
     for (int i = 0; i < 4; i++) {
         tn_vector up = tn_along(candidates[i], heading, -tn_dot(candidates[i], heading));
         double square = tn_dot(up, up);
         if (square > STEEP)
             return tn_scale(up, 1 / sqrt(square));
     }
-    return (tn_vector){0, 0, 1};
+    return (tn_vector){0, 0, 0};
 }
 
-tn_axes tn_axes_of(tn_vector from, tn_vector to, tn_vector left, tn_vector right)
+tn_axes tn_axes_of(tn_vector from, tn_vector to, tn_vector left, tn_vector right, tn_vector centre)
 {
     double square;
     tn_axes axes = work_out(from, to, left, right, &square);
@@ -45,7 +47,8 @@ tn_axes tn_axes_of(tn_vector from, tn_vector to, tn_vector left, tn_vector right
         return axes;
     if (axes.length <= SHORT)
         axes.heading = (tn_vector){1, 0, 0};
-    axes.up = up_of(left, right, axes.heading);
+    tn_vector outward = tn_sub(tn_scale(tn_add(from, to), 0.5), centre);
+    axes.up = up_of(left, right, axes.heading, (tn_vector){outward.x, outward.y, 0});
     axes.left = tn_cross(axes.up, axes.heading);
     return axes;
 }
@@ -72,7 +75,7 @@ TN_ANY_WIDTH static void work_out_rows(tn_axes_rows *restrict rows, double *rest
     TN_EACH_LENGTH(count, work_out_some, rows, squares);
 }
 
-void tn_axes_of_rows(tn_axes_rows *rows, uint32_t count)
+void tn_axes_of_rows(tn_axes_rows *rows, uint32_t count, tn_vector centre)
 {
     tn_row squares;
     tn_rows_fill(rows->from, count);
@@ -84,7 +87,7 @@ void tn_axes_of_rows(tn_axes_rows *rows, uint32_t count)
         if (is_plain(rows->length[i], squares[i]))
             continue;
         tn_axes axes = tn_axes_of(tn_rows_at(rows->from, i), tn_rows_at(rows->to, i), tn_rows_at(rows->left_normal, i),
-                                  tn_rows_at(rows->right_normal, i));
+                                  tn_rows_at(rows->right_normal, i), centre);
         put_axes(rows, i, &axes);
     }
 }

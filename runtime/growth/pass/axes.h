@@ -6,12 +6,12 @@
 #include "runtime/growth/pass/rows.h"
 
 typedef struct tn_axes {
-    tn_vector heading, left, up; /* unit vectors */
+    tn_vector heading, left, up; /* unit vectors; left and up are zero where there is no such direction */
     double length;               /* of the edge */
 } tn_axes;
 
-/* `left` and `right` are the unit normals of the edge's faces, or zero. */
-tn_axes tn_axes_of(tn_vector from, tn_vector to, tn_vector left, tn_vector right);
+/* `left` and `right` are the unit normals of the edge's faces, or zero; `centre` is that of the seed. */
+tn_axes tn_axes_of(tn_vector from, tn_vector to, tn_vector left, tn_vector right, tn_vector centre);
 
 /* Of many edges at once: the same numbers as one by one. */
 typedef struct tn_axes_rows {
@@ -20,7 +20,7 @@ typedef struct tn_axes_rows {
 } tn_axes_rows;
 
 /* The first `count` edges. */
-void tn_axes_of_rows(tn_axes_rows *rows, uint32_t count);
+void tn_axes_of_rows(tn_axes_rows *rows, uint32_t count, tn_vector centre);
 
 /* Of each of them: a direction in the frame (along the edge, to its left, out of the surface); */
 void tn_axes_turn(const tn_axes_rows *rows, uint32_t count, const double turn[3], tn_row *result);

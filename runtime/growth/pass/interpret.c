@@ -267,7 +267,7 @@ static tn_axes frame_of(const tn_pass *pass, const tn_edge_replacement *one, tn_
     *start = tn_vector_at(pass->old->positions + 3 * (size_t)from.origin);
     return tn_axes_of(*start, tn_vector_at(pass->old->positions + 3 * (size_t)to.origin),
                       tn_vector_at(pass->normal + 3 * (size_t)from.face),
-                      tn_vector_at(pass->normal + 3 * (size_t)to.face));
+                      tn_vector_at(pass->normal + 3 * (size_t)to.face), tn_vector_at(pass->growth->options.start));
 }
 
 /* A direction of the edge's frame in space. */

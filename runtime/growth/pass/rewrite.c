@@ -24,7 +24,8 @@ tn_vector tn_pass_frame(const tn_pass *pass, uint32_t first, uint32_t last, tn_v
 {
     tn_edge_side from = pass->sides[2 * (size_t)first], to = pass->sides[2 * (size_t)last + 1];
     tn_vector start = tn_vector_at(position(pass, from)), end = tn_vector_at(position(pass, to));
-    tn_axes axes = tn_axes_of(start, end, tn_vector_at(normal(pass, from)), tn_vector_at(normal(pass, to)));
+    tn_axes axes = tn_axes_of(start, end, tn_vector_at(normal(pass, from)), tn_vector_at(normal(pass, to)),
+                              tn_vector_at(pass->growth->options.start));
     *heading = axes.heading;
     *up = axes.up;
     *length = axes.length;
@@ -113,7 +114,7 @@ static void place(const tn_pass *pass, waiting *edges, placing *some)
     if (edges->count == 0)
         return;
     gather(pass, edges, &some->axes);
-    tn_axes_of_rows(&some->axes, edges->count);
+    tn_axes_of_rows(&some->axes, edges->count, tn_vector_at(pass->growth->options.start));
     for (uint32_t j = 0; j + 1 < edges->template->segment_count; j++)
         place_vertices(pass, edges, j, some);
     for (uint32_t b = 0; b < edges->template->branch_count; b++)

@@ -232,7 +232,7 @@ static void test_limits(void **state)
     for (size_t i = 0; i <= TN_TEMPLATE_ITEMS_MAX; i++)
         many[i] = (instruction)EDGE_OF(0, 0);
     many[TN_TEMPLATE_ITEMS_MAX + 1] = (instruction)MOVE(LAND);
-    expect(with_successor(many, TN_TEMPLATE_ITEMS_MAX + 2), "more edges or branches than the limit");
+    expect(with_successor(many, TN_TEMPLATE_ITEMS_MAX + 2), "more edges, branches or brackets than the limit");
     expect(with_successor(many + 1, TN_TEMPLATE_ITEMS_MAX + 1), NULL);
     for (size_t i = 0; i <= TN_CHAIN_MAX; i++)
         chain[i] = (instruction)TAKES(LABEL, 0);

@@ -37,6 +37,7 @@ static void axes_of_rows_are_those_of_edges(void **state)
     (void)state;
     tn_axes_rows *rows = malloc(sizeof *rows);
     tn_row turned[3], placed[3];
+    tn_vector centre = {0.5, -1, 2};
     for (uint32_t round = 0; round < 2000; round++) {
         uint32_t count = 1 + draw(TN_ROW);
         double turn[3] = {draw(9) - 4.0, draw(9) / 3.0, draw(9) / 7.0};
@@ -46,12 +47,13 @@ static void axes_of_rows_are_those_of_edges(void **state)
             tn_rows_put(rows->left_normal, i, tn_normalised(some_vector()));
             tn_rows_put(rows->right_normal, i, tn_normalised(some_vector()));
         }
-        tn_axes_of_rows(rows, count);
+        tn_axes_of_rows(rows, count, centre);
         tn_axes_turn(rows, count, turn, turned);
         tn_axes_place(rows, count, turn, placed);
         for (uint32_t i = 0; i < count; i++) {
             tn_vector from = tn_rows_at(rows->from, i), to = tn_rows_at(rows->to, i);
-            tn_axes axes = tn_axes_of(from, to, tn_rows_at(rows->left_normal, i), tn_rows_at(rows->right_normal, i));
+            tn_axes axes =
+                tn_axes_of(from, to, tn_rows_at(rows->left_normal, i), tn_rows_at(rows->right_normal, i), centre);
             assert_same(axes.heading, tn_rows_at(rows->heading, i));
             assert_same(axes.left, tn_rows_at(rows->left, i));
             assert_same(axes.up, tn_rows_at(rows->up, i));

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/random.h"
 #include "runtime/geometry/crossing.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
@@ -43,7 +44,8 @@ static void grow(grown *g, const char *text, uint64_t asked)
     for (uint32_t n = 0; n < g->study.steps; n++)
         assert_int_equal(tn_growth_step(g->growth, &error), TN_OK);
     g->fitness = tn_fitness_measure(g->growth);
-    assert_int_equal(tn_soundness_measure(g->growth, asked | g->study.goal.asked, &g->fitness, &error), TN_OK);
+    assert_int_equal(
+        tn_soundness_measure(g->growth, &g->study.measuring, asked | g->study.goal.asked, &g->fitness, &error), TN_OK);
 }
 
 static void uproot(grown *g)
@@ -76,7 +78,7 @@ static void test_flat(void **state)
     is(&g, TN_MEASURED_DEPTH, 1);
     is(&g, TN_MEASURED_AREA, 1);
     is(&g, TN_MEASURED_SMALLEST_ANGLE, 90);
-    for (int none = TN_MEASURED_CROSSED_FACES; none < TN_MEASURED_COUNT; none++)
+    for (int none = TN_MEASURED_CROSSED_FACES; none <= TN_MEASURED_CROSSINGS; none++)
         is(&g, (tn_measured)none, 0);
     assert_true(value(&g, TN_MEASURED_EDGE_SPREAD) < 1e-6);
     is(&g, TN_MEASURED_HEIGHT, 0);
@@ -215,9 +217,79 @@ static void test_requirements(void **state)
     }
 }
 
+/* ---- light */
+
+/* Does a line from a point towards the sun meet a triangle? */
+static bool is_met(const tn_mesh *mesh, size_t face, tn_vector from, tn_vector sun)
+{
+    tn_vector a = tn_vector_at(mesh->positions + 3 * (size_t)mesh->corners[3 * face]),
+              u = tn_sub(tn_vector_at(mesh->positions + 3 * (size_t)mesh->corners[3 * face + 1]), a),
+              v = tn_sub(tn_vector_at(mesh->positions + 3 * (size_t)mesh->corners[3 * face + 2]), a),
+              p = tn_cross(sun, v), t = tn_sub(from, a), q = tn_cross(t, u);
+    double det = tn_dot(u, p), x = tn_dot(t, p) / det, y = tn_dot(sun, q) / det;
+    return fabs(det) > 1e-12 && x >= 0 && y >= 0 && x + y <= 1 && tn_dot(v, q) / det > 1e-7;
+}
+
+/* Lines from points spread over all triangles. */
+static double share_by_lines(const grown *g, tn_vector sun)
+{
+    enum { POINTS = 60 };
+    tn_mesh mesh;
+    tn_error error;
+    double lit = 0, whole = 0;
+    assert_int_equal(tn_surface_mesh(g->growth, &(tn_surface_options){0}, &mesh, &error), TN_OK);
+    assert_int_equal(tn_mesh_triangulate(&mesh, &error), TN_OK);
+    for (size_t f = 0; f < mesh.face_count; f++) {
+        tn_vector a = tn_vector_at(mesh.positions + 3 * (size_t)mesh.corners[3 * f]),
+                  u = tn_sub(tn_vector_at(mesh.positions + 3 * (size_t)mesh.corners[3 * f + 1]), a),
+                  v = tn_sub(tn_vector_at(mesh.positions + 3 * (size_t)mesh.corners[3 * f + 2]), a);
+        double area = tn_norm(tn_cross(u, v)) / 2;
+        whole += area;
+        for (uint32_t i = 0; i < POINTS; i++) {
+            double x = (double)(tn_random64(1, f, 2 * i) >> 11) * 0x1p-53,
+                   y = (double)(tn_random64(1, f, 2 * i + 1) >> 11) * 0x1p-53;
+            if (x + y > 1) {
+                x = 1 - x;
+                y = 1 - y;
+            }
+            tn_vector from = tn_along(tn_along(a, u, x), v, y);
+            bool dark = fabs(tn_dot(tn_cross(u, v), sun)) < 1e-6 * area;
+            for (size_t other = 0; other < mesh.face_count && !dark; other++)
+                dark = other != f && is_met(&mesh, other, from, sun);
+            lit += dark ? 0 : area / POINTS;
+        }
+    }
+    tn_mesh_clear(&mesh);
+    return lit / whole;
+}
+
+static void test_light(void **state)
+{
+    (void)state;
+    grown g;
+    grow(&g, "rules \"square\" steps 3", UINT64_MAX);
+    is(&g, TN_MEASURED_SUNLIT, 1);
+    assert_true(isnan(value(&g, TN_MEASURED_DISTANCE_TO)));
+    uproot(&g);
+    grow(&g, "rules \"square\" steps 3 sun 1 0 0", UINT64_MAX);
+    is(&g, TN_MEASURED_SUNLIT, 0);
+    uproot(&g);
+    static const char *const studies[] = {
+        "rules \"ruffle\" steps 4 sun 1 0.3 0.2", "rules \"square\" steps 4 sun -1 2 0.7 attractor at 2 1 3 strength 4",
+        "rules \"square\" steps 4 sun 0 0 1 attractor at 1 1 -1 strength 9 repeller at 0 0 1 strength 2",
+        "rules \"triangle\" steps 3 sun 3 -1 0.4 gravity 0 0 -0.4 boundary sphere at 0 0 -1 radius 0.9"};
+    for (size_t i = 0; i < sizeof studies / sizeof *studies; i++) {
+        grow(&g, studies[i], UINT64_MAX);
+        double wanted = share_by_lines(&g, g.study.measuring.sun), got = value(&g, TN_MEASURED_SUNLIT);
+        if (!(fabs(got - wanted) < 0.01))
+            fail_msg("%s: sunlit is %.17g, not %.17g", studies[i], got, wanted);
+        uproot(&g);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_bent),
-                                       cmocka_unit_test(test_requirements)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_light),
+                                       cmocka_unit_test(test_bent), cmocka_unit_test(test_requirements)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

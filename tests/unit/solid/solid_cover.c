@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/solid/cover.h"
+#include "runtime/geometry/union/cover.h"
 
 enum { POLYGONS = 12, SIDE = 300 };
 

@@ -1,12 +1,12 @@
 /* Areas that convex polygons cover: one is laid down, and what others cover of it is cut away along their sides. */
-#include "runtime/solid/cover.h"
+#include "runtime/geometry/union/cover.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/solid/footprint.h"
+#include "runtime/geometry/union/footprint.h"
 
 /* A convex polygon with any number of corners up to this; a cut adds one at most. What has more is kept whole: then
  * areas come out too large, which takes forty sides that all cross one small piece. */

@@ -1,5 +1,5 @@
 /* The convex hull of points (Andrew 1979), its area, and how deep a point lies in it. */
-#include "runtime/solid/footprint.h"
+#include "runtime/geometry/union/footprint.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* Areas in a plane: of what convex polygons cover, and of what they leave of another. */
-#ifndef TARTAN_SOLID_COVER_H
-#define TARTAN_SOLID_COVER_H
+#ifndef TARTAN_GEOMETRY_UNION_COVER_H
+#define TARTAN_GEOMETRY_UNION_COVER_H
 
 #include "runtime/geometry/union/box_tree.h"
 
-enum { TN_COVER_CORNERS = 10 }; /* of a polygon: a cell has no more corners */
+enum { TN_COVER_CORNERS = 10 }; /* of a polygon: a cell of a union has no more corners */
 
 /* Corners are counter-clockwise. Polygons of fewer than three cover nothing. */
 typedef struct tn_cover {

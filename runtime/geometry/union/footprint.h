@@ -1,6 +1,6 @@
 /* What a solid stands on: the convex hull of points in the plane. */
-#ifndef TARTAN_SOLID_FOOTPRINT_H
-#define TARTAN_SOLID_FOOTPRINT_H
+#ifndef TARTAN_GEOMETRY_UNION_FOOTPRINT_H
+#define TARTAN_GEOMETRY_UNION_FOOTPRINT_H
 
 #include <stdbool.h>
 #include <stddef.h>
