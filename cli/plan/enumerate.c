@@ -203,9 +203,11 @@ static void enumerate_houses(tn_job *job)
     const tn_house_settings houses = tn_job_houses(&s->plans);
     const tn_house_range range = {s->from, s->to, s->limit.value, s->limit.given};
     bool lines = s->written.format == TN_FORMAT_AUTO || s->written.format == TN_FORMAT_LINES;
-    if (!lines || s->mirror || s->written.columns || s->written.csv_safe || s->written.resume) {
+    if (!lines || s->mirror || s->written.columns || s->written.csv_safe || s->written.resume ||
+        s->written.plan_lines || s->written.row_group.given) {
         tn_diagnostic *d = tn_job_usage(job, "houses are written as lines, all of them");
-        tn_help(tn_job_diagnostics(job), d, "leave out --format, --columns, --csv-safe, --mirror and --resume");
+        tn_help(tn_job_diagnostics(job), d,
+                "leave out --format, --columns, --csv-safe, --plan-lines, --row-group, --mirror and --resume");
         return;
     }
     tn_job_list_houses(job, &houses, s->plan, &range, s->written.output);
@@ -279,6 +281,8 @@ static const tn_option options[] = {
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,
+    OPTION_PLAN_LINES,
+    OPTION_ROW_GROUP,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTIONS_LIBRARY_LIMITS,

@@ -8,6 +8,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/plan/library_job.h"
 #include "driver/open/suggest_file.h"
+#include "driver/parquet/parquet.h"
 #include "driver/zstd/zstd.h"
 #include "runtime/plan/store/sqlite.h"
 
@@ -27,6 +28,7 @@ bool tn_job_reader(tn_job *job, const tn_schema *schema, const tn_plans_source *
     tn_reader_options options = {.format = (tn_plan_format)source->input->format,
                                  .max_length = tn_job_max_length(source->plans),
                                  .sqlite = tn_plan_sqlite(),
+                                 .parquet = tn_plan_parquet_calls(),
                                  .compression = tn_plan_zstd()};
     tn_error error;
     if (tn_plan_reader_open(schema, source->path, &options, reader, &error) == TN_OK)

@@ -14,7 +14,7 @@ typedef struct tn_input_settings {
 } tn_input_settings;
 
 #define OPTION_INPUT_FORMAT                                                                                            \
-    CHOICE("input-format", 0, "FORMAT", input.format, "auto|lines|json|csv|bin|sqlite",                                \
+    CHOICE("input-format", 0, "FORMAT", input.format, "auto|lines|json|csv|bin|sqlite|parquet",                        \
            "what the plans are written in (default: found out from their first bytes)")
 #define OPTION_ON_ERROR                                                                                                \
     CHOICE("on-error", 0, "WHAT", input.on_error, "stop|skip",                                                         \

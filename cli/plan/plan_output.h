@@ -1,4 +1,4 @@
-/* Writing ranked plans as the options say: plan lines, JSON, CSV, packed, or a SQLite library. */
+/* Writing ranked plans as the options say: plan lines, JSON, CSV, packed, a SQLite library, or Parquet. */
 #ifndef TARTAN_CLI_PLAN_PLAN_OUTPUT_H
 #define TARTAN_CLI_PLAN_PLAN_OUTPUT_H
 
@@ -12,20 +12,27 @@ typedef struct tn_written_settings {
     bool columns;
     bool csv_safe;
     bool resume;
+    bool plan_lines;
+    tn_option_number row_group;
 } tn_written_settings;
 
 #define OPTION_PLAN_FORMAT                                                                                             \
-    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",                                  \
-           "what to write: lines, json, csv, bin or sqlite (default: sqlite for .sqlite and .db, otherwise lines)")
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet",                          \
+           "what to write: lines, json, csv, bin, sqlite or parquet (default: sqlite for .sqlite and .db, parquet "    \
+           "for .parquet, otherwise lines)")
 #define OPTION_COLUMNS                                                                                                 \
     FLAG("columns", 0, written.columns,                                                                                \
          "in CSV a row for each tray, with a column for each field; in a database such rows in a second table")
 #define OPTION_CSV_SAFE                                                                                                \
     FLAG("csv-safe", 0, written.csv_safe,                                                                              \
          "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")
+#define OPTION_ROW_GROUP                                                                                               \
+    NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX, "in Parquet, plans of a row group (default 1000000)")
+#define OPTION_PLAN_LINES FLAG("plan-lines", 0, written.plan_lines, "in Parquet, add a column of plan lines")
 #define OPTION_PLAN_OUTPUT                                                                                             \
     TEXT("output", 'o', "FILE", written.output,                                                                        \
-         "write to FILE instead of standard output; .sqlite and .db make a database")
+         "write to FILE instead of standard output; .sqlite and .db make a database, and .parquet "                    \
+         "makes Parquet")
 
 /* Opens the output that --output and --format ask for. `made` says what was asked for, in words of the command line
  * that decide the result. False where that failed. */

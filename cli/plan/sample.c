@@ -117,10 +117,12 @@ static void sample_houses(tn_job *job, size_t wanted)
 {
     const sample_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
-    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse || s->written.format) {
+    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse || s->written.format ||
+        s->written.plan_lines || s->written.row_group.given) {
         tn_diagnostic *d = tn_job_usage(job, "houses are drawn among all, and written as lines");
         tn_help(tn_job_diagnostics(job), d,
-                "leave out --length, --per-length, --diverse and --format; --plan takes one plan");
+                "leave out --length, --per-length, --diverse, --format, --plan-lines and --row-group; --plan takes one "
+                "plan");
         return;
     }
     tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, s->written.output);
@@ -155,6 +157,8 @@ static const tn_option options[] = {
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,
+    OPTION_PLAN_LINES,
+    OPTION_ROW_GROUP,
     OPTION_PLAN_OUTPUT,
     OPTIONS_LIBRARY_LIMITS,
 };

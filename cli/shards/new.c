@@ -19,6 +19,11 @@ static bool check_options(tn_job *job)
     else if (settings->written.format == TN_FORMAT_SQLITE)
         tn_help(list, tn_job_usage(job, "a shard is no database"),
                 "choose another --format; `tartan shards merge SET -o FILE.sqlite` makes one database of all shards");
+    else if (settings->written.format == TN_FORMAT_PARQUET && settings->compress)
+        tn_help(list, tn_job_usage(job, "Parquet is compressed by zstd already"), "leave out --compress");
+    else if (settings->written.format != TN_FORMAT_PARQUET &&
+             (settings->written.plan_lines || settings->written.row_group.given))
+        tn_help(list, tn_job_usage(job, "--plan-lines and --row-group are about Parquet"), "add --format parquet");
     else if (settings->shards.given == settings->each.given)
         tn_help(list,
                 tn_job_usage(job, settings->shards.given ? "--shards and --plans say the same thing twice"
@@ -47,6 +52,8 @@ static bool describe(tn_job *job, const tn_ready_library *ready, tn_shard_set *s
     set->command = tn_enumerated_words(&asked);
     set->format = settings->written.format ? (tn_plan_format)settings->written.format : TN_FORMAT_LINES;
     set->compressed = settings->compress != 0;
+    set->row_group = (uint32_t)settings->written.row_group.value;
+    set->plan_lines = settings->written.plan_lines;
     set->options = (tn_library_options){.max_states = (uint32_t)settings->plans.max_states.value,
                                         .override_trays = settings->plans.trays.given,
                                         .trays_min = (uint32_t)settings->plans.trays.low,

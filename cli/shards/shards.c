@@ -21,8 +21,10 @@ static void run_new(tn_job *job, tn_shards_open *open)
 }
 
 static const shards_part parts[] = {
-    {"new", " library where trays max-length max-states threads shards plans from to format compress output ", false,
-     run_new},
+    {"new",
+     " library where trays max-length max-states threads shards plans from to format compress plan-lines "
+     "row-group output ",
+     false, run_new},
     {"run", " shard part threads for stale ", true, tn_shards_run_set},
     {"status", " stale output ", false, tn_shards_status},
     {"check", " threads output ", true, tn_shards_check_set},
@@ -97,9 +99,12 @@ static const tn_option options[] = {
     NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans each"),
     RANK("from", 0, "RANK", from, "new: the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
-    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite",
-           "new: what the shards are: lines (the default), json, csv or bin"),
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet",
+           "new: what the shards are: lines (the default), json, csv, bin or parquet"),
     MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
+    FLAG("plan-lines", 0, written.plan_lines, "new: in Parquet, add a column of plan lines"),
+    NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX,
+           "new: in Parquet, plans of a row group (default 1000000)"),
     TEXT("output", 'o', "FILE", written.output,
          "new: the folder of the set; merge: the database to make; otherwise the file to write"),
     NUMBER("shard", 0, "I", shard, 0, 0, "run: write only shard I; the first is 0"),

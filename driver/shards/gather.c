@@ -34,6 +34,12 @@ static tn_status rewrite_shard(const tn_gathering *g, const char *path, uint32_t
                                      : status;
 }
 
+/* Files of most formats can be put behind one another. */
+static bool is_copied(const tn_gathering *g)
+{
+    return g->format == g->set->format && !g->set->compressed && g->format != TN_FORMAT_PARQUET;
+}
+
 static tn_status gather_shard(const tn_gathering *g, uint32_t shard, tn_plan_writer *writer, tn_error *error)
 {
     char *path = tn_shard_path(g->set, shard, "");
@@ -41,8 +47,8 @@ static tn_status gather_shard(const tn_gathering *g, uint32_t shard, tn_plan_wri
     if (status == TN_OK)
         status = tn_shard_same_as_record(g->set, shard, error);
     if (status == TN_OK)
-        status = g->format == g->set->format && !g->set->compressed ? tn_plan_writer_append(writer, path, error)
-                                                                    : rewrite_shard(g, path, shard, writer, error);
+        status =
+            is_copied(g) ? tn_plan_writer_append(writer, path, error) : rewrite_shard(g, path, shard, writer, error);
     tn_watch_tell(g->watch, shard + 1, g->set->count);
     free(path);
     return status;
@@ -53,7 +59,13 @@ tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
     tn_made made;
     tn_plan_writer *writer = NULL;
     tn_made_describe(g->opened, g->ready, g->set->rules_path, g->set->command, &made);
-    const tn_writer_options options = {.format = g->format, .metadata = made.metadata, .sqlite = tn_plan_sqlite()};
+    mpz_t ranks;
+    mpz_init(ranks);
+    tn_library_kept(g->ready->library, TN_ALL_LENGTHS, ranks);
+    tn_writer_options options = tn_shard_writing(g->set, &made.metadata, ranks);
+    options.format = g->format;
+    options.compression = NULL;
+    options.sqlite = tn_plan_sqlite();
     tn_status status = tn_shards_complete(g->set, error);
     if (status == TN_OK)
         status = tn_plan_writer_open(g->ready->schema, g->output, &options, &writer, error);
@@ -62,5 +74,6 @@ tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
     if (status == TN_OK)
         status = tn_plan_writer_close(writer, error);
     tn_plan_writer_free(writer);
+    mpz_clear(ranks);
     return status;
 }

@@ -9,8 +9,11 @@
 #include "driver/shards/hash.h"
 
 /* How formats are called, as by --format. */
-static const char *const formats[TN_FORMAT_COUNT] = {
-    [TN_FORMAT_LINES] = "lines", [TN_FORMAT_JSON] = "json", [TN_FORMAT_CSV] = "csv", [TN_FORMAT_BIN] = "bin"};
+static const char *const formats[TN_FORMAT_COUNT] = {[TN_FORMAT_LINES] = "lines",
+                                                     [TN_FORMAT_JSON] = "json",
+                                                     [TN_FORMAT_CSV] = "csv",
+                                                     [TN_FORMAT_BIN] = "bin",
+                                                     [TN_FORMAT_PARQUET] = "parquet"};
 
 #define HASH_BEGIN "  \"hash\": \""
 #define HASH_END "\"\n}\n"
@@ -62,6 +65,9 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
                 write_member(text, "format", formats[set->format]);
     if (done && set->compressed)
         done = write_member(text, "compress", "zstd");
+    if (done && set->plan_lines)
+        done = write_member(text, "columns", "plan");
+    done = done && write_number(text, "row_group", set->row_group);
     if (done && set->options.override_trays)
         done = tn_buffer_printf(text, "  \"trays\": [%u, %u],\n", set->options.trays_min, set->options.trays_max);
     done = done && write_number(text, "max_states", set->options.max_states) &&
@@ -157,7 +163,7 @@ static tn_status read_format(const reading *r)
             return TN_OK;
         }
     }
-    return refuse(r, "`format` is none of lines, json, csv and bin");
+    return refuse(r, "`format` is none of lines, json, csv, bin and parquet");
 }
 
 static tn_status read_compression(const reading *r)
@@ -165,6 +171,14 @@ static tn_status read_compression(const reading *r)
     const json_t *how = json_object_get(r->manifest, "compress");
     r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
     return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
+}
+
+/* What is asked for of Parquet. */
+static tn_status read_columns(const reading *r)
+{
+    const json_t *columns = json_object_get(r->manifest, "columns");
+    r->set->plan_lines = columns && json_is_string(columns) && strcmp(json_string_value(columns), "plan") == 0;
+    return !columns || r->set->plan_lines ? TN_OK : refuse(r, "`columns` is not plan");
 }
 
 /* A whole number of 32 bits; absent: `otherwise`. */
@@ -184,6 +198,8 @@ static tn_status read_options(const reading *r)
     tn_status status = read_number(r, json_object_get(r->manifest, "max_states"), "max_states", &options->max_states);
     if (status == TN_OK)
         status = read_number(r, json_object_get(r->manifest, "max_length"), "max_length", &options->max_length);
+    if (status == TN_OK)
+        status = read_number(r, json_object_get(r->manifest, "row_group"), "row_group", &r->set->row_group);
     if (status != TN_OK || !trays)
         return status;
     if (json_array_size(trays) != 2)
@@ -264,6 +280,8 @@ static tn_status read_members(const reading *r)
         status = read_format(r);
     if (status == TN_OK)
         status = read_compression(r);
+    if (status == TN_OK)
+        status = read_columns(r);
     if (status == TN_OK)
         status = read_options(r);
     return status == TN_OK ? read_shards(r) : status;

@@ -10,7 +10,6 @@
 #include "driver/plan/made.h"
 #include "driver/shards/claim.h"
 #include "driver/shards/record.h"
-#include "driver/zstd/zstd.h"
 #include "runtime/base/crew.h"
 
 #define LOOK_EVERY 4096u /* plans between looks at the clock and for interruptions */
@@ -20,6 +19,7 @@
 typedef struct running {
     const tn_shards_job *job;
     const tn_made *made;
+    mpz_t ranks; /* how many the library has */
     double start;
     bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
     atomic_uint next; /* the first shard that no thread has looked at in this pass */
@@ -78,8 +78,7 @@ static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim
     const tn_shard_set *set = run->job->set;
     char *path = tn_shard_path(set, shard, ""), *words = words_of(set, shard);
     tn_plan_writer *writer = NULL;
-    tn_writer_options options = {
-        .format = set->format, .metadata = run->made->metadata, .compression = set->compressed ? tn_plan_zstd() : NULL};
+    tn_writer_options options = tn_shard_writing(set, &run->made->metadata, run->ranks);
     options.metadata.command = words;
     tn_status status = path && words ? tn_plan_writer_open(run->job->ready->schema, path, &options, &writer, error)
                                      : tn_fail_memory(error);
@@ -202,12 +201,15 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     tn_made made;
     tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
     running run = {.job = job, .made = &made, .start = tn_seconds(), .done = calloc(count + 1, sizeof *run.done)};
+    mpz_init(run.ranks);
+    tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
     tn_crew *crew = tn_crew_new(job->threads, NULL);
     tn_status status = run.done && crew ? run_all(&run, crew, error) : tn_fail_memory(error);
     *done = (tn_shards_done){.written = run.written, .out_of_time = run.out_of_time};
     for (uint32_t i = 0; i < count; i++)
         done->left += !(run.done && run.done[i]) && !tn_shard_done(job->set, job->begin + i);
     tn_crew_free(crew);
+    mpz_clear(run.ranks);
     free(run.done);
     return status;
 }

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "driver/open/missing.h"
+#include "driver/parquet/parquet.h"
 #include "driver/shards/hash.h"
 #include "driver/shards/manifest.h"
 #include "driver/zstd/zstd.h"
@@ -33,8 +34,11 @@ void tn_shard_set_clear(tn_shard_set *set)
 
 static const char *ending_of(tn_plan_format format)
 {
-    static const char *const endings[TN_FORMAT_COUNT] = {
-        [TN_FORMAT_LINES] = ".plans", [TN_FORMAT_JSON] = ".jsonl", [TN_FORMAT_CSV] = ".csv", [TN_FORMAT_BIN] = ".bin"};
+    static const char *const endings[TN_FORMAT_COUNT] = {[TN_FORMAT_LINES] = ".plans",
+                                                         [TN_FORMAT_JSON] = ".jsonl",
+                                                         [TN_FORMAT_CSV] = ".csv",
+                                                         [TN_FORMAT_BIN] = ".bin",
+                                                         [TN_FORMAT_PARQUET] = ".parquet"};
     return endings[format];
 }
 
@@ -60,6 +64,18 @@ tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *li
 {
     return (tn_reader_options){.format = set->format,
                                .max_length = tn_library_max(library),
+                               .parquet = tn_plan_parquet_calls(),
+                               .compression = set->compressed ? tn_plan_zstd() : NULL};
+}
+
+tn_writer_options tn_shard_writing(const tn_shard_set *set, const tn_plan_metadata *metadata, mpz_srcptr ranks)
+{
+    return (tn_writer_options){.format = set->format,
+                               .metadata = *metadata,
+                               .row_group = set->row_group,
+                               .plan_lines = set->plan_lines,
+                               .ranks = ranks,
+                               .parquet = tn_plan_parquet_calls(),
                                .compression = set->compressed ? tn_plan_zstd() : NULL};
 }
 

@@ -28,6 +28,8 @@ typedef struct tn_shard_set {
     char module_hash[33], library_hash[33], schema_hash[17];
     tn_plan_format format;
     bool compressed;            /* by zstd */
+    uint32_t row_group;         /* Parquet: plans of a row group, or 0 */
+    bool plan_lines;            /* Parquet: also a column of plan lines */
     tn_library_options options; /* those that decide which plans there are, and the limits */
     uint32_t count;
     mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1] */
@@ -67,6 +69,9 @@ tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard);
 
 /* How to open its shards. */
 tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library);
+
+/* How to write one. `ranks`: how many the library has, borrowed. */
+tn_writer_options tn_shard_writing(const tn_shard_set *set, const tn_plan_metadata *metadata, mpz_srcptr ranks);
 
 /* How many plans a shard holds. `plans` is initialised. */
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans);

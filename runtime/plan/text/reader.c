@@ -16,6 +16,7 @@
 #define INPUT_BYTES (size_t)(256u << 10) /* read at a time */
 #define LENGTH_DEFAULT 4096u
 #define LINE_DEFAULT (1u << 20)
+#define PARQUET_MAGIC "PAR1"
 #define SQLITE_MAGIC "SQLite format 3" /* with its zero byte, the first 16 bytes of a database */
 
 /* ---- input */
@@ -193,7 +194,7 @@ static tn_status open_text(tn_plan_reader *reader, tn_error *error)
         reader->begin += 3;
     if (size > 0 && memchr(reader->data + reader->begin, '\0', reader->end - reader->begin))
         return refuse_text(reader, "is neither text nor a file of packed plans",
-                           "plans are read as plan lines, JSON lines, CSV, packed, or from SQLite", error);
+                           "plans are read as plan lines, JSON lines, CSV, packed, or from SQLite or Parquet", error);
     if (reader->format == TN_FORMAT_AUTO || reader->format == TN_FORMAT_CSV) {
         bool is_csv;
         tn_status status = tn_reader_csv_open(reader, &is_csv, error);
@@ -218,6 +219,16 @@ static tn_status open_sqlite(tn_plan_reader *reader, tn_error *error)
                           : tn_part_absent(TN_WITH_STORE, "reading a SQLite library", error);
 }
 
+static tn_status open_parquet(tn_plan_reader *reader, tn_error *error)
+{
+    if (reader->decompressing)
+        return refuse_text(reader, "is Parquet, and compressed once more",
+                           "uncompress it: Parquet is read from its end, and its pages are compressed already", error);
+    return reader->parquet ? reader->parquet->open_reader(reader, error)
+                           : refuse_text(reader, "is Parquet, which this program does not read",
+                                         "write the plans as plan lines, or packed", error);
+}
+
 /* Reads the first bytes; of a compressed file, those of what was compressed. */
 static tn_status begin_input(tn_plan_reader *reader, tn_error *error)
 {
@@ -239,14 +250,19 @@ static tn_status open_format(tn_plan_reader *reader, tn_error *error)
     size_t size = reader->end - reader->begin;
     bool sqlite = size >= sizeof SQLITE_MAGIC && memcmp(reader->data, SQLITE_MAGIC, sizeof SQLITE_MAGIC) == 0;
     bool bin = size >= strlen(TN_PACK_MAGIC) && memcmp(reader->data, TN_PACK_MAGIC, strlen(TN_PACK_MAGIC)) == 0;
-    if (reader->format == TN_FORMAT_AUTO && (sqlite || bin))
-        reader->format = sqlite ? TN_FORMAT_SQLITE : TN_FORMAT_BIN;
+    bool parquet = size >= strlen(PARQUET_MAGIC) && memcmp(reader->data, PARQUET_MAGIC, strlen(PARQUET_MAGIC)) == 0;
+    if (reader->format == TN_FORMAT_AUTO && (sqlite || bin || parquet))
+        reader->format = sqlite ? TN_FORMAT_SQLITE : bin ? TN_FORMAT_BIN : TN_FORMAT_PARQUET;
     if (reader->format == TN_FORMAT_SQLITE && !sqlite)
         return refuse_text(reader, "is no SQLite library", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_BIN && !bin)
         return refuse_text(reader, "is not a file of packed plans", "leave the format out, and it is found", error);
+    if (reader->format == TN_FORMAT_PARQUET && !parquet)
+        return refuse_text(reader, "is no Parquet file", "leave the format out, and it is found", error);
     if (reader->format == TN_FORMAT_SQLITE)
         return open_sqlite(reader, error);
+    if (reader->format == TN_FORMAT_PARQUET)
+        return open_parquet(reader, error);
     return reader->format == TN_FORMAT_BIN ? tn_reader_bin_open(reader, error) : open_text(reader, error);
 }
 
@@ -277,6 +293,7 @@ tn_status tn_plan_reader_open(const tn_schema *schema, const char *path, const t
     reader->file = -1;
     reader->format = given.format;
     reader->sqlite = given.sqlite;
+    reader->parquet = given.parquet;
     reader->compression = given.compression;
     reader->max_length = given.max_length > 0 ? given.max_length : LENGTH_DEFAULT;
     reader->max_line = given.max_line > 0 ? given.max_line : LINE_DEFAULT;
@@ -295,6 +312,8 @@ void tn_plan_reader_free(tn_plan_reader *reader)
         return;
     if (reader->sqlite)
         reader->sqlite->close_reader(reader);
+    if (reader->parquet)
+        reader->parquet->close_reader(reader);
     if (reader->decompressing)
         reader->compression->end_reading(reader->decompressing);
     if (reader->file > STDIN_FILENO)
@@ -328,6 +347,8 @@ static tn_status next_plan(tn_plan_reader *reader, bool *found, tn_error *error)
         return tn_reader_bin_next(reader, found, error);
     case TN_FORMAT_SQLITE:
         return reader->sqlite->next(reader, found, error);
+    case TN_FORMAT_PARQUET:
+        return reader->parquet->next(reader, found, error);
     default:
         return next_text(reader, found, error);
     }
@@ -353,7 +374,7 @@ tn_status tn_plan_reader_next(tn_plan_reader *reader, const tn_plan **plan, tn_e
     filled->line = reader->line;
     if (filled->column == 0)
         filled->column = filled->column_end = 1;
-    bool one_plan = filled->code != E_PLAN_FILE &&
+    bool one_plan = filled->code != E_PLAN_FILE && filled->code != E_PARQUET_UNKNOWN &&
                     (status == TN_INVALID || filled->code == E_PLAN_LINE_TOO_LONG || filled->code == E_PLAN_TOO_LONG);
     reader->at_end = !one_plan;
     return status;

@@ -5,6 +5,7 @@
 #include "runtime/base/file.h"
 #include "runtime/plan/text/compression.h"
 #include "runtime/plan/text/database.h"
+#include "runtime/plan/text/parquet.h"
 #include "runtime/plan/text/scanner.h"
 #include "runtime/plan/text/stream.h"
 
@@ -42,6 +43,9 @@ struct tn_plan_reader {
     bool skipping; /* the rows of a plan of which one was bad */
 
     unsigned tray_bytes; /* packed */
+
+    const tn_plan_parquet *parquet; /* where it is Parquet that is read */
+    void *parquet_state;
 
     const tn_plan_database *sqlite; /* where it is SQLite that is read */
     struct sqlite3 *database;

@@ -11,12 +11,14 @@
 #include "runtime/plan/text/text.h"
 
 typedef enum tn_plan_format {
-    TN_FORMAT_AUTO,  /* reading: found out from the first bytes; writing: SQLite for .sqlite and .db, else plan lines */
-    TN_FORMAT_LINES, /* plan lines */
-    TN_FORMAT_JSON,  /* JSON lines */
-    TN_FORMAT_CSV,   /* a header, then a row a plan */
-    TN_FORMAT_BIN,   /* packed trays */
-    TN_FORMAT_SQLITE, /* a plan library */
+    TN_FORMAT_AUTO,    /* reading: found out from the first bytes; writing: SQLite for .sqlite and .db, Parquet for
+                      .parquet, else plan lines */
+    TN_FORMAT_LINES,   /* plan lines */
+    TN_FORMAT_JSON,    /* JSON lines */
+    TN_FORMAT_CSV,     /* a header, then a row a plan */
+    TN_FORMAT_BIN,     /* packed trays */
+    TN_FORMAT_SQLITE,  /* a plan library */
+    TN_FORMAT_PARQUET, /* a column a field, for programs that ask questions about very many plans */
     TN_FORMAT_COUNT
 } tn_plan_format;
 
@@ -28,6 +30,9 @@ typedef struct tn_plan_reader tn_plan_reader;
  * E0907. */
 typedef struct tn_plan_database tn_plan_database;
 
+/* What reads and writes Parquet: tn_plan_parquet_calls of driver/parquet/parquet.h. NULL: nothing does. */
+typedef struct tn_plan_parquet tn_plan_parquet;
+
 /* What compresses files of plans and reads them again: tn_plan_zstd of driver/zstd/zstd.h. NULL: nothing does. */
 typedef struct tn_plan_compression tn_plan_compression;
 
@@ -36,6 +41,7 @@ typedef struct tn_reader_options {
     size_t max_length; /* trays of a plan; 0: 4,096. E0805 past it */
     size_t max_line;   /* bytes of a line; 0: 1 MiB. E0605 past it */
     const tn_plan_database *sqlite;
+    const tn_plan_parquet *parquet;
     const tn_plan_compression *compression; /* of files that begin as it makes them */
 } tn_reader_options;
 
@@ -109,8 +115,12 @@ typedef struct tn_writer_options {
     bool csv_safe;  /* a plan in CSV that begins with = + - or @ gets a ' before it: spreadsheets compute such cells */
     bool resume;    /* go on with the SQLite library at the path, if there is one */
     uint32_t batch; /* plans a transaction; 0: 100,000 */
+    uint32_t row_group; /* Parquet: plans of a row group; 0: 1,000,000 */
+    bool plan_lines;    /* Parquet: also a column of plan lines */
+    mpz_srcptr ranks;   /* Parquet: all ranks are below. NULL: they fit in 63 bits */
     const tn_plan_database *sqlite;
-    const tn_plan_compression *compression; /* of what is written; not for SQLite. NULL: none */
+    const tn_plan_parquet *parquet;
+    const tn_plan_compression *compression; /* of what is written; not for SQLite or Parquet. NULL: none */
 } tn_writer_options;
 
 /* Has the file stayed as it was since it was opened? Otherwise TN_IO (E0901): what was read may be a mix. Readers ask
@@ -134,8 +144,8 @@ tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const t
                                tn_error *error);
 
 /* Appends the plans of another file that was written in the same format, with the same schema and options, byte by
- * byte; what such a file begins with is left out. Not for SQLite, nor from or to compressed files. TN_INVALID (E0604)
- * where it does not begin so. */
+ * byte; what such a file begins with is left out. Not for SQLite and Parquet, nor from or to compressed files.
+ * TN_INVALID (E0604) where it does not begin so. */
 tn_status tn_plan_writer_append(tn_plan_writer *writer, const char *path, tn_error *error);
 
 /* Finishes the file, which is then in place and whole. The writer may only be freed after, whatever the result. A

@@ -52,7 +52,7 @@ static bool make_tray_texts(tn_plan_writer *writer)
 {
     uint32_t count = writer->schema->tray_count;
     if (count > TRAY_TEXTS_MAX || writer->format == TN_FORMAT_JSON || writer->format == TN_FORMAT_BIN)
-        return true;
+        return true; /* they have no plan lines */
     writer->tray_text_end = malloc((count + 1) * sizeof *writer->tray_text_end);
     for (tn_tray tray = 0; writer->tray_text_end && tray < count; tray++) {
         if (!tn_buffer_append(&writer->tray_texts, " | ", 3) ||
@@ -180,7 +180,7 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         return TN_INVALID;
     }
     tn_status status = tn_output_open(writer->path, &writer->output, error);
-    if (status == TN_OK && options->compression)
+    if (status == TN_OK && options->compression && writer->format != TN_FORMAT_PARQUET)
         status = options->compression->begin_writing(&writer->compressing, error);
     if (status != TN_OK)
         return status;
@@ -189,6 +189,8 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         done = csv_header(writer);
     if (writer->format == TN_FORMAT_BIN)
         done = bin_header(writer, &options->metadata);
+    if (writer->format == TN_FORMAT_PARQUET)
+        return writer->parquet->open_writer(writer, options, error);
     return done ? flush_text(writer, error) : tn_fail_memory(error);
 }
 
@@ -206,13 +208,15 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
         return tn_fail_memory(error);
     if (writer->format == TN_FORMAT_AUTO) {
         bool sqlite = ends_in(path, ".sqlite") || ends_in(path, ".sqlite3") || ends_in(path, ".db");
-        writer->format = sqlite ? TN_FORMAT_SQLITE : TN_FORMAT_LINES;
+        writer->format = sqlite ? TN_FORMAT_SQLITE : ends_in(path, ".parquet") ? TN_FORMAT_PARQUET : TN_FORMAT_LINES;
     }
     if (writer->columns && writer->format != TN_FORMAT_CSV && writer->format != TN_FORMAT_SQLITE) {
         tn_fail(error, TN_INVALID, E_USAGE, "columns are for CSV and databases");
         tn_error_help(error, "--format csv, or write to a file that ends in .sqlite");
         return TN_INVALID;
     }
+    if (writer->format == TN_FORMAT_PARQUET && !writer->parquet)
+        return tn_fail(error, TN_INVALID, E_USAGE, "this program does not write Parquet");
     if (!make_tray_texts(writer))
         return tn_fail_memory(error);
     if (writer->format != TN_FORMAT_SQLITE)
@@ -234,6 +238,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
     writer->columns = options->columns;
     writer->csv_safe = options->csv_safe;
     writer->sqlite = options->sqlite;
+    writer->parquet = options->parquet;
     writer->length_field = tn_schema_length_field(schema);
     if (writer->length_field != UINT32_MAX)
         writer->total_style = tn_length_style_of(
@@ -318,6 +323,8 @@ tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const t
     char room[128];
     if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
         return write_ranked(writer, NULL, trays, length, error); /* they say no ranks */
+    if (writer->format == TN_FORMAT_PARQUET)
+        return writer->parquet->write(writer, rank, trays, length, error);
     if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
         return write_ranked(writer, mpz_get_str(room, 10, rank), trays, length, error);
     char *digits = mpz_get_str(NULL, 10, rank);
@@ -382,6 +389,11 @@ tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
 {
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->close_writer(writer, error);
+    if (writer->format == TN_FORMAT_PARQUET) {
+        tn_status status = writer->parquet->close_writer(writer, error);
+        if (status != TN_OK)
+            return status;
+    }
     if (writer->compressing && !writer->compression->write(writer->compressing, NULL, 0, true, writer->output.stream))
         return tn_cannot_write(writer->path, errno, error);
     return tn_output_commit(&writer->output, error);
@@ -397,6 +409,8 @@ void tn_plan_writer_free(tn_plan_writer *writer)
         tn_output_discard(&writer->output);
     if (writer->sqlite)
         writer->sqlite->free_writer(writer);
+    if (writer->parquet)
+        writer->parquet->free_writer(writer);
     free(writer->text.data);
     free(writer->packed.data);
     free(writer->last_rank.data);

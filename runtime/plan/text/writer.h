@@ -6,6 +6,7 @@
 #include "runtime/base/length_style.h"
 #include "runtime/plan/text/compression.h"
 #include "runtime/plan/text/database.h"
+#include "runtime/plan/text/parquet.h"
 
 /* "TART": marks a SQLite file as a plan library (PRAGMA application_id). */
 #define TN_LIBRARY_APPLICATION_ID 0x54415254
@@ -44,6 +45,9 @@ struct tn_plan_writer {
     tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
     size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
     tn_buffer packed;
+
+    const tn_plan_parquet *parquet; /* where it is Parquet that is written */
+    void *parquet_state;
 
     const tn_plan_database *sqlite; /* where it is SQLite that is written */
     struct sqlite3 *database;

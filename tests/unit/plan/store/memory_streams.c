@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "driver/parquet/parquet.h"
 #include "runtime/plan/match/vm.h"
 #include "runtime/plan/store/sqlite.h"
 #include "runtime/plan/text/stream.h"
@@ -78,7 +79,10 @@ static tn_status write_plans(const context *c, tn_error *error)
     tn_writer_options options = {.format = c->format,
                                  .metadata = {.library = "houses", .command = "all"},
                                  .batch = 5,
-                                 .sqlite = tn_plan_sqlite()};
+                                 .row_group = 5,
+                                 .plan_lines = true,
+                                 .sqlite = tn_plan_sqlite(),
+                                 .parquet = tn_plan_parquet_calls()};
     mpz_t rank;
     mpz_init(rank);
     tn_status status = tn_plan_writer_open(c->schema, c->path, &options, &writer, error);
@@ -97,8 +101,8 @@ static tn_status write_plans(const context *c, tn_error *error)
 static tn_status read_plans(const context *c, tn_error *error)
 {
     tn_plan_reader *reader = NULL;
-    tn_status status =
-        tn_plan_reader_open(c->schema, c->path, &(tn_reader_options){.sqlite = tn_plan_sqlite()}, &reader, error);
+    const tn_reader_options options = {.sqlite = tn_plan_sqlite(), .parquet = tn_plan_parquet_calls()};
+    tn_status status = tn_plan_reader_open(c->schema, c->path, &options, &reader, error);
     const tn_plan *plan = NULL;
     size_t plans = 0;
     while (status == TN_OK && (status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan)
@@ -114,8 +118,8 @@ static tn_status read_stretches(const context *c, tn_error *error)
 {
     tn_plan_reader *reader = NULL;
     tn_plan_lines *lines = NULL;
-    tn_status status =
-        tn_plan_reader_open(c->schema, c->path, &(tn_reader_options){.sqlite = tn_plan_sqlite()}, &reader, error);
+    const tn_reader_options options = {.sqlite = tn_plan_sqlite(), .parquet = tn_plan_parquet_calls()};
+    tn_status status = tn_plan_reader_open(c->schema, c->path, &options, &reader, error);
     if (status == TN_OK)
         status = tn_plan_lines_new(reader, &lines, error);
     uint64_t total = status == TN_OK ? tn_plan_reader_share(reader) : 0, count;

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 #include <sqlite3.h>
 
+#include "driver/parquet/parquet.h"
 #include "runtime/plan/store/sqlite.h"
 #include "runtime/plan/text/reader.h"
 #include "runtime/plan/text/stream.h"
@@ -86,6 +87,7 @@ static tn_status open_reader(const tn_schema *schema, const char *path, const tn
 {
     tn_reader_options options = given ? *given : (tn_reader_options){0};
     options.sqlite = tn_plan_sqlite();
+    options.parquet = tn_plan_parquet_calls();
     return tn_plan_reader_open(schema, path, &options, reader, error);
 }
 
@@ -93,8 +95,14 @@ static tn_status open_writer(const tn_schema *schema, const char *path, const tn
                              tn_plan_writer **writer, tn_error *error)
 {
     tn_writer_options options = *given;
+    mpz_t ranks;
+    mpz_init_set_str(ranks, "200000000000000000000", 10);
     options.sqlite = tn_plan_sqlite();
-    return tn_plan_writer_open(schema, path, &options, writer, error);
+    options.parquet = tn_plan_parquet_calls();
+    options.ranks = ranks;
+    tn_status status = tn_plan_writer_open(schema, path, &options, writer, error);
+    mpz_clear(ranks);
+    return status;
 }
 
 static void write_plans(const tn_schema *schema, const char *path, const tn_writer_options *options, uint32_t count)
@@ -151,7 +159,7 @@ static void test_round_trip(void **state)
     fixture *f = *state;
     for (int format = TN_FORMAT_LINES; format < TN_FORMAT_COUNT; format++) {
         char path[128];
-        static const char *const names[TN_FORMAT_COUNT] = {"auto", "lines", "json", "csv", "bin", "sqlite"};
+        static const char *const names[TN_FORMAT_COUNT] = {"auto", "lines", "json", "csv", "bin", "sqlite", "parquet"};
         path_of(f, names[format], path);
         tn_writer_options options = sqlite_options;
         options.format = (tn_plan_format)format;

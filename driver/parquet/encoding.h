@@ -1,0 +1,67 @@
+/* How Parquet writes numbers that are many and small: in runs and packed bits (RLE), and as differences (DELTA). */
+#ifndef TARTAN_DRIVER_PARQUET_ENCODING_H
+#define TARTAN_DRIVER_PARQUET_ENCODING_H
+
+#include "driver/parquet/thrift.h"
+
+/* ---- writing: where memory runs out, out->failed is set */
+
+/* A run of `count` times the value, in `width` bits. */
+void tn_run_write(tn_buffer *out, unsigned width, uint32_t value, size_t count);
+
+/* Numbers of one byte each, as one run where they are equal. */
+void tn_bytes_write(tn_buffer *out, const uint8_t *values, size_t count);
+
+/* Numbers of 16 bits each, in the same way. */
+void tn_shorts_write(tn_buffer *out, const uint16_t *values, size_t count);
+
+/* Bits, of which the first is the lowest of the first byte. What follows `count` of them in the last byte is 0. */
+void tn_bits_write(tn_buffer *out, const uint8_t *bits, size_t count);
+
+/* Differences, in blocks of 128. */
+void tn_delta_write(tn_buffer *out, const int64_t *values, size_t count);
+
+/* ---- reading. Both give false where the bytes end too soon or cannot be. They borrow the bytes. */
+
+/* Runs and packed bits. */
+typedef struct tn_runs {
+    tn_thrift_in in;
+    unsigned width; /* bits of a number: 0 to 32 */
+    uint64_t left;  /* of the run in hand */
+    bool packed;    /* is that one of packed bits? */
+    uint32_t value; /* otherwise: the run's */
+    uint64_t bit;   /* where in `bytes` the next packed number begins */
+    const uint8_t *bytes;
+} tn_runs;
+
+void tn_runs_begin(tn_runs *runs, unsigned width, const uint8_t *bytes, size_t size);
+bool tn_runs_refill(tn_runs *runs); /* the next run, where none is left of this one */
+uint32_t tn_runs_packed(tn_runs *runs);
+
+static inline bool tn_runs_next(tn_runs *runs, uint32_t *value)
+{
+    if (runs->left == 0 && !tn_runs_refill(runs))
+        return false;
+    runs->left--;
+    *value = runs->packed ? tn_runs_packed(runs) : runs->value;
+    return true;
+}
+
+/* Differences. */
+typedef struct tn_deltas {
+    tn_thrift_in in;
+    uint64_t total; /* numbers that are left */
+    uint64_t block, parts;
+    uint64_t last; /* the number given last; sums go round at 64 bits */
+    bool first;
+    uint64_t least;        /* of the differences of the block */
+    const uint8_t *widths; /* of its parts */
+    uint64_t part, left;   /* the part in hand, and what is left of it */
+    const uint8_t *bytes;  /* its bits */
+    uint64_t bit;
+} tn_deltas;
+
+bool tn_deltas_begin(tn_deltas *deltas, const uint8_t *bytes, size_t size);
+bool tn_deltas_next(tn_deltas *deltas, int64_t *value);
+
+#endif

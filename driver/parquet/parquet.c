@@ -1,0 +1,18 @@
+/* The calls by which plans in Parquet are read and written. */
+#include "driver/parquet/parquet.h"
+
+#include "driver/parquet/parquet_data.h"
+
+const tn_plan_parquet *tn_plan_parquet_calls(void)
+{
+    static const tn_plan_parquet calls = {
+        .open_reader = tn_parquet_reader_open,
+        .next = tn_parquet_reader_next,
+        .close_reader = tn_parquet_reader_close,
+        .open_writer = tn_parquet_writer_open,
+        .write = tn_parquet_writer_write,
+        .close_writer = tn_parquet_writer_close,
+        .free_writer = tn_parquet_writer_free,
+    };
+    return &calls;
+}

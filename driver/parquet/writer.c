@@ -1,0 +1,329 @@
+/* Writes plans in Parquet: row group by row group, in each column by column. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/parquet/parquet_data.h"
+#include "driver/parquet/writing.h"
+#include "runtime/base/array.h"
+#include "runtime/base/bytes.h"
+#include "runtime/base/file_error.h"
+
+#define GROUP_DEFAULT 1000000u
+#define PAGE_PLANS 65536u             /* plans of a page at most */
+#define PAGE_TRAYS ((size_t)1 << 19)  /* trays, and a plan more */
+#define LINES_BYTES ((size_t)1 << 20) /* plan lines of a page, and one more */
+
+static tn_parquet_writing *writing_of(const tn_plan_writer *writer)
+{
+    return writer->parquet_state;
+}
+
+/* ---- opening */
+
+/* Ranks that do not fit in 64 bits are decimal numbers of as many digits as the largest may have, in as many bytes as
+ * these need with a sign. `ranks`: all are below. */
+static void choose_rank(tn_parquet_writing *w, mpz_srcptr ranks)
+{
+    if (!ranks || mpz_sizeinbase(ranks, 2) < 64)
+        return;
+    mpz_t most;
+    mpz_init(most);
+    mpz_sub_ui(most, ranks, 1);
+    char *digits = mpz_get_str(NULL, 10, most);
+    w->rank_digits = digits ? (unsigned)strlen(digits) : (unsigned)mpz_sizeinbase(most, 10);
+    free(digits);
+    mpz_ui_pow_ui(most, 10, w->rank_digits);
+    w->rank_bytes = (unsigned)(mpz_sizeinbase(most, 2) / 8 + 1);
+    mpz_clear(most);
+}
+
+static tn_status write_out(tn_plan_writer *writer, const tn_buffer *bytes, tn_error *error)
+{
+    writing_of(writer)->offset += bytes->size;
+    if (bytes->size == 0 || fwrite(bytes->data, 1, bytes->size, writer->output.stream) == bytes->size)
+        return TN_OK;
+    return tn_cannot_write(strcmp(writer->path, "-") == 0 ? "standard output" : writer->path, errno, error);
+}
+
+static tn_status open_columns(tn_parquet_writing *w, tn_error *error)
+{
+    tn_status status = tn_page_packer_new(&w->packer, error);
+    if (status == TN_OK)
+        status = tn_numbers_new(&w->length, 4, PAGE_PLANS, error);
+    if (status == TN_OK && w->has_total)
+        status = tn_numbers_new(&w->total, 8, PAGE_PLANS, error);
+    if (status == TN_OK && !(w->ranks = calloc(PAGE_PLANS, sizeof *w->ranks)))
+        status = tn_fail_memory(error);
+    return status;
+}
+
+tn_status tn_parquet_writer_open(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
+{
+    tn_parquet_writing *w = calloc(1, sizeof *w);
+    if (!w)
+        return tn_fail_memory(error);
+    writer->parquet_state = w;
+    w->schema = writer->schema;
+    w->group_most = options->row_group > 0 ? options->row_group : GROUP_DEFAULT;
+    w->has_lines = options->plan_lines;
+    w->has_total = writer->length_field != UINT32_MAX;
+    choose_rank(w, options->ranks);
+    tn_status status = open_columns(w, error);
+    if (status != TN_OK)
+        return status;
+    if (!tn_footer_metadata(w, writer, &options->metadata) || !tn_buffer_append(&w->body, TN_PARQUET_MAGIC, 4))
+        return tn_fail_memory(error);
+    status = write_out(writer, &w->body, error);
+    w->body.size = 0;
+    return status;
+}
+
+/* ---- row groups */
+
+static tn_status write_column(tn_plan_writer *writer, unsigned column, tn_chunk_place *place, tn_error *error)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    tn_chunk *chunk = &w->chunks[column];
+    tn_buffer page = {0};
+    size_t values;
+    tn_status status = TN_OK;
+    *place = (tn_chunk_place){.dictionary = w->offset};
+    if (tn_parquet_dictionary(w, column, &values)) {
+        tn_page_kind kind = {TN_PAGE_DICTIONARY, TN_ENCODING_PLAIN, values};
+        bool packed = tn_page_write(&w->packer, kind, &w->body, &page, &place->loose);
+        status = packed ? write_out(writer, &page, error) : tn_fail_memory(error);
+    } else {
+        place->dictionary = 0;
+    }
+    place->data = w->offset;
+    place->loose += chunk->loose;
+    if (status == TN_OK)
+        status = write_out(writer, &chunk->pages, error);
+    place->end = w->offset;
+    w->body.size = 0;
+    free(page.data);
+    return status;
+}
+
+static void clear_group(tn_parquet_writing *w)
+{
+    for (unsigned c = 0; c < tn_column_count(w); c++) {
+        w->chunks[c].pages.size = 0;
+        w->chunks[c].values = w->chunks[c].loose = 0;
+    }
+    tn_numbers_clear(&w->length);
+    if (w->has_total)
+        tn_numbers_clear(&w->total);
+    memset(w->seen, 0, sizeof w->seen);
+    w->in_group = w->empty_in_group = 0;
+    w->groups++;
+}
+
+static tn_status end_group(tn_plan_writer *writer, tn_error *error)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    tn_chunk_place places[TN_PARQUET_COLUMNS_MAX];
+    if (w->in_group == 0)
+        return TN_OK;
+    tn_status status = tn_parquet_end_page(w, error);
+    if (status == TN_OK)
+        status = tn_parquet_end_lines(w, error);
+    for (unsigned c = 0; status == TN_OK && c < tn_column_count(w); c++)
+        status = write_column(writer, c, &places[c], error);
+    if (status != TN_OK)
+        return status;
+    tn_footer_group(w, places);
+    clear_group(w);
+    return w->about_groups.failed ? tn_fail_memory(error) : TN_OK;
+}
+
+/* ---- plans */
+
+/* The rank as the file has it, in w->this_rank; also in the page in hand. */
+static bool encode_rank(tn_parquet_writing *w, const mpz_t rank)
+{
+    tn_buffer *out = &w->this_rank;
+    out->size = 0;
+    if (w->rank_bytes == 0) {
+        w->ranks[w->in_page] = (int64_t)mpz_get_ui(rank);
+        tn_plain_write(out, w->ranks[w->in_page], 8);
+        return !out->failed;
+    }
+    size_t used = (mpz_sizeinbase(rank, 2) + 7) / 8;
+    if (!tn_buffer_reserve(out, w->rank_bytes))
+        return false;
+    memset(out->data, 0, w->rank_bytes);
+    if (mpz_sgn(rank) > 0)
+        mpz_export(out->data + w->rank_bytes - used, NULL, 1, 1, 1, 0, rank);
+    out->size = w->rank_bytes;
+    return tn_buffer_append(&w->wide_ranks, out->data, out->size);
+}
+
+/* Is the rank in hand below this one? */
+static bool is_below(const tn_parquet_writing *w, const tn_buffer *other)
+{
+    const uint8_t *mine = (const uint8_t *)w->this_rank.data, *theirs = (const uint8_t *)other->data;
+    return w->rank_bytes > 0 ? memcmp(mine, theirs, w->rank_bytes) < 0 : tn_get_i64(mine) < tn_get_i64(theirs);
+}
+
+static bool set_rank(tn_buffer *rank, const tn_buffer *to)
+{
+    rank->size = 0;
+    return tn_buffer_append(rank, to->data, to->size);
+}
+
+/* Holds the rank against the least and the most of the row group. */
+static bool compare_rank(tn_parquet_writing *w)
+{
+    bool first = w->in_group == 0, below = !first && is_below(w, &w->most_rank);
+    bool done = below || set_rank(&w->most_rank, &w->this_rank);
+    if (done && (first || (below && is_below(w, &w->least_rank))))
+        done = set_rank(&w->least_rank, &w->this_rank);
+    w->descends = (w->descends && !first) || below;
+    return done;
+}
+
+static tn_status add_rank(tn_parquet_writing *w, const mpz_t rank, tn_error *error)
+{
+    if (w->rank_bytes > 0 ? mpz_sizeinbase(rank, 2) >= 8 * (size_t)w->rank_bytes : mpz_sizeinbase(rank, 2) > 63)
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a rank is larger than the column of ranks was made for");
+    bool done = encode_rank(w, rank) && compare_rank(w);
+    return done ? TN_OK : tn_fail_memory(error);
+}
+
+/* Room for so many trays more in the page: the fields' values move apart. */
+static bool make_room(tn_parquet_writing *w, size_t more)
+{
+    uint32_t fields = w->schema->field_count;
+    size_t room = w->room, needed = w->trays + more;
+    if (needed <= room)
+        return true;
+    room = tn_array_larger(room, needed, PAGE_TRAYS + 64);
+    uint8_t *larger = calloc(room, fields);
+    for (uint32_t f = 0; larger && w->trays > 0 && f < fields; f++)
+        memcpy(larger + f * room, w->trays_of + f * w->room, w->trays);
+    if (!larger)
+        return false;
+    free(w->trays_of);
+    w->trays_of = larger;
+    w->room = room;
+    return true;
+}
+
+static bool make_places(tn_parquet_writing *w, size_t more)
+{
+    size_t room = w->places_room;
+    if (w->places + more <= room)
+        return true;
+    room = tn_array_larger(room, w->places + more, PAGE_TRAYS + PAGE_PLANS);
+    room = (room + 7) / 8 * 8;
+    uint8_t **bits[] = {&w->goes_on, &w->holds};
+    for (size_t i = 0; i < 2; i++) {
+        if (!tn_array_resize(bits[i], room / 8, 1))
+            return false;
+        memset(*bits[i] + w->places_room / 8, 0, (room - w->places_room) / 8);
+    }
+    w->places_room = room;
+    return true;
+}
+
+static void set_bit(uint8_t *bits, size_t i)
+{
+    bits[i / 8] |= (uint8_t)(1u << i % 8);
+}
+
+static void add_places(tn_parquet_writing *w, size_t length)
+{
+    w->some_empty = w->some_empty || length == 0;
+    w->empty_in_group += length == 0;
+    for (size_t k = 0; k < length; k++) {
+        if (k > 0)
+            set_bit(w->goes_on, w->places + k);
+        set_bit(w->holds, w->places + k);
+    }
+    w->places += length > 0 ? length : 1;
+}
+
+static void add_trays(tn_parquet_writing *w, const tn_tray *trays, size_t length)
+{
+    uint32_t fields = w->schema->field_count;
+    for (size_t k = 0; k < length; k++) {
+        const uint8_t *values = w->schema->tray_values + (size_t)trays[k] * fields;
+        uint8_t *out = w->trays_of + w->trays + k;
+        for (uint32_t f = 0; f < fields; f++, out += w->room) {
+            *out = values[f];
+            w->seen[f][values[f]] = 1;
+        }
+    }
+    w->trays += length;
+}
+
+static tn_status add_line(tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_error *error)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    size_t begin = w->lines.size;
+    if (!tn_buffer_append(&w->lines, "\0\0\0", 4) || !tn_writer_line(writer, trays, length, &w->lines))
+        return tn_fail_memory(error);
+    tn_put_u32((uint8_t *)w->lines.data + begin, (uint32_t)(w->lines.size - begin - 4));
+    w->line_count++;
+    return w->lines.size >= LINES_BYTES ? tn_parquet_end_lines(w, error) : TN_OK;
+}
+
+tn_status tn_parquet_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
+                                  tn_error *error)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    tn_status status = add_rank(w, rank, error);
+    if (status == TN_OK && (!make_room(w, length) || !make_places(w, length + 1)))
+        status = tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
+    tn_numbers_add(&w->length, (int64_t)length);
+    if (w->has_total)
+        tn_numbers_add(&w->total, tn_writer_total(writer, trays, length));
+    add_places(w, length);
+    add_trays(w, trays, length);
+    w->in_page++;
+    w->in_group++;
+    w->plans++;
+    if (w->has_lines)
+        status = add_line(writer, trays, length, error);
+    if (status == TN_OK && (w->in_page == PAGE_PLANS || w->trays >= PAGE_TRAYS))
+        status = tn_parquet_end_page(w, error);
+    return status == TN_OK && w->in_group == w->group_most ? end_group(writer, error) : status;
+}
+
+/* ---- the end */
+
+tn_status tn_parquet_writer_close(tn_plan_writer *writer, tn_error *error)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    tn_status status = end_group(writer, error);
+    if (status != TN_OK)
+        return status;
+    tn_footer_write(w, &w->body);
+    return w->body.failed ? tn_fail_memory(error) : write_out(writer, &w->body, error);
+}
+
+void tn_parquet_writer_free(tn_plan_writer *writer)
+{
+    tn_parquet_writing *w = writing_of(writer);
+    if (!w)
+        return;
+    tn_buffer *buffers[] = {&w->about_groups, &w->created_by, &w->metadata,  &w->wide_ranks, &w->lines,
+                            &w->least_rank,   &w->most_rank,  &w->this_rank, &w->body,       &w->levels};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        free(buffers[i]->data);
+    for (unsigned c = 0; c < TN_PARQUET_COLUMNS_MAX; c++)
+        free(w->chunks[c].pages.data);
+    tn_numbers_free(&w->length);
+    tn_numbers_free(&w->total);
+    tn_page_packer_free(&w->packer);
+    free(w->trays_of);
+    free(w->goes_on);
+    free(w->holds);
+    free(w->ranks);
+    free(w);
+    writer->parquet_state = NULL;
+}

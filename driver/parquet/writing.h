@@ -1,0 +1,85 @@
+/* Inside of the writer of Parquet: what it holds of a file. */
+#ifndef TARTAN_DRIVER_PARQUET_WRITING_H
+#define TARTAN_DRIVER_PARQUET_WRITING_H
+
+#include "driver/parquet/columns.h"
+#include "driver/parquet/numbers.h"
+#include "runtime/plan/text/writer.h"
+
+enum { TN_PARQUET_COLUMNS_MAX = TN_FIELDS_MAX + 4 };
+
+/* A column's pages of the row group in hand. */
+typedef struct tn_chunk {
+    tn_buffer pages;
+    uint64_t values, loose; /* values, and bytes of pages before compression */
+} tn_chunk;
+
+typedef struct tn_parquet_writing {
+    const tn_schema *schema;
+    uint64_t offset;                /* bytes of the file that are written */
+    uint64_t plans, groups;         /* in the file */
+    uint64_t group_most, in_group;  /* plans of a row group: at most, and in the one in hand */
+    uint64_t empty_in_group;        /* of these, without trays */
+    tn_buffer about_groups;         /* what the footer says of the row groups that are written */
+    tn_buffer created_by, metadata; /* of the footer; metadata: in Thrift */
+
+    /* The page in hand, of all columns. */
+    size_t in_page, trays;    /* plans, trays */
+    uint8_t *trays_of;        /* [field][room]: value numbers of the trays */
+    size_t room;              /* trays */
+    uint8_t *goes_on, *holds; /* a bit a place of the lists: it is of the plan before; it is a tray */
+    size_t places, places_room;
+    bool some_empty;                  /* a plan without trays is among them */
+    int64_t *ranks;                   /* [plans], where they fit */
+    tn_buffer wide_ranks;             /* otherwise: rank_bytes each, the highest first */
+    unsigned rank_bytes, rank_digits; /* 0: ranks fit in 64 bits */
+    tn_numbers length, total;
+    tn_buffer lines; /* each behind its size */
+    size_t line_count;
+    bool has_total, has_lines;
+
+    /* The row group in hand. */
+    tn_chunk chunks[TN_PARQUET_COLUMNS_MAX];
+    uint8_t seen[TN_FIELDS_MAX][TN_FIELD_VALUES_MAX]; /* which values of a field */
+    tn_buffer least_rank, most_rank, this_rank;       /* as the statistics write them; the one of the plan in hand */
+    bool descends;                                    /* they do not all ascend */
+
+    tn_buffer body, levels;
+    tn_page_packer packer;
+} tn_parquet_writing;
+
+/* The columns' numbers. */
+static inline unsigned tn_first_field_column(const tn_parquet_writing *w)
+{
+    return w->has_total ? 3 : 2;
+}
+
+static inline unsigned tn_column_count(const tn_parquet_writing *w)
+{
+    return tn_first_field_column(w) + w->schema->field_count + w->has_lines;
+}
+
+/* Compresses the page in hand, and begins another. (pages.c) */
+tn_status tn_parquet_end_page(tn_parquet_writing *w, tn_error *error);
+tn_status tn_parquet_end_lines(tn_parquet_writing *w, tn_error *error);
+
+/* The dictionary page of a column, in w->body; false where it has none. *values: how many. */
+bool tn_parquet_dictionary(tn_parquet_writing *w, unsigned column, size_t *values);
+
+/* What the footer says of a column of a row group (footer.c). */
+typedef struct tn_chunk_place {
+    uint64_t dictionary, data; /* offsets of the first pages in the file; dictionary 0: none */
+    uint64_t end;
+    uint64_t loose;
+} tn_chunk_place;
+
+/* Appends what the footer says of the row group. */
+void tn_footer_group(tn_parquet_writing *w, const tn_chunk_place *places);
+
+/* Keeps what the footer is to say of how the file was made. False where out of memory. */
+bool tn_footer_metadata(tn_parquet_writing *w, const tn_plan_writer *writer, const tn_plan_metadata *metadata);
+
+/* Appends the footer, with its size and the magic. */
+void tn_footer_write(const tn_parquet_writing *w, tn_buffer *out);
+
+#endif
